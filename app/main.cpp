@@ -43,12 +43,12 @@ constexpr const char* kExitCodesInShort = R"(Exit codes:
 
 constexpr std::size_t kHelpWidth = 100;
 
-/// A heading of the help, and the broader one that it is part of in the short help.
+/// A heading of the help, and the broader heading that contains it in the short help.
 struct Heading {
   std::string_view full, broad;
 };
 
-/// What most people need first, what few need last.
+/// The headings, with the most important ones first.
 constexpr Heading kHeadings[] = {{"Output", "Output"},
                                  {"Picture", "Output"},
                                  {"Mesh", "Output"},
@@ -72,10 +72,11 @@ constexpr Heading kHeadings[] = {{"Output", "Output"},
                                  {"Film", "Frames"},
                                  {"Options", "Options"}};
 
-/// A command with more options shows the common ones, a line each, unless it is asked for all of them.
+/// The number of options above which a command's help shows only the common ones, a line each, unless all are
+/// requested.
 constexpr std::size_t kFullHelp = 30;
 
-/// Help in the order people read: what it is, examples, usage, options.
+/// Formats help in the order people read: summary, examples, usage, options.
 class ManualFormatter : public CLI::Formatter {
  public:
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
@@ -135,16 +136,16 @@ class ManualFormatter : public CLI::Formatter {
     return line.str();
   }
 
-  /// The word for the value alone: what an option needs or excludes is said when it matters.
+  /// Returns only the word for the value: conflicts and requirements of options are reported when they matter.
   std::string make_option_opts(const CLI::Option* option) const override {
     const std::string& type = option->get_type_name();
     return (type.empty() ? "" : " " + type) + (option->get_required() ? " (required)" : "");
   }
 
  private:
-  mutable bool short_ = false;  ///< what is being made; CLI11 asks for each part by itself
+  mutable bool short_ = false;  ///< the current form; CLI11 requests each part separately
 
-  /// Of a group of options; empty where it is hidden.
+  /// Returns the heading of a group of options; empty if it is hidden.
   std::string heading_of(const std::string& group) const {
     const auto known = std::ranges::find(kHeadings, group, &Heading::full);
     return short_ && known != std::end(kHeadings) ? std::string(known->broad) : group;
@@ -157,7 +158,7 @@ class ManualFormatter : public CLI::Formatter {
   static bool is_common(const CLI::Option& option) {
     const std::string name = option.get_name();
     return name == "--help" || name == "--help-all" || std::ranges::any_of(properties(), [&](const Property* property) {
-             return property->common && property->long_option() == name;
+             return property->has(in_short_help) && property->long_option() == name;
            });
   }
 };
@@ -177,8 +178,8 @@ bool is_command(std::string_view word) {
                                fmt::join(names, ", ")));
 }
 
-/// The words as they were typed; `meniscus my.pdb` means `meniscus render my.pdb`, so with - for standard input, and
-/// `meniscus my.json` means `meniscus render --scene my.json`.
+/// Returns the words as typed, with shortcuts expanded: `meniscus my.pdb` means `meniscus render my.pdb`, also with -
+/// for standard input, and `meniscus my.json` means `meniscus render --scene my.json`.
 std::vector<const char*> words_of(int argc, char** argv) {
   std::vector<const char*> words(argv, argv + argc);
   const std::string_view first = argc < 2 ? "" : argv[1];
@@ -191,7 +192,7 @@ std::vector<const char*> words_of(int argc, char** argv) {
   return words;
 }
 
-/// Whether commands are asked about options of others.
+/// True if the words request help or completion of options.
 bool shows_options(std::span<const char* const> words) {
   constexpr std::array<std::string_view, 3> kAsking{"help", "completion", "--help-all"};
   return words.size() > 1 && std::ranges::find(kAsking, std::string_view(words[1])) != kAsking.end();
@@ -218,7 +219,7 @@ void run(int argc, char** argv) {
   let_the_last_count(program);
   program.footer(kExamples);
   add_commands(program, "Commands", commands(), shows_options(words) ? Declared::at_once : Declared::when_reached);
-  // All options are known then, and no command has begun.
+  // At this point all options are known, and no command has begun.
   program.parse_complete_callback([&program] { NamedFiles(named_command(program)).check(); });
   std::vector<std::string> arguments(words.rbegin(), words.rend() - 1);
   try {

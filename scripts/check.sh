@@ -4,10 +4,10 @@
 #
 #   scripts/check.sh [--list] PATH...     core/surface, core/surface/trim.cpp, app/farm, tests/image ...
 #
-# The tests are those of the same folder in tests/unit; test programs that include the header beside a file, as ninja
-# knows, if those are few; what the table below has for the area; and the tests of the code's form. What has not come to
-# its end after 170 seconds of testing is stopped and named. --list only says what would run. This is for the work on a
-# change; scripts/test.sh runs everything.
+# It runs the tests of the same folder in tests/unit; test programs that include the file's header, if ninja knows only a
+# few; the tests that the table below lists for the area; and the tests of the code's form. Tests that have not ended
+# after 170 seconds are stopped and named. --list only prints the tests. This is for the work on a change;
+# scripts/test.sh runs everything.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

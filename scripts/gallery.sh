@@ -28,7 +28,7 @@ mkdir -p "$work/bin"
 ln -sfn "$PWD/scripts" "$work/scripts"
 ln -sfn "$PWD/exporters" "$work/exporters"
 
-# `meniscus` of the commands: replaces what is there, and writes the scene of each picture beside it.
+# `meniscus` of the commands: it replaces the pictures, and writes the scene of each one next to it.
 cat >"$work/bin/meniscus" <<EOF
 #!/usr/bin/env bash
 scene=()

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # clang-tidy with the checks of .clang-tidy; warnings are errors. Without options the folders that write files
 # and compute the surface, without the static analyzer, which takes as long as all the rest; --all takes all of our
-# code and all checks; or name files. What was sound and has not changed is not checked again. The last line says how many
-# files there are and how many failed.
+# code and all checks; or name files. Files that passed before and have not changed are skipped. The last line has the numbers
+# of files and of failures.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 command -v clang-tidy-14 >/dev/null || { echo "clang-tidy is missing: apt-get install clang-tidy-14" >&2; exit 1; }

@@ -51,7 +51,7 @@ CSS = """.md-grid { max-width: 72rem; }
 .md-tabs__link { opacity: 1; }
 .highlight:not(.language-text):not(.language-json) pre > code { white-space: pre-wrap; }
 """
-# What the theme leaves out for those who use a keyboard or a screen reader: a name of the search, and regions that scroll.
+# Adds what the theme lacks for users of a keyboard or a screen reader: a name of the search, and regions that scroll.
 SCRIPT = """function complete() {
   document.querySelector(".md-search")?.setAttribute("aria-label", "Search");
   document.querySelectorAll("pre > code, .md-typeset__scrollwrap").forEach((region) => { region.tabIndex = 0; });

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# The long proofs, and one table of everything tried: what, cases, failures, seconds.
+# Runs the long proofs and prints one table: name, cases, failures, seconds.
 #
 #   scripts/prove.sh [--seconds N] [--cases N] [--limit MINUTES] [--list] [NAME...]
 #
 # Without names all rows, one after another: some hours on two cores. --seconds is how long each fuzz target runs (300),
 # --cases how many molecules each family of the generators gives (10000), --limit how long a row may take (180 minutes).
-# What a row printed stands in build/prove/NAME.log. Exit code 1 if anything failed, or did not say that it ended well.
+# The output of a row is in build/prove/NAME.log. Exit code 1 if a row failed, or did not report success.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/packages.sh

@@ -26,7 +26,7 @@ cmake --build "$build"
 rm -rf "$results"
 mkdir -p "$results"
 
-# Tests wait for each other, for screens and for clocks. What they leave of the processors builds what comes next.
+# Tests wait for each other, for screens and for clocks. The idle processor time builds the next configuration.
 step "4/8 tests, and beside them the build with asserts and sanitizers, where warnings are errors"
 cmake --preset asan >/dev/null
 nice -n 19 cmake --build --preset asan >"$results/sanitized_build.log" 2>&1 &

@@ -37,10 +37,10 @@ struct Row {
   std::size_t atoms = 0;
   std::string device;
   std::vector<StageTime> stages;
-  std::vector<StageTime> baseline;  ///< of the sequential algorithm, reduced surface alone; empty unless asked for
+  std::vector<StageTime> baseline;  ///< the sequential algorithm, reduced surface only; empty unless requested
 };
 
-/// Sanner's sequential rolling probe: what the classical programs find, and everything.
+/// Runs Sanner's sequential rolling probe: the part that classical programs find, and everything.
 std::vector<StageTime> roll(const std::vector<Ball>& balls, double probe_radius) {
   StageClock clock;
   for (const auto& [scope, name] :
@@ -51,7 +51,7 @@ std::vector<StageTime> roll(const std::vector<Ball>& balls, double probe_radius)
   return clock.times();
 }
 
-/// The run whose total is the median.
+/// Returns the run with the median total.
 std::vector<StageTime> median(std::vector<std::vector<StageTime>> runs) {
   const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
   std::nth_element(runs.begin(), middle, runs.end(),
@@ -78,7 +78,7 @@ Row measure(const Structure& structure, const BenchCommand& command, Progress& p
   return row;
 }
 
-/// The stages of all rows in order of appearance: not every molecule needs every stage.
+/// Returns the stages of all rows in order of appearance, because not every molecule needs every stage.
 std::vector<std::string> stage_names(const std::vector<Row>& rows) {
   std::vector<std::string> names;
   for (const Row& row : rows) {
@@ -156,7 +156,8 @@ void add_bench(CLI::App& command) {
            "  meniscus bench --paper 1crn.pdb 1vis.pdb 1tii.pdb   frames as in the paper, beside its own figures",
            "All times are wall-clock milliseconds: the medians of the runs, after one run that is not counted. They "
            "do\nnot include reading the file.");
-  auto declared = std::make_shared<DeclaredCommand<BenchCommand>>(command, for_bench);
+  auto declared = std::make_shared<DeclaredCommand<BenchCommand>>(
+      command, TakenProperties{"molecule.quiet", "surface.kind", "surface.probe", "Computing", "image.size"});
   BenchCommand& state = declared->state;
   command.add_option("FILES", state.files, "Molecules: " + format_names() + "; .gz too")->required();
   PropertyOptions options(command);

@@ -17,14 +17,14 @@
 
 #include "core/base/text.h"
 #include "core/gpu/egl_context.h"
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 #include "core/visible_surface/view_pipeline.h"
 #include "core/color/coloring.h"
 
 namespace meniscus {
 namespace {
 
-/// Frames per second of the paper's table 1, on a GeForce GTX 285.
+/// Frames per second in the paper's table 1, on a GeForce GTX 285.
 struct PaperFigure {
   const char* name;
   double frames_per_second;
@@ -39,7 +39,7 @@ std::optional<double> paper_figure(const std::string& name) {
   return {};
 }
 
-/// The paper's four groups of stages, and what comes after them.
+/// The paper's four groups of stages, and ray casting.
 constexpr std::array kGroups = {"visible atoms", "potential", "faces", "primitives", "ray cast"};
 
 std::size_t group_of(const std::string& stage) {
@@ -51,7 +51,7 @@ std::size_t group_of(const std::string& stage) {
 }
 
 struct FrameTime {
-  double total = 0.0;  ///< ms by the clock on the wall
+  double total = 0.0;  ///< ms of wall-clock time
   std::array<double, kGroups.size()> groups{};
 };
 
@@ -61,7 +61,7 @@ FrameTime median(std::vector<FrameTime> times) {
   return *middle;
 }
 
-/// What changes from frame to frame.
+/// The change from frame to frame.
 enum class FrameChange { camera, probe, atoms };
 
 class MoleculeBench {
@@ -81,7 +81,7 @@ class MoleculeBench {
   /// Groups are timed one by one, with the GPU idle between them; whole frames are timed as a viewer draws them.
   FrameTime measure(Extent extent, FrameChange change) {
     view_.set_surface(settings_.probe_radius, extent);
-    draw();  // kernels are compiled and buffers sized once
+    draw();  // kernels are compiled and buffers allocated once
     FrameTime result = median(draw_frames(extent, change, StageTiming::exact));
     result.total = median(draw_frames(extent, change, StageTiming::rough)).total;
     return result;
@@ -117,7 +117,7 @@ class MoleculeBench {
     return times;
   }
 
-  // About the vertical axis through the target.
+  // Turns the camera about the vertical axis through the target.
   void turn_camera(double angle) {
     const glm::dvec3 axis = glm::normalize(camera_.up), d = first_position_ - camera_.target;
     camera_.position = camera_.target + d * std::cos(angle) + glm::cross(axis, d) * std::sin(angle) +
@@ -127,7 +127,7 @@ class MoleculeBench {
   const PaperBenchMolecule& molecule_;
   const PaperBenchSettings& settings_;
   ViewPipeline view_;
-  Renderer renderer_;
+  GlRenderer renderer_;
   Camera camera_;
   RenderSettings picture_;
   glm::dvec3 first_position_{0.0};
@@ -140,7 +140,7 @@ void print_head(std::size_t width) {
 }
 
 void print_row(MoleculeBench& bench, const PaperBenchMolecule& molecule, std::size_t width, Extent extent) {
-  // A complete surface does not depend on the camera: there only new atoms make all of it again.
+  // A complete surface does not depend on the camera, so only new atoms require all of it again.
   const FrameTime turned = bench.measure(extent, extent == Extent::complete ? FrameChange::atoms : FrameChange::camera);
   const ViewStats stats = bench.stats();
   const FrameTime probe = bench.measure(extent, FrameChange::probe), moved = bench.measure(extent, FrameChange::atoms);

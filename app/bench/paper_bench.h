@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures table 1 of the paper (Krone, Dachsbacher & Ertl 2010) again: frames of a view, stage group by stage group.
+// Repeats the measurements of table 1 of the paper (Krone, Dachsbacher & Ertl 2010): frames of a view, by group of
+// stages.
 #pragma once
 
 #include <string>
@@ -13,7 +14,7 @@
 
 namespace meniscus {
 
-/// How frames are drawn and counted.
+/// The size and the number of frames.
 struct PaperBenchSettings {
   DeviceChoice device;
   glm::ivec2 size{1024, 768};         ///< pixels
@@ -21,7 +22,7 @@ struct PaperBenchSettings {
   int runs = 5;                       ///< timed frames of each kind; medians are shown
 };
 
-/// The balls of one file under the name to be shown.
+/// The balls of one file, and their name in the tables.
 struct PaperBenchMolecule {
   std::string name;
   std::vector<Ball> balls;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The circle a probe rolls on in contact with two atoms, the balls that stop it, and where it stops next.
+// The circle on which a probe rolls in contact with two atoms, the balls that stop it, and its next stop.
 //
-// Nothing of contour build-up: no arcs are cut and kept. A rolling step compares angles from where the probe is to
-// where each ball is met (Sanner, Olson & Spehner 1996, section 3.1), a test of a position asks every ball in turn.
+// This code shares nothing with contour build-up: no arcs are cut and kept. A rolling step compares angles from the
+// probe's position to the point where it meets each ball (Sanner, Olson & Spehner 1996, section 3.1); a position is
+// tested against every ball in turn.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +18,7 @@
 
 namespace meniscus {
 
-/// An atom that overlaps the circle's first atom, relative to it; weight: its decision weight.
+/// An atom that overlaps the circle's first atom, relative to that atom; weight: its decision weight.
 struct RollingNeighbor {
   glm::dvec3 center{0.0};
   double weight = 0.0;
@@ -58,13 +59,13 @@ struct QuadPrecision {
   static real root(real a) { return quad_geometry::sqrt(a); }
 };
 
-/// In quadruple precision every answer counts; in double, only while certain() says so. Reused from circle to circle.
+/// In quadruple precision every result is final; in double, only while certain() is true. Reused from circle to circle.
 template <typename Precision>
 class RollingCircle {
  public:
   using real = typename Precision::real;
 
-  /// The circle of the balls (0, w0) and neighbors[skip] among the other neighbours.
+  /// Sets the circle of the balls (0, w0) and neighbors[skip], with the other neighbours around it.
   void place(double w0, std::span<const RollingNeighbor> neighbors, std::size_t skip) {
     certain_ = true;
     covered_ = false;
@@ -78,14 +79,14 @@ class RollingCircle {
   }
 
   bool certain() const { return certain_; }
-  bool covered() const { return covered_; }                ///< by a single ball, or there is no circle
+  bool covered() const { return covered_; }                ///< true if a single ball covers it, or there is no circle
   bool free() const { return !covered_ && met_.empty(); }  ///< no ball meets it
   std::size_t met_count() const { return met_.size(); }
   std::uint32_t met_atom(std::size_t n) const { return met_[n].atom; }
 
-  /// Rolls away from atom k, which the probe touches: counter-clockwise from the end of what k covers, or clockwise
-  /// from its begin. Returns the first atom met (k itself after nearly a whole turn); kNone if k does not meet the
-  /// circle.
+  /// Rolls away from atom k, which the probe touches: counter-clockwise from the end of the part that k covers, or
+  /// clockwise from its begin. Returns the first atom met (k itself after nearly a whole turn); kNone if k does not
+  /// meet the circle.
   std::uint32_t roll(std::uint32_t k, bool counter_clockwise) {
     const auto from = std::find_if(met_.begin(), met_.end(), [&](const Met& m) { return m.atom == k; });
     if (from == met_.end()) return kNone;
@@ -93,7 +94,7 @@ class RollingCircle {
                       counter_clockwise);
   }
 
-  /// The first atom met counter-clockwise from a point of the circle that no ball covers, given relative to the
+  /// Returns the first atom met counter-clockwise from a point of the circle that no ball covers, given relative to the
   /// circle's first ball; kNone on a free circle.
   std::uint32_t first_from(const glm::dvec3& point) {
     const auto x = Precision::vector(point);
@@ -101,7 +102,7 @@ class RollingCircle {
     return first_from(Precision::pseudo(typename Precision::real2{u, v}), real(0), true);
   }
 
-  /// Can the probe are where it meets the n-th met ball: where that ball's covered part begins, or ends?
+  /// True if the probe fits where it meets the n-th met ball: where that ball's covered part begins, or ends.
   bool accessible(std::size_t n, bool at_end) {
     const auto& at = met_[n].covered;
     const auto x = Precision::direction(at_end ? at.end : at.begin);
@@ -128,7 +129,7 @@ class RollingCircle {
 
   void add(double w0, const RollingNeighbor& neighbor) {
     const auto q = Precision::vector(neighbor.center);
-    // A ball that is clear of the circle, or holds all of it, by far needs no half-plane.
+    // A ball that is far outside the circle, or contains all of it by far, needs no half-plane.
     const real along = dot(circle_.axis, q), qq = dot(q, q);
     const real offset = (w0 + qq - neighbor.weight) / 2 - circle_.height * along;
     if (offset * offset > (qq - along * along) * circle_.radius_squared * real(1 + 1e-9) + real(1e-9)) {
@@ -150,7 +151,7 @@ class RollingCircle {
     for (const Met& m : met_) {
       const real angle =
           counter_clockwise ? Precision::sweep(start, m.covered.begin) : Precision::sweep(m.covered.end, start);
-      // Nearly at the start: just before it or just after?
+      // The point is nearly at the start: just before it or just after.
       const real blur = m.covered.error + start_error + 8 * Precision::kRoundoff;
       if (!Precision::kCertain && (angle <= blur || angle >= 4 - blur)) certain_ = false;
       error = std::max(error, blur);

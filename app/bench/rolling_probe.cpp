@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sequential rolling probe: first face, next face by smallest angle, restarts for components and cavities.
+// Implements the sequential rolling probe: first face, next face by smallest angle, restarts for components and
+// cavities.
 #include "app/bench/rolling_probe.h"
 
 #include <algorithm>
@@ -17,8 +18,8 @@
 namespace meniscus {
 namespace {
 
-// An RS face: the probe touches atoms a < b < c (a is where the face is filed) and is on one side of their plane.
-// Its edges lie on the circles (a, b), (a, c), (b, c); the arc there begins or ends at the face.
+// An RS face: the probe touches atoms a < b < c and is on one side of their plane. The face is stored with atom a. Its
+// edges lie on the circles (a, b), (a, c), (b, c); the arc of each begins or ends at the face.
 struct RollingFace {
   std::uint32_t b;
   std::uint32_t c;
@@ -28,7 +29,7 @@ struct RollingFace {
 
 struct FaceName {
   std::uint32_t a;
-  std::size_t index;  // among the faces filed under a
+  std::size_t index;  // index among the faces stored with a
 };
 
 // One end of an arc of the circle (i, j), i < j, where the probe touches k.
@@ -36,7 +37,7 @@ struct ArcEnd {
   std::uint32_t i;
   std::uint32_t j;
   std::uint32_t k;
-  bool begins;  // the arc begins here, counter-clockwise about the axis from i to j
+  bool begins;  // true if the arc begins here, counter-clockwise about the axis from i to j
 };
 
 class RollingProbe {
@@ -68,7 +69,7 @@ class RollingProbe {
     return largest;
   }
 
-  // The atoms whose balls overlap that of atom i, nearest first.
+  // Returns the atoms whose balls overlap that of atom i, nearest first.
   const std::vector<RollingNeighbor>& neighbors_of(std::uint32_t i) {
     std::vector<RollingNeighbor>& list = neighbors_[i];
     if (listed_[i]) return list;
@@ -87,7 +88,7 @@ class RollingProbe {
     return list;
   }
 
-  // Asks a question of the circle of atom i and its n-th neighbour: in double, and where that is not certain, in
+  // Evaluates a predicate on the circle of atom i and its n-th neighbour: in double, and if that is not certain, in
   // quadruple precision.
   template <typename Question>
   auto ask(std::uint32_t i, std::size_t n, Question&& question) {
@@ -107,14 +108,15 @@ class RollingProbe {
     return static_cast<std::size_t>(found - list.begin());
   }
 
-  // Side and edge numbers follow from the order of the three atoms: moving k past one of them turns the triangle over.
+  // Returns the arc's end. Side and edge numbers follow from the order of the three atoms: exchanging k with one of
+  // them flips the triangle.
   static ArcEnd arc_end(std::uint32_t a, const RollingFace& face, int edge) {
     if (edge == 0) return {a, face.b, face.c, face.side};
     if (edge == 1) return {a, face.c, face.b, !face.side};
     return {face.b, face.c, a, face.side};
   }
 
-  // The face at the end of an arc, filed if it is new, with the number of the arc's edge in it.
+  // Returns the face at the end of an arc, stored if it is new, with the number of the arc's edge in it.
   FaceName face_at(const ArcEnd& end, int& edge, bool& is_new) {
     const auto [a, b, c, side] = geometry::triple_at(end.i, end.j, end.k, !end.begins);
     const RollingFace face{b, c, side != 0};
@@ -221,7 +223,7 @@ class RollingProbe {
         if (circle.met_atom(m) == k) return circle.accessible(m, false);
       return false;
     });
-    // Seen from the other atom the circle turns the other way round.
+    // Seen from the other atom, the circle runs in the opposite sense.
     if (accessible) roll_from(i < j ? ArcEnd{i, j, k, false} : ArcEnd{j, i, k, true});
     return accessible;
   }
@@ -244,7 +246,7 @@ class RollingProbe {
     }
   }
 
-  // The ends of arcs of the circle (i, j) at later atoms where the probe can be and has not been.
+  // Lists the unvisited ends of arcs of the circle (i, j) at later atoms where the probe fits.
   template <typename Circle>
   void list_starts(Circle& circle, std::uint32_t i, std::uint32_t j, std::vector<ArcEnd>& starts) const {
     starts.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes what a figure shows: its surface whole or cut, and what is beside it.
+// Meshes a figure: its surface whole or cut, and everything drawn in addition.
 #include "app/commands/blender_meshes.h"
 
 #include <algorithm>
@@ -19,6 +19,14 @@
 #include "exporters/mesh_files/vertex_numbers.h"
 
 namespace meniscus {
+
+TakenProperties blender_properties() {
+  return figure_properties().with({"look.shadows", "look.shadow_softness", "frames.fps", "mesh.tolerance",
+                                   "mesh.tolerance_pixels", "mesh.density", "mesh.even", "mesh.attributes"},
+                                  {{{"frames.fps"},
+                                    [](const GivenScene& given) { return given.scene.frames.asked(); },
+                                    "there is no run of frames"}});
+}
 
 void check_blender(const Scene& scene) { check_caps_of_map(scene, "a .mns file has no values of the map on caps"); }
 
@@ -41,7 +49,7 @@ blender::CutFile cut_file(const SceneCommand& command, const FigureFrame& frame)
 
 namespace {
 
-/// Cut, with caps.
+/// Meshes the objects of a cut surface, with caps.
 std::vector<blender::MeshedObject> cut_objects(const SceneCommand& command, Molecule& molecule,
                                                const blender::CutFile& cut, double tolerance) {
   std::vector<blender::MeshedObject> objects;
@@ -57,7 +65,7 @@ std::vector<blender::MeshedObject> cut_objects(const SceneCommand& command, Mole
   return objects;
 }
 
-/// How the vertices of one object move.
+/// Returns the velocities of the vertices of one object.
 std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const TriangleMesh& mesh,
                                       std::span<const glm::dvec3> velocities) {
   std::vector<glm::dvec3> atoms;
@@ -65,7 +73,7 @@ std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const Triangl
   return vertex_velocities(object.surface, mesh, atoms);
 }
 
-/// Whole; with velocities if there are some.
+/// Meshes the objects of a whole surface; with velocities if there are any.
 std::vector<blender::MeshedObject> whole_objects(const SceneCommand& command, const Molecule& molecule,
                                                  const MeshFineness& fineness, std::span<const glm::dvec3> velocities) {
   std::vector<blender::MeshedObject> objects;
@@ -81,7 +89,7 @@ std::vector<blender::MeshedObject> whole_objects(const SceneCommand& command, co
   return objects;
 }
 
-/// Meshes of what is drawn beside the surface with looks of its own, kept in `made`.
+/// Adds meshes of objects with materials of their own, kept in `made`.
 void add_more(const SceneCommand& command, const Figure& figure, const Camera& camera, double tolerance,
               std::vector<ShapeObject>& made, std::vector<blender::MeshedObject>& objects) {
   Structure shown;
@@ -115,8 +123,8 @@ void add_more(const SceneCommand& command, const Figure& figure, const Camera& c
   }
 }
 
-/// An object more for what is drawn beside the surface, kept in `made`. Its vertices move with the atom of their
-/// triangles.
+/// Adds an object for the shapes drawn in addition to the surface, kept in `made`. Its vertices move with the atom of
+/// their triangles.
 void add_beside(const Structure& structure, const ColoredShapes& shapes, double tolerance,
                 std::span<const glm::dvec3> velocities, std::optional<ShapeObject>& made,
                 std::vector<blender::MeshedObject>& objects) {
@@ -140,7 +148,7 @@ void mesh_figure(const SceneCommand& command, FigureFrame& frame, const blender:
                  const MeshFineness& fineness, FigureMeshes& made) {
   Molecule& molecule = frame.figure.molecule;
   const BesideSurface& beside = frame.figure.beside;
-  // Where planes cut, vertices have no velocities: caps stay where they are.
+  // Vertices at a cut have no velocities: caps stay in place.
   const std::span<const glm::dvec3> velocities =
       cut.planes.empty() ? std::span<const glm::dvec3>(frame.velocities) : std::span<const glm::dvec3>{};
   if (!command.scene.figure.hides_surface) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Figures as files for Blender take them, for single scenes, runs and films.
+// Figures in the form of files for Blender, for single scenes, runs and films.
 #pragma once
 
 #include <optional>
@@ -17,34 +17,37 @@
 
 namespace meniscus {
 
-/// All meshes of one figure, and what they refer to.
+/// Returns the properties of `meniscus export blender`.
+TakenProperties blender_properties();
+
+/// All meshes of one figure, and the data that they refer to.
 struct FigureMeshes {
   std::optional<ShapeObject> beside;
   std::vector<ShapeObject> more;
   std::vector<blender::MeshedObject> objects;
 };
 
-/// Throws UsageError for what no file for Blender can hold.
+/// Throws UsageError for settings that no file for Blender can hold.
 void check_blender(const Scene& scene);
 
-/// The camera of a frame, with the picture that the scene makes by it.
+/// Returns the camera of a frame, with the picture that the scene makes from it.
 blender::Shot blender_shot(const Scene& scene, const Camera& camera);
 
-/// A path without its folder.
+/// Returns a path without its folder.
 std::string file_name(const std::string& path);
 
-/// Where the molecule came from.
+/// Returns the source of the molecule.
 blender::Provenance provenance_of(const Molecule& molecule);
 
-/// What cuts the surface.
+/// Returns the planes that cut the surface.
 blender::CutFile cut_file(const SceneCommand& command, const FigureFrame& frame);
 
-/// Meshes the figure. Shapes and objects with looks of their own keep to patches, within fineness.tolerance. frame and
-/// made must stay. Throws RequestError where there is nothing, and what meshing throws.
+/// Meshes the figure. Shapes and objects with materials of their own follow the patches, within fineness.tolerance.
+/// frame and made must stay valid. Throws RequestError if there is nothing to mesh, and the errors of meshing.
 void mesh_figure(const SceneCommand& command, FigureFrame& frame, const blender::CutFile& cut,
                  const MeshFineness& fineness, FigureMeshes& made);
 
-/// Gives all objects the numbers that --attributes asks for. Returns what had to be left out.
+/// Gives all objects the numbers that --attributes requests. Returns the names of numbers that had to be left out.
 std::string add_numbers(const SceneCommand& command, blender::SurfaceNumbers wanted, const Structure& structure,
                         std::vector<blender::MeshedObject>& objects);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus farm`: bundles a command on frames for any engine, verifies what was made, and makes the film.
+// `meniscus farm`: bundles a command on frames for any engine, verifies the frames, and makes the film.
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -12,8 +12,11 @@
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
+#include "app/commands/blender_meshes.h"
 #include "app/commands/commands.h"
+#include "app/commands/povray_figures.h"
 #include "app/commands/render_command.h"
+#include "app/commands/traced_scene.h"
 #include "app/farm/bundle_folder.h"
 #include "app/farm/make_bundle.h"
 #include "app/farm/verify.h"
@@ -57,15 +60,20 @@ Words typed(const CLI::App& command, std::initializer_list<const char*> options)
 
 /// Throws UsageError for an option that a bundle does not have. Some of them a bundle decides by itself, and others
 /// write files. The legend of --legend-file is written when the bundle is made.
-void refuse_options(const SceneOptions& options, CommandBit bit) {
+void refuse_options(const SceneOptions& options) {
   for (const Property* const property : properties()) {
     const bool is_possible = property->has(in_bundle) || property->section() == "scene" ||
                              property->key == "legend.file" || property->key == "molecule.file" ||
                              std::ranges::find(kDeviceOptions, property->long_option()) != kDeviceOptions.end();
-    if (!is_possible && (property->commands & bit) != 0 && options.typed(property->key))
+    if (!is_possible && options.taken().has(*property) && options.typed(property->key))
       throw UsageError(fmt::format("{} after --: a bundle decides that by itself, or does not have it; leave it out",
                                    property->long_option()));
   }
+}
+
+TakenProperties properties_of(const farm::CommandKind& kind) {
+  if (kind.steps.size() == 1) return kind.name == "render" ? render_properties() : traced_properties();
+  return kind.renderer == farm::Maker::povray ? povray_properties() : blender_properties();
 }
 
 /// Parses the words behind -- by the program's own options, without running their command. Throws UsageError for a
@@ -83,9 +91,11 @@ farm::BundledCommand parsed(const Words& words, RenderCommand& command) {
   CLI::App app("", bundled.words.back());
   app.set_help_flag();
   let_the_last_count(app);
-  SceneOptions declared(app, kind.options, command);
+  const bool is_render = kind.name == "render";
+  SceneOptions declared(app, properties_of(kind), command);
   PropertyOptions options(app);
-  if (kind.options == for_render) {
+  if (is_render) {
+    declared.describe_output("", OutputName::optional);
     options.add("picture.provenance", command.provenance);
     options.add_switch("picture.no_provenance", [&] { command.names_program = false; });
   }
@@ -93,7 +103,7 @@ farm::BundledCommand parsed(const Words& words, RenderCommand& command) {
   std::ranges::reverse(arguments);  // as CLI11 takes them
   try {
     app.parse(arguments);
-    refuse_options(declared, kind.options);
+    refuse_options(declared);
     declared.take();
   } catch (const CLI::ParseError& error) {
     throw UsageError(fmt::format("after --: {}", error.what()));

@@ -30,7 +30,7 @@
 namespace meniscus {
 namespace {
 
-/// Where the pictures go: into a film, or into numbered files.
+/// The destination of the pictures: a film, or numbered files.
 class FilmPictures {
  public:
   explicit FilmPictures(Storyboard& storyboard) : command_(storyboard.command()) {
@@ -126,8 +126,32 @@ class PictureFilm : public FilmMaker {
   PictureDevice device_;
   FilmPictures pictures_;
   Progress progress_;
-  std::optional<MotionBlur> blur_;  ///< of the scene that is shown
+  std::optional<MotionBlur> blur_;  ///< of the current scene
 };
+
+TakenProperties film_properties() {
+  return TakenProperties{"molecule.quiet",
+                         "frames.progress",
+                         "frames.fps",
+                         "frames.codec",
+                         "frames.crf",
+                         "frames.bits",
+                         "frames.chroma",
+                         "Computing",
+                         "-surface.verify",
+                         "image.size",
+                         "image.samples",
+                         "image.background",
+                         "picture.any_cost",
+                         "Legend",
+                         "-legend.file",
+                         "annotations.letter_size",
+                         "annotations.letter_color",
+                         "output.file",
+                         "output.force",
+                         "scene.trust"}
+      .with({}, {film_need()});
+}
 
 void run(const DeclaredFilm& declared) {
   const FilmCommand& command = declared.state;
@@ -157,7 +181,7 @@ void add_film(CLI::App& command) {
       "  meniscus film a.json b.json --to blender -o story        surfaces and keys for Blender's add-on to import",
       "Scenes are files of --save-scene or pictures that meniscus render made. On the way from one to the next the "
       "camera,\ncut planes, the probe's radius and numbers of the look change steadily; all else dissolves.");
-  auto declared = std::make_shared<DeclaredFilm>(command, for_film);
+  auto declared = std::make_shared<DeclaredFilm>(command, film_properties());
   FilmCommand& state = declared->state;
   declared->options.describe_output(
       "Film to write: .mp4, .mov, .mkv, .webm, .gif; or pictures: story_####.png; or a folder");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus formats`: lists the file formats that are read, and what is read of each.
+// `meniscus formats`: lists the file formats that are read, and their contents.
 #include <iostream>
 #include <memory>
 #include <string>

@@ -31,13 +31,13 @@ struct Topic {
   std::string (*page)();
 };
 
-/// Those that the program writes itself, by its tables.
+/// The topics that the program writes from its tables.
 constexpr Topic kTopics[] = {
     {"selections", "the language of --select, --show and --context", selection_help},
     {"scenes", "all keys of scene files, with their options", scene_help},
 };
 
-/// Folders of the manual, in the order in which people read.
+/// The folders of the manual, in reading order.
 constexpr std::string_view kShelves[] = {"tutorials", "how-to", "reference", "explanation", "validation"};
 
 bool is_on(std::string_view shelf, const ManualPage& page) { return page.path.starts_with(fmt::format("{}/", shelf)); }
@@ -56,7 +56,7 @@ void list_topics(const CLI::App& program) {
   }
 }
 
-/// Markdown is made to be read as it is; only its long lines are broken, outside of tables and code.
+/// Markdown is readable as it is; only long lines are wrapped, outside of tables and code.
 std::string readable(std::string_view markdown) {
   std::string text;
   bool code = false;
@@ -71,7 +71,7 @@ std::string readable(std::string_view markdown) {
   return text;
 }
 
-/// The page of the manual that has this name; null if none has.
+/// Returns the page of the manual with this name; null if there is none.
 const ManualPage* manual_page(std::string_view name) {
   for (const std::string_view shelf : kShelves)
     for (const ManualPage& page : manual_pages())
@@ -79,7 +79,7 @@ const ManualPage* manual_page(std::string_view name) {
   return nullptr;
 }
 
-/// What has this name, of the manual and of what the program writes; empty for others.
+/// Returns the page with this name, from the manual or written by the program; empty if there is none.
 std::string page_named(std::string_view name) {
   std::string text;
   if (const ManualPage* page = manual_page(name)) text = readable(page->markdown);
@@ -88,14 +88,14 @@ std::string page_named(std::string_view name) {
   return text;
 }
 
-/// One line about such a page.
+/// Returns a one-line summary of a page.
 std::string_view summary_of(std::string_view name) {
   for (const Topic& topic : kTopics)
     if (name == topic.name) return topic.summary;
   return manual_page(name)->title();
 }
 
-/// The codes of the page exit-codes, a line each: "  0  done".
+/// Returns the codes of the page exit-codes, a line each: "  0  done".
 std::string exit_codes() {
   std::string lines;
   std::string_view text = manual_page("exit-codes")->markdown;
@@ -109,7 +109,7 @@ std::string exit_codes() {
   return lines;
 }
 
-/// Of commands, of the manual, and those that the program writes.
+/// Returns the names of commands, of pages of the manual, and of pages that the program writes.
 std::vector<std::string> page_names(const CLI::App& program) {
   std::set<std::string> names;
   for (const Topic& topic : kTopics) names.emplace(topic.name);
@@ -138,7 +138,7 @@ void show(const CLI::App& program, const std::string& name) {
                                nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
 }
 
-/// A page of section 1 for every command, and of section 7 for what they have in common.
+/// Writes a page of section 1 for every command, and pages of section 7 for common topics.
 void write_man_pages(const CLI::App& program, const std::string& folder) {
   const CommandEntry tree = command_tree(program);
   const ManMargins margins{build_date(), std::string("meniscus ") + MENISCUS_VERSION};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus info`: shows what a file contains and what a surface would use of it; frames and times of trajectories.
+// `meniscus info`: shows the contents of a file and the atoms that a surface would use; frames and times of
+// trajectories.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -54,7 +55,7 @@ void print_classes_and_chains(const Structure& structure) {
     fmt::print(std::cout, "{:<14} {:>10} {:>10}\n", class_name(kind), with_thousands(tally.atoms),
                with_thousands(tally.residues));
   }
-  if (classes.contains(AtomClass::unclassified)) return;  // XYZ and XYZR know no chains
+  if (classes.contains(AtomClass::unclassified)) return;  // XYZ and XYZR have no chains
   fmt::print(std::cout, "\n{:<14} {:>10} {:>10}\n", "chain", "atoms", "residues");
   for (const auto& [chain, tally] : chains) {
     fmt::print(std::cout, "{:<14} {:>10} {:>10}\n", chain.empty() ? "(none)" : escaped(chain),
@@ -62,7 +63,7 @@ void print_classes_and_chains(const Structure& structure) {
   }
 }
 
-/// As many digits as the source gives, from two to four.
+/// Returns as many decimals as the source has, from two to four.
 int decimals_of(double radius) {
   for (int decimals = 2; decimals < 4; ++decimals) {
     const double scale = std::pow(10.0, decimals);
@@ -79,7 +80,7 @@ void print_radii(const Structure& structure) {
   }
 }
 
-/// How many of the atoms a surface would take: water and ions only if they are wanted or named.
+/// Returns the number of atoms that a surface would use: water and ions only if they are requested or named.
 std::size_t count_taken(const Structure& structure, const ReadOptions& options) {
   std::vector<bool> named(structure.atoms.size());
   if (options.selection) named = options.selection->names(structure.atoms);
@@ -114,7 +115,7 @@ void print_ranges(const Structure& structure) {
     fmt::print(std::cout, "B-factors     {:.2f} to {:.2f} Å²\n", b_factor[0], b_factor[1]);
 }
 
-/// The atoms of a topology are where the first frame has them.
+/// The atoms of a topology have the positions of the first frame.
 void print_structure(const SceneCommand& command, Trajectory* trajectory) {
   ReadOptions everything = command.scene.molecule.reading;
   everything.keep_water = everything.keep_ions = true;
@@ -151,6 +152,13 @@ void run(const SceneCommand& command, const std::string& trajectory_path) {
   if (trajectory) print_trajectory(*trajectory);
 }
 
+TakenProperties info_properties() {
+  return {{"Input", "Radii", "Assembly", "-molecule.instances"},
+          {{{"molecule.unknown_element"},
+            [](const GivenScene&) { return false; },
+            "all atoms are listed, with a guessed radius where the element is unknown"}}};
+}
+
 }  // namespace
 
 void add_info(CLI::App& command) {
@@ -161,8 +169,8 @@ void add_info(CLI::App& command) {
            "  meniscus info 1tii.pdb --radii-file amber.dat --radius 'element Zn=1.1'\n"
            "  meniscus info run.xtc                         frames, times and box of a trajectory\n"
            "  meniscus info run.psf --trajectory run.dcd");
-  auto declared = std::make_shared<DeclaredCommand<>>(command, for_info);
-  command.get_option("--radii")->expected(0, 1);  // alone it asks for what is printed anyway
+  auto declared = std::make_shared<DeclaredCommand<>>(command, info_properties());
+  command.get_option("--radii")->expected(0, 1);  // without a value it requests the radii that are printed anyway
   auto trajectory = std::make_shared<std::string>();
   PropertyOptions(command)
       .add("frames.trajectory", *trajectory)

@@ -49,11 +49,11 @@ CommonAtoms read_common(const MorphCommand& command) {
   return common;
 }
 
-/// How good a path is.
+/// Measures of the quality of a path.
 struct PathFaults {
-  double bonds = 0.0;    ///< most by which a bond is longer or shorter than between both ends, Å
-  double step = 0.0;     ///< longest way of an atom from a model to the next, Å
-  double overlap = 0.0;  ///< Morph::overlap() of any model
+  double bonds = 0.0;    ///< largest deviation of a bond's length from the range between both ends, Å
+  double step = 0.0;     ///< longest step of an atom from a model to the next, Å
+  double overlap = 0.0;  ///< largest Morph::overlap() of a model
 
   void look(const Morph& morph, std::size_t stop, double share, const std::vector<glm::dvec3>& before,
             const std::vector<glm::dvec3>& now) {
@@ -84,7 +84,7 @@ void run(const MorphCommand& command) {
     before = std::move(now);
   };
   for (std::size_t stop = 0; stop < ways; ++stop) {
-    std::vector<std::vector<glm::dvec3>> way = morph.way(stop, command.steps);
+    std::vector<std::vector<glm::dvec3>> way = morph.models(stop, command.steps);
     for (std::size_t n = 0; n < way.size(); ++n) add(stop, static_cast<double>(n) / command.steps, std::move(way[n]));
     progress.advance();
   }
@@ -107,7 +107,9 @@ void add_morph(CLI::App& command) {
       "path.pdb",
       "Atoms that all structures have are moved, by sequence: names of chains and numbers of residues may differ. "
       "Bonds\nkeep their lengths, domains move as bodies, and atoms do not pass through one another.");
-  auto declared = std::make_shared<DeclaredCommand<MorphCommand>>(command, for_morph);
+  auto declared = std::make_shared<DeclaredCommand<MorphCommand>>(
+      command, TakenProperties{"molecule.superpose_on", "molecule.select", "molecule.warnings", "molecule.quiet",
+                               "output.file", "output.force"});
   declared->options.describe_output("PDB file to write, one model for each step");
   PropertyOptions options(command);
   options.add("morph.files", declared->state.files)->required();

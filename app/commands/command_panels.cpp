@@ -35,11 +35,11 @@ struct PanelsCommand : SceneCommand {
 };
 using DeclaredPanels = DeclaredCommand<PanelsCommand>;
 
-/// What of the page's command line holds for each panel.
+/// Returns the words of the page's command line that apply to each panel.
 std::vector<std::string> words_of_panels(const DeclaredPanels& page) {
   constexpr std::array<std::string_view, 5> kOfPage{"output.file", "image.size", "image.width", "image.height",
                                                     "molecule.superpose_on"};
-  std::vector<std::string> words = shared_words(page.options, for_panels, "panels", kOfPage);
+  std::vector<std::string> words = shared_words(page.options, kOfPage);
   const double dots_per_inch = page.state.scene.picture.dots_per_inch;
   if (dots_per_inch > 0.0 && !page.options.typed("image.dpi"))
     words.insert(words.end(), {"--dpi", fmt::format("{}", dots_per_inch)});
@@ -49,8 +49,7 @@ std::vector<std::string> words_of_panels(const DeclaredPanels& page) {
 SceneCommand read_panel(const std::string& path, const std::vector<std::string>& words, const SceneCommand& page) {
   SceneCommand command = read_scene_file(path, words, page.reporting);
   command.scene = readied(command.scene);
-  settle_selections(command.scene.molecule, command.scene.frames,
-                    {.figure = &command.scene.figure, .view = &command.scene.picture});
+  settle_selections(command.scene);
   return command;
 }
 
@@ -67,7 +66,7 @@ Structure read_structure(const SceneCommand& command, const std::string& path) {
   return run.at(run.numbers().front());
 }
 
-/// Moves the structures of all panels but the first.
+/// Superposes the structures of all panels but the first on the first.
 void superpose(const PanelsCommand& page, std::span<const SceneCommand> panels, std::vector<Structure>& structures) {
   const std::optional<Selection>& chosen = page.scene.molecule.reading.superpose_on;
   if (!chosen) return;
@@ -87,7 +86,7 @@ void superpose(const PanelsCommand& page, std::span<const SceneCommand> panels, 
                       "with three of these atoms or more; choose other atoms",
                       in_quotes(chosen->text()), escaped(page.files[n]), escaped(page.files.front())));
     const Superposition fit = superposition(first.atoms, moved.atoms, pairs);
-    for (std::vector<Atom>* const atoms : {&moved.atoms, &moved.beside})
+    for (std::vector<Atom>* const atoms : {&moved.atoms, &moved.extra_atoms})
       for (Atom& atom : *atoms) atom.position = fit.motion(atom.position);
     say(page, fmt::format("{} is superposed on {} by {} atoms with an RMSD of {:.3f} Å", page.files[n],
                           page.files.front(), with_thousands(pairs.size()), fit.rmsd));
@@ -115,7 +114,7 @@ std::vector<Panel> read_panels(const PanelsCommand& page, std::span<SceneCommand
   return made;
 }
 
-/// Lengths of the page in pixels, which its resolution says.
+/// Converts lengths of the page to pixels, by its resolution.
 PanelArrangement arrangement_of(const DeclaredPanels& declared, const Scene& first) {
   const Scene& scene = declared.state.scene;
   PanelArrangement arrangement = declared.state.arrangement;
@@ -169,7 +168,12 @@ void add_panels(CLI::App& command) {
       "  meniscus panels a.json b.json c.json d.json -o figure.png --columns 2 --letters lower --background white",
       "A picture that meniscus render made is a panel, for it carries its scene; so is a scene file. Each panel is "
       "drawn\nagain, in the size that it has on the page. Options that scenes have, too, hold for all panels.");
-  auto declared = std::make_shared<DeclaredPanels>(command, for_panels);
+  auto declared = std::make_shared<DeclaredPanels>(
+      command,
+      TakenProperties{"molecule.superpose_on", "molecule.warnings", "molecule.quiet", "Computing", "-surface.verify",
+                      "image.size", "image.width", "image.height", "image.dpi", "image.samples", "image.background",
+                      "picture.any_cost", "Legend", "-legend.file", "annotations.letter_size",
+                      "annotations.letter_color", "output.file", "output.force", "scene.trust"});
   PanelsCommand& state = declared->state;
   declared->options.describe_output("Picture to write: .png, .jpg, .webp, .tif, .svg, .pdf");
   PropertyOptions options(command);

@@ -28,7 +28,7 @@ void check_mesh_path(const std::string& path) {
         in_quotes(path), mesh_format_words()));
 }
 
-// Of a run each frame has one.
+// Throws unless the path of a run has a place for the number of the frame.
 void check_numbered(const char* option, const std::string& path) {
   if (path.empty() || NumberedPath::parse(path)) return;
   throw UsageError(fmt::format("{} {}: each frame needs a file of its own; put # where its number goes, as in {}",
@@ -63,9 +63,17 @@ void check_request(const PocketsCommand& command) {
     check_run(command);
   else
     paths.insert(paths.end(), {command.mesh, command.figure});
-  // Whether the outputs can be written is known before the work begins; these vanish again.
+  // Files are opened before the work begins, so that errors come early, and removed again.
   for (const std::string& path : paths)
     if (!path.empty() && path != "-") check_output(path, command.existing());
+}
+
+TakenProperties pocket_properties() {
+  return run_properties().with(
+      {"surface.show", "-surface.kind", "-surface.verify"},
+      {superposition_need({"report.csv_pockets", "report.json"}),
+       {{"surface.show"}, {"report.pocket_figure"}, "it says what --figure shows; --select takes some of the atoms"},
+       {{"pockets.tolerance"}, {"report.pocket_mesh"}, "it is that of a mesh; add --mesh FILE"}});
 }
 
 }  // namespace
@@ -87,7 +95,7 @@ void add_pockets(CLI::App& command) {
       "the area of the\nmouths times --mouth-tolerance (column `less up to`). A pocket without a mouth is a cavity, "
       "one with two or more a\ntunnel. Pockets are ranked by volume. Over frames a pocket keeps its number while "
       "probes at rest in it overlap.");
-  auto declared = std::make_shared<DeclaredCommand<PocketsCommand>>(command, for_pockets);
+  auto declared = std::make_shared<DeclaredCommand<PocketsCommand>>(command, pocket_properties());
   PocketsCommand& state = declared->state;
   PropertyOptions options(command);
   options.add("pockets.large_probe", state.pockets.large_probe_radius);

@@ -39,43 +39,45 @@
 #include "core/gpu/egl_context.h"
 #include "core/scene/picture_device.h"
 #include "core/scene/view_aim.h"
-#include "core/scene/view_renderer.h"
+#include "core/scene/renderers.h"
 
 namespace meniscus {
 namespace {
 
-/// The name by which ssh may know this machine.
+/// Returns the name by which ssh may know this machine.
 std::string host_name() {
   char name[256] = {};
   return ::gethostname(name, sizeof name - 1) == 0 && name[0] ? escaped(name) : "HOST";
 }
 
-/// A molecule, where its atoms are at the frames of a trajectory, if there is one, and how it is seen at first.
+/// A molecule with its trajectory, if there is one, and its first view.
 struct Shown {
-  Scene scene;  ///< selections settled, colours measured
+  Scene scene;  ///< with resolved selections and measured colours
   Structure structure;
   std::optional<TrajectoryPositions> trajectory;
-  std::optional<Camera> camera;  ///< nothing: all is shown
+  std::optional<Camera> camera;  ///< nothing: everything is shown
 };
 
 Shown read_run(PreviewCommand& command) {
   const MoleculeRequest& asked = command.scene.molecule;
-  // Numbers by frame are those of a run, in which models have the atoms of the first one.
+  // Numbers per frame belong to a run, in which models have the atoms of the first one.
   if (command.models && asked.color.uses_file() && color_of(asked).uses_frames()) {
     command.scene.frames.frames = "all";
     command.models = false;
   }
   Scene scene = command.scene;
   if (!scene.frames.asked()) {
-    // Copies are of one model: of several the first is shown.
+    // Copies belong to one model: of several models the first is shown.
     if (scene.molecule.division.instances != InstanceMode::none) command.models = false;
     SceneCommand reading = command;
     reading.scene.molecule = command.read_molecule_request();
     return {std::move(scene), read_and_tell(reading), {}, {}};
   }
-  MoleculeRequest molecule = scene.molecule;
-  settle_selections(molecule, scene.frames, {.figure = &scene.figure, .view = &scene.picture});
-  const auto frames = std::make_shared<FrameRun>(molecule, scene.frames);
+  Scene settled = scene;
+  settle_selections(settled);
+  const auto frames = std::make_shared<FrameRun>(settled.molecule, scene.frames);
+  scene.figure = settled.figure;
+  scene.picture = settled.picture;
   tell_run(command, *frames);
   if (scene.molecule.division.instances != InstanceMode::none && frames->atoms_change())
     throw UsageError(
@@ -98,7 +100,7 @@ Shown read_run(PreviewCommand& command) {
   return {std::move(scene), frames->structure(), std::move(trajectory), {}};
 }
 
-/// What is said while the molecule is read.
+/// Returns the line that is printed while the molecule is read.
 std::string reading_line(const std::string& file) {
   if (file == "-") return "Reading standard input";
   std::error_code unknown;
@@ -119,7 +121,7 @@ Shown read_inputs(PreviewCommand& command, const std::function<void(const std::s
   require_previewed(color);
   tell(fmt::format("Preparing {} atoms", with_thousands(shown.structure.atoms.size())));
   if (!command.aims) return shown;
-  // What is drawn beside the surface counts; a scene's picture is framed as render frames it.
+  // Everything drawn counts; a scene's picture is framed as render frames it.
   const FigureRequest& figure = shown.scene.figure;
   const bool reads_again = !figure.representations.empty() || !figure.objects.empty();
   shown.camera =
@@ -127,15 +129,15 @@ Shown read_inputs(PreviewCommand& command, const std::function<void(const std::s
   return shown;
 }
 
-/// Copies are drawn as atoms like all others where that is the same picture and GL may have room for them, else by the
-/// CPU, which needs memory for one.
-std::unique_ptr<ViewRenderer> make_renderer(const PreviewCommand& command, const Structure& structure, bool on_gl) {
-  constexpr std::size_t kMostOnGl = 500'000;  // atoms
+/// Makes the renderer. Copies are drawn as atoms like all others if that gives the same picture and GL has room for
+/// them, else by the CPU, which needs memory for one copy only.
+std::unique_ptr<PreviewRenderer> make_renderer(const PreviewCommand& command, const Structure& structure, bool on_gl) {
+  constexpr std::size_t kMostOnGl = 500'000;  // in atoms
   const std::vector<Instances>& copies = structure.instances;
-  if (copies.empty()) return on_gl ? make_gl_view_renderer() : make_cpu_view_renderer();
+  if (copies.empty()) return on_gl ? make_gl_preview_renderer() : make_cpu_preview_renderer();
   const bool apart = command.scene.molecule.division.instances == InstanceMode::exact;
   if (on_gl && apart && placed_count(copies) <= kMostOnGl)
-    return make_placed_atoms_renderer(copies, make_gl_view_renderer());
+    return make_placed_atoms_renderer(copies, make_gl_preview_renderer());
   if (on_gl)
     say(command, fmt::format("the CPU draws the copies: {}",
                              apart ? with_thousands(placed_count(copies)) + " atoms are too many for GL"
@@ -143,7 +145,7 @@ std::unique_ptr<ViewRenderer> make_renderer(const PreviewCommand& command, const
   return make_cpu_copies_renderer(copies);
 }
 
-/// A session as the options say.
+/// Begins a session with these options.
 std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, bool on_gl, Shown shown) {
   const PreviewCommand& command = declared.state;
   PreviewState view;
@@ -160,7 +162,7 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
   context.make_device = [request = command.scene.molecule.surface] { return std::make_unique<PictureDevice>(request); };
   context.make_film = make_film;
   context.open_scene = SceneOpener(declared);
-  std::unique_ptr<ViewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
+  std::unique_ptr<PreviewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
                                                   command.output_folder, std::move(shown.trajectory), context);
   for (const std::string& sentence : session->idle_cuts()) say(command, "note: --clip " + sentence);
@@ -182,7 +184,7 @@ std::vector<WrittenCommand> written_commands(const PreviewCommand& command) {
   return read_commands(command.commands);
 }
 
-/// The token that the user chose; empty: none.
+/// Returns the token that the user set; empty: none.
 std::string token_of(const PreviewCommand& command) {
   std::string token;
   if (!command.token_file.empty()) {
@@ -221,7 +223,7 @@ void serve(DeclaredPreview& declared) {
     return begin_session(declared, device.context() != nullptr, read_inputs(command, tell));
   };
   if (commands.empty()) return serve_session(options, make);
-  // Their replies come before the address.
+  // Replies come before the address.
   std::unique_ptr<PreviewSession> session = make([](const std::string&) {});
   replay_commands(command.commands, commands, *session, std::cout);
   if (session->wants_to_quit()) return;
@@ -239,7 +241,8 @@ void say_report(const PreviewCommand& command, const WindowReport& report) {
                              report.latency.redraws, report.latency.seconds));
 }
 
-/// Whether GL draws for a window. It is that of its display; where that is software the CPU draws faster by itself.
+/// True if GL draws for a window. It is the GL of the window's display; if that is software, the CPU draws faster by
+/// itself.
 bool draws_on_gl(const SurfaceRequest& surface, const EglContext& context) {
   using Kind = DeviceChoice::Kind;
   if (surface.gl.kind == Kind::gpu && context.is_software())
@@ -288,7 +291,7 @@ void add_preview(CLI::App& command) {
            "through\nEGL; without one the exit code is 4. The page is served on 127.0.0.1 only and opens only with the "
            "token in its\naddress. To open it on another machine, use the ssh line that is printed. SIGINT and SIGTERM "
            "end both.");
-  auto declared = std::make_shared<DeclaredPreview>(command, for_preview);
+  auto declared = std::make_shared<DeclaredPreview>(command, preview_properties());
   add_preview_options(command, *declared);
   command.callback([declared] {
     take_preview(*declared);

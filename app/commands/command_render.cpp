@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus render`: ray casts the analytic surface of a molecule into a picture, or that of each frame into pictures
+// `meniscus render`: ray casts the analytic surface of a molecule into a picture, or each frame of a run into pictures
 // or a film.
 #include <algorithm>
 #include <cstdint>
@@ -66,7 +66,7 @@ void tell_hue_changes(const RenderCommand& command) {
   say(command, "warning: colours of the surface are not those of the legend: " + changes);
 }
 
-/// Without -o the picture has the molecule's name, in the current folder.
+/// Sets the default output: the molecule's name, in the current folder.
 void name_output(const CLI::App& program, RenderCommand& command) {
   Scene& scene = command.scene;
   if (!scene.output.empty()) return;
@@ -100,7 +100,7 @@ void check_layers(const Scene& scene) {
     throw UsageError("--color-space acescg needs an .exr output; other formats and films are sRGB");
 }
 
-/// Before anything is read.
+/// Checks the scene before anything is read.
 void check_scene(const RenderCommand& command) {
   const Scene& scene = command.scene;
   if (scene.frames.asked()) {
@@ -134,7 +134,7 @@ void check_scene(const RenderCommand& command) {
   check_picture(scene);
 }
 
-/// Whether the outputs can be written is known before the work begins; these vanish again.
+/// Opens the outputs before the work begins, so that errors come early, and removes them again.
 void check_files(const RenderCommand& command) {
   const Scene& scene = command.scene;
   if ((!scene.frames.asked() || is_film_path(scene.output)) && !command.resumes)
@@ -146,13 +146,13 @@ void check_files(const RenderCommand& command) {
   check_saved_camera(command);
 }
 
-/// On the CPU all of a picture is made while others are; by GL the surface, if it comes from the CPU, and one picture
-/// after another.
+/// Draws the figures. On the CPU several pictures are made at once; with GL the surfaces may be computed on the CPU at
+/// once, and pictures are drawn one after another.
 void draw_figures(FigureRun& run, const PictureLayout& layout, PictureSink& sink, PictureDevice& device) {
   std::optional<MotionBlur> blur;
   if (const int moments = run.scene().image.motion_blur; moments > 1)
     blur.emplace(run.scene(), moments, run.framing().cameras, device.context());
-  const auto keep = [&](SurfaceRenderer& renderer, FigureFrame frame) {
+  const auto keep = [&](StillRenderer& renderer, FigureFrame frame) {
     SinkPicture picture{frame.number, frame.place, frame.source, frame.time, frame.camera};
     if (run.scene().image.cryptomatte) picture.mattes = mattes_of(frame.figure.molecule.structure);
     picture.moves = !frame.velocities.empty();
@@ -173,7 +173,7 @@ void draw_figures(FigureRun& run, const PictureLayout& layout, PictureSink& sink
     for (const std::string& sentence : unseen) say(run.command(), "note: " + sentence);
     return finish;
   };
-  // Sums, samples and what a look needs of them; files.
+  // The estimate counts sums, samples and buffers of the look, and files.
   const PictureOutput& image = run.scene().image;
   const std::uint64_t bytes_per_pixel = 84 + static_cast<std::uint64_t>(channel_bytes(run.scene())) +
                                         (image.cryptomatte ? 4 * static_cast<std::uint64_t>(image.samples) : 0);
@@ -181,7 +181,7 @@ void draw_figures(FigureRun& run, const PictureLayout& layout, PictureSink& sink
   const FigureWork work{kSurfaceBytesPerAtom, bytes_per_pixel * size.x * size.y, device.context()};
   run.make(work, [&]() -> FigureRun::Sink {
     if (!device.context() && run.is_run()) {
-      std::shared_ptr<SurfaceRenderer> renderer = make_cpu_renderer();
+      const auto renderer = std::make_shared<StillRenderer>();
       return [&keep, renderer](FigureFrame frame) { return keep(*renderer, std::move(frame)); };
     }
     return [&](FigureFrame frame) -> FinishFrame {
@@ -206,7 +206,7 @@ void render_figures(const RenderCommand& command) {
   if (!run.is_run()) say_times(command, device.renderer().device(), device.renderer().times());
 }
 
-/// Whether surfaces are divided, or their pieces named or measured.
+/// True if surfaces are divided, or their pieces named or measured.
 bool needs_borders(const Scene& scene) {
   const MoleculeRequest& molecule = scene.molecule;
   return scene.image.aovs || molecule.patches || molecule.color.of_points() ||
@@ -214,7 +214,7 @@ bool needs_borders(const Scene& scene) {
          molecule.division.cavities != Cavities::keep;
 }
 
-/// Leaves the pictures that are missing, of a run their frames; false: none is.
+/// Keeps only the missing pictures, in a run their frames; false if none is missing.
 bool leave_missing(RenderCommand& command) {
   const bool is_run = command.scene.frames.asked();
   const std::optional<NumberedPath> pictures = NumberedPath::parse(command.scene.output);
@@ -225,7 +225,7 @@ bool leave_missing(RenderCommand& command) {
   std::vector<std::uint64_t> frames;
   if (is_run) {
     Scene scene = readied(command.scene);
-    settle_selections(scene.molecule, scene.frames, {});
+    settle_selections(scene);
     frames = FrameRun(scene.molecule, scene.frames).chunk();
     paths.clear();
     for (const std::uint64_t frame : frames) paths.push_back(pictures->at(frame));
@@ -240,7 +240,7 @@ bool leave_missing(RenderCommand& command) {
   return !missing.empty();
 }
 
-/// command: a copy, for a scene is saved as it was asked for.
+/// Takes a copy of the command, because the scene is saved as the user set it.
 void run(RenderCommand command) {
   if (command.is_draft) make_draft(command.scene);
   command.keeps_scene = command.names_program && !command.scene.frames.asked();
@@ -273,7 +273,7 @@ ImageSettings image_settings(const RenderCommand& command) {
 
 RenderSettings picture_settings(const RenderCommand& command, const PictureLayout& layout) {
   RenderSettings settings = render_settings(command.scene, layout);
-  // For pictures whose times are said.
+  // Exact times are needed only for pictures with printed times.
   if (command.stats || (!command.scene.frames.asked() && !command.reporting.quiet))
     settings.timing = StageTiming::exact;
   return settings;
@@ -288,7 +288,7 @@ void add_render(CLI::App& command) {
       "  meniscus render 1tii.pdb -o 1tii.png --color chain --preset flat --background white\n"
       "  meniscus render 1tii.pdb -o 1tii.exr --aovs --camera camera.json   depth, normals, atoms for compositing\n"
       "  meniscus render adk.psf --trajectory adk.dcd --frames all --superpose 'name CA' -o adk.mp4");
-  auto declared = std::make_shared<DeclaredCommand<RenderCommand>>(command, for_render);
+  auto declared = std::make_shared<DeclaredCommand<RenderCommand>>(command, render_properties());
   RenderCommand& state = declared->state;
   declared->options.describe_output(
       "Picture to write: .png, .jpg, .webp, .tif, .exr, .svg, .pdf [FILE's name here, as .png]; for frames: "

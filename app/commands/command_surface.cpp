@@ -26,11 +26,23 @@ std::vector<std::string> tables_of(const SurfaceCommand& command) {
   return paths;
 }
 
+TakenProperties surface_command_properties() {
+  return run_properties().with(
+      {"surface.patches", "surface.min_patch", "surface.by", "surface.cavities"},
+      {{{"surface.patches"},
+        [](const GivenScene& given) {
+          return !given.scene.frames.asked() || given.any({"report.csv_patches", "report.json"});
+        },
+        "of a run, patches are written by --csv-patches FILE or --json; add one of them"},
+       superposition_need({"report.csv_cavities", "report.gradients"}),
+       {{"report.open_sky"}, {"report.csv_atoms"}, "it is a column of --csv FILE; add that"}});
+}
+
 }  // namespace
 
 bool SurfaceCommand::prints_csv() const { return std::ranges::any_of(tables_of(*this), is_stdout); }
 
-// Whether the outputs can be written is known before the work begins; these vanish again.
+// Opens the outputs before the work begins, so that errors come early, and removes them again.
 void check_outputs(const SurfaceCommand& command) {
   if (command.plot == "-" || (!command.plot.empty() && !command.plot.ends_with(".svg")))
     throw UsageError(
@@ -94,9 +106,9 @@ void add_surface(CLI::App& command) {
       "probe than to any other contact.\nOver frames the tables of atoms and residues have rows for each frame. A "
       "cavity keeps its number while probes that\nrest in it, touching three atoms, overlap from one frame to the "
       "next.");
-  auto declared = std::make_shared<DeclaredCommand<SurfaceCommand>>(command, for_surface);
+  auto declared = std::make_shared<DeclaredCommand<SurfaceCommand>>(command, surface_command_properties());
   SurfaceCommand& state = declared->state;
-  state.scene.molecule.surface.timing = StageTiming::exact;  // each is printed
+  state.scene.molecule.surface.timing = StageTiming::exact;  // each time is printed
   PropertyOptions options(command);
   options.add("report.json", state.json);
   options.add("report.csv_atoms", state.atom_csv);
@@ -112,7 +124,7 @@ void add_surface(CLI::App& command) {
   options.add("report.resume", state.resumes);
   command.callback([declared] {
     declared->options.take();
-    // Parts of surfaces are cut out by planes, and rays meet patches within theirs.
+    // Parts of surfaces are cut out by planes, and rays meet patches within them.
     const Division& division = declared->state.scene.molecule.division;
     SurfaceCommand& asked = declared->state;
     MoleculeRequest& molecule = asked.scene.molecule;

@@ -11,7 +11,7 @@ namespace {
 
 void add_export(CLI::App& command) { describe(command, "  meniscus export FORMAT --help"); }
 
-/// The rows that have registered themselves, in the order in which the linker has their files.
+/// Returns the rows that have registered themselves, in the order of linking.
 std::vector<Command>& registered_exporters() {
   static std::vector<Command> rows;
   return rows;

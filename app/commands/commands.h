@@ -19,22 +19,22 @@ struct Command {
   std::span<const Command> (*below)() = nullptr;
 };
 
-/// A row of `meniscus export`. It adds itself to the table, so that a new format touches no other file.
+/// A row of `meniscus export`. It registers itself in the table, so that a new format touches no other file.
 struct ExportCommand {
   ExportCommand(const char* name, const char* summary, void (*add)(CLI::App& command));
 };
 
-/// The rows of `meniscus export`, by name.
+/// Returns the rows of `meniscus export`, by name.
 std::span<const Command> exporters();
 
-/// The commands of the program.
+/// Returns the commands of the program.
 std::span<const Command> commands();
 
-/// When commands declare their options: all at once, as their help and completion need them, or each when the command
-/// line reaches it.
+/// The time when commands declare their options: all at once, as help and completion need them, or each when the
+/// command line reaches it.
 enum class Declared { at_once, when_reached };
 
-/// Adds the commands and those below them; the rows have to live as long as `parent`.
+/// Adds the commands and their subcommands; the rows must outlive `parent`.
 void add_commands(CLI::App& parent, const std::string& heading, std::span<const Command> rows, Declared when);
 
 void add_bench(CLI::App& command);
@@ -55,7 +55,7 @@ void add_render(CLI::App& command);
 void add_surface(CLI::App& command);
 void add_work(CLI::App& command);
 
-/// Sets a command's examples, which its help shows first, and what else a reader should know.
+/// Sets a command's examples, which its help shows first, and further details.
 void describe(CLI::App& command, const std::string& examples, const std::string& details = "");
 
 }  // namespace meniscus

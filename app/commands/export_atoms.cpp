@@ -19,7 +19,7 @@
 namespace meniscus {
 namespace {
 
-// Where the atoms of merged() objects are, with the positions of another frame.
+// Returns the positions of the atoms of merged() objects in another frame.
 std::vector<glm::dvec3> placed_atoms(std::span<const SurfaceObject> objects, const Structure& structure) {
   std::vector<glm::dvec3> positions;
   for (const SurfaceObject& object : objects)
@@ -28,7 +28,7 @@ std::vector<glm::dvec3> placed_atoms(std::span<const SurfaceObject> objects, con
   return positions;
 }
 
-// Radii and colours are those of the first frame of the run.
+// Returns the molecule of the first frame, which has the radii and colours of the run.
 Molecule first_molecule(const SceneCommand& command, const FrameRun* run) {
   if (!run) return load_molecule(command);
   tell_run(command, *run);
@@ -45,7 +45,7 @@ void export_atoms(const SceneCommand& asked) {
     throw UsageError("--instances separate: of the atoms in the file one surface is made; leave it out");
   std::unique_ptr<FrameRun> run;
   if (command.scene.frames.asked()) {
-    settle_selections(command.scene.molecule, command.scene.frames);
+    settle_selections(command.scene);
     run = std::make_unique<FrameRun>(command.scene.molecule, command.scene.frames);
     if (run->atoms_change())
       throw UsageError(
@@ -79,7 +79,7 @@ void declare_atoms(CLI::App& command) {
       "For programs that compute surfaces themselves with libmeniscus, such as the panel of the Blender add-on. The "
       "file\n"
       "is described in exporters/blender/FORMAT.md; radii and colours are those of the first frame of a run.");
-  auto declared = std::make_shared<DeclaredCommand<>>(command, for_atoms);
+  auto declared = std::make_shared<DeclaredCommand<>>(command, run_properties().with({"Colour", "output.file"}));
   declared->options.describe_output("File to write");
   command.callback([declared] {
     declared->options.take();

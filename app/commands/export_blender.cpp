@@ -45,7 +45,7 @@ blender::SequenceManifest manifest_of(FigureRun& run) {
   return manifest;
 }
 
-// What all files of a run share; of one molecule there is none.
+// The common part of all files of a run; a single molecule has none.
 struct Sequence {
   blender::SequenceManifest manifest;
   std::string name;
@@ -57,7 +57,7 @@ std::string told_bytes(double bytes) {
   return bytes < 1e6 ? fmt::format("{:.2g} MB", bytes / 1e6) : fmt::format("{:.3g} MB", bytes / 1e6);
 }
 
-// How large a file will be, and those of a run (frames > 0) if all are like it.
+// Prints the size of a file, and of a run (frames > 0) if all its files are alike.
 void tell_size(const SceneCommand& command, const FigureMeshes& meshes, const MeshFineness& fineness, double bytes,
                std::size_t frames) {
   std::size_t triangles = 0;
@@ -70,8 +70,8 @@ void tell_size(const SceneCommand& command, const FigureMeshes& meshes, const Me
                            all < kLargeRun ? "" : "; fewer --frames, or a larger --tolerance, make it smaller"));
 }
 
-// A file of one molecule, or one for each frame of the chunk beside a manifest for all of the run, the same from every
-// chunk.
+// Writes a file of one molecule, or one for each frame of the chunk and a manifest for the whole run, which is the same
+// from every chunk.
 void export_to_blender(const SceneCommand& asked) {
   check_blender(asked.scene);
   check_saved_camera(asked);
@@ -136,7 +136,7 @@ void declare_blender(CLI::App& command) {
            "manifest\n"
            "  meniscus export blender 1tii.pdb -o 1tii.mns --density 1   even triangles, for modifiers and sculpting",
            "The default tolerance is half a pixel of --camera; without a camera it is 0.05 Å, of frames 0.2 Å.");
-  auto declared = std::make_shared<DeclaredCommand<>>(command, for_blender);
+  auto declared = std::make_shared<DeclaredCommand<>>(command, blender_properties());
   declared->options.describe_output(".mns file to write; for frames, a folder");
   declared->options.option("mesh.attributes")
       ->description(

@@ -26,7 +26,7 @@
 namespace meniscus {
 namespace {
 
-/// Of the file to write. Throws UsageError where nothing says which it is.
+/// Returns the format of the output. Throws UsageError if neither its name nor an option decides.
 const MeshFormat& format_of(const Scene& scene) {
   const std::string& word = scene.mesh.format;
   if (const std::filesystem::path path(scene.output); word == "usdc" || (word.empty() && path.extension() == ".usdc")) {
@@ -77,7 +77,7 @@ void tell(const SceneCommand& command, const MeshFormat& format, const MeshFileM
                              with_thousands(maker.flat_triangles())));
 }
 
-// Objects in files of their own, all or none of them.
+// Writes objects to files of their own, all or none of them.
 void write_numbered(const MeshFormat& format, const NumberedPath& path, Existing existing, MeshFile whole) {
   std::vector<FileObject> objects = std::exchange(whole.objects, {});
   const std::filesystem::path folder = std::filesystem::path(path.at(1)).parent_path();
@@ -102,7 +102,7 @@ FileMaterial material_of(const Scene& scene) {
   return {std::sqrt(std::sqrt(2.0f / (material.shininess + 2.0f))), (1.0f + amplitude) / (1.0f - amplitude)};
 }
 
-/// The mesh of one figure.
+/// Makes the mesh of one figure.
 MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFrame frame, bool is_told) {
   const Scene& scene = command.scene;
   Molecule& molecule = frame.figure.molecule;
@@ -127,13 +127,13 @@ MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFr
   return maker.take();
 }
 
-/// What a run comes to in one file, in the order of its frames.
+/// A run in one file, in the order of its frames.
 struct OneFile {
   std::vector<MeshFile> frames;
   RunTimes times;
 };
 
-// Before anything is computed.
+// Checks the output before anything is computed.
 void check_one_file(const MeshFormat& format, const Scene& scene) {
   if (!format.write_run)
     throw UsageError(fmt::format("-o {}: each frame needs a file of its own; put # where its number goes, as in {}",
@@ -184,8 +184,34 @@ void export_to_mesh(const SceneCommand& asked) {
   std::cout << escaped(command.scene.output) << "\n";
 }
 
+bool is_usd(const Scene& scene) {
+  return scene.mesh.format.starts_with("usd") || scene.output.ends_with(".usd") || scene.output.ends_with(".usda") ||
+         scene.output.ends_with(".usdz");
+}
+
+TakenProperties mesh_export_properties() {
+  return figure_properties().with(
+      {"-Figure", "surface.opacity", "-figure.object", "-camera.look_into", "-camera.path", "-camera.turntable",
+       "-camera.follow", "-camera.save", "look.preset", "look.specular", "look.shininess", "frames.fps", "Mesh"},
+      {{{"frames.fps"},
+        [](const GivenScene& given) { return given.scene.frames.asked() && is_usd(given.scene); },
+        "of meshes USD alone has times; name a file of a run, such as -o a.usda"},
+       {{"look.preset", "look.specular", "look.shininess"},
+        [](const GivenScene& given) {
+          return is_usd(given.scene) || given.scene.mesh.format == "glb" || given.scene.output.ends_with(".glb");
+        },
+        "of meshes USD and GLB alone have materials; name a file of one of them, such as -o a.usda"},
+       {{"image.size", "image.width", "image.height", "camera.projection", "camera.view", "camera.turn",
+         "camera.zoom_to", "camera.from"},
+        [](const GivenScene& given) {
+          return given.any({"mesh.tolerance_pixels"}) ||
+                 (given.any({"camera.from"}) && !given.any({"mesh.tolerance", "mesh.density"}));
+        },
+        "a mesh has no picture; they matter for --tolerance-pixels alone"}});
+}
+
 void declare(CLI::App& command, const std::string& format) {
-  auto declared = std::make_shared<DeclaredCommand<>>(command, for_mesh);
+  auto declared = std::make_shared<DeclaredCommand<>>(command, mesh_export_properties());
   declared->options.describe_output(
       format.empty() ? "File to write; its ending chooses the format; for frames with # for the number"
                      : "PLY file to write");

@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kLargeArchive = 50e6;
 
-/// What such a view cannot have is refused before anything is computed.
+/// Refuses settings that such a view cannot have, before anything is computed.
 void check(const SceneCommand& command) {
   const Scene& scene = command.scene;
   const auto refuse = [](const char* option, const char* why) {
@@ -87,7 +87,13 @@ void declare_mvs(CLI::App& command) {
       "  meniscus export mvs adk.psf adk.dcd --frames 0-90:10 -o adk.mvsx     a state for each frame",
       "The view has the mesh in the colours of the figure, cut with its caps, what is drawn beside it, and the camera. "
       "Viewers light it\nin their own way, and shade each triangle flat.");
-  auto declared = std::make_shared<DeclaredCommand<>>(command, for_path_tracers);
+  auto declared = std::make_shared<DeclaredCommand<>>(
+      command, traced_properties().with({}, {{{"image.width", "image.height"},
+                                              [](const GivenScene& given) {
+                                                return !given.any({"mesh.tolerance"}) ||
+                                                       (given.any({"image.width"}) && given.any({"image.height"}));
+                                              },
+                                              "viewers choose the size, and --tolerance says how fine the mesh is"}}));
   declared->options.describe_output("MolViewSpec archive to write (.mvsx)");
   command.callback([declared] {
     declared->options.take();

@@ -31,13 +31,13 @@ namespace meniscus {
 namespace {
 
 constexpr double kManyBytes = 15e6;
-constexpr std::size_t kMostBytes = 250'000'000;  // a browser's text has no more than 2^29 letters
+constexpr std::size_t kMostBytes = 250'000'000;  // a browser's text has at most 2^29 letters
 
 struct PageCommand : SceneCommand {
   std::vector<std::string> named_views;
 };
 
-/// A picture as JPEG, on its background. Throws Error where there is no OpenImageIO.
+/// Returns a picture as JPEG, on its background. Throws Error if there is no OpenImageIO.
 page::StillPicture jpeg_still(const Framebuffer& drawn, const Look& look) {
   std::vector<float> pixels;
   pixels.reserve(3 * drawn.color.size());
@@ -65,7 +65,7 @@ page::StillPicture still_picture(const Framebuffer& drawn, const Look& look) {
   }
 }
 
-/// The page of a run, or of the one frame that a molecule is.
+/// The page of a run; a molecule is a run of one frame.
 class PageRun {
  public:
   PageRun(FigureRun& run, const NamedViews& views) : run_(run), views_(views) {
@@ -79,7 +79,7 @@ class PageRun {
     longest_ = run.frames().last_time().value_or(0.0);
   }
 
-  /// On any thread.
+  /// Packs a figure, on any thread.
   FinishFrame take(FigureFrame frame) {
     page::SceneFrame shown = common_;
     shown.camera = frame.camera;
@@ -91,7 +91,7 @@ class PageRun {
   }
 
  private:
-  /// In the order of the run. The last one writes the page: there is none where a frame failed.
+  /// Adds the frames in the order of the run. The last one writes the page: there is no page if a frame failed.
   MadeFrame add(page::PackedFrame frame) {
     const std::size_t before = page_.bytes();
     page_.add(std::move(frame));
@@ -109,7 +109,7 @@ class PageRun {
     return {{run_.scene().output}};
   }
 
-  /// Before the others are made. of_first: bytes of the page with the first alone.
+  /// Prints the size before the other frames are made. of_first: bytes of the page with only the first frame.
   void tell_size(std::size_t of_first) const {
     const std::size_t all = of_first + (frame_count_ - 1) * (page_.bytes() - of_first);
     say(run_.command(),
@@ -161,9 +161,14 @@ void declare_page(CLI::App& command) {
       "  meniscus export page 1tii.pdb -o 1tii.html --named-view 'Active site=site.json' --named-view Back=back.png",
       "The page fetches nothing, and casts the exact patches by WebGL 2 in the browser that opens it. Others "
       "see\na still picture that is in it. Frames of a run are all in the page, each with its own patches.");
-  auto declared = std::make_shared<DeclaredCommand<PageCommand>>(command, for_page);
+  auto declared = std::make_shared<DeclaredCommand<PageCommand>>(
+      command, figure_properties().with({"surface.patches", "surface.min_patch", "Light", "Lines", "-look.material",
+                                         "-look.ambient_occlusion_rays", "-look.shadows", "-look.shadow_softness",
+                                         "-frames.only", "-camera.path", "-camera.turntable", "-camera.follow",
+                                         "image.background", "annotations.labels"}));
   PropertyOptions(command).add("camera.named_views", declared->state.named_views);
   declared->options.describe_output("HTML file to write");
+  declared->options.show_anyway("legend.shown");
   command.callback([declared, &command] {
     declared->options.take();
     const bool trusts_scenes = command.count("--trust-scene") > 0;

@@ -37,7 +37,7 @@ void tell(const PathTracerCommand& command, const path_tracers::SceneReport& rep
                            with_thousands(report.cylinders)));
 }
 
-// A line of a POSIX shell, for one scene or for all of a run.
+// Returns a line for a POSIX shell that renders one scene or the whole run.
 std::string render_command(const PathTracerCommand& command, bool of_a_run) {
   const bool mitsuba = command.renderer == path_tracers::Renderer::mitsuba;
   const std::string_view program = mitsuba ? "mitsuba" : "pbrt", ending = mitsuba ? "xml" : "pbrt";
@@ -46,7 +46,7 @@ std::string render_command(const PathTracerCommand& command, bool of_a_run) {
   return fmt::format("cd {} && for scene in surface_*.{}; do {} $scene || break; done", folder, ending, program);
 }
 
-// Before anything is computed.
+// Checks the scene before anything is computed.
 void check(const PathTracerCommand& command) {
   const auto is_film = [](const FigureObjectRequest& object) { return object.thickens; };
   if (command.scene.figure.thickens || std::ranges::any_of(command.scene.figure.objects, is_film))
@@ -62,7 +62,7 @@ void check(const PathTracerCommand& command) {
   check_saved_camera(command);
 }
 
-// A scene of one molecule, or one for each frame of the chunk, all with one origin.
+// Writes a scene of one molecule, or one for each frame of the chunk, all with one origin.
 void run(const PathTracerCommand& command) {
   check(command);
   FigureRun run(command);
@@ -88,7 +88,7 @@ void run(const PathTracerCommand& command) {
 }
 
 void declare(CLI::App& command, path_tracers::Renderer renderer) {
-  auto declared = std::make_shared<DeclaredCommand<PathTracerCommand>>(command, for_path_tracers);
+  auto declared = std::make_shared<DeclaredCommand<PathTracerCommand>>(command, traced_properties());
   declared->state.renderer = renderer;
   declared->options.describe_output("Folder to write; created if missing");
   const Property& material = property_of("path_tracers.material");
@@ -96,7 +96,7 @@ void declare(CLI::App& command, path_tracers::Renderer renderer) {
   command.callback([declared] {
     declared->options.take();
     PathTracerCommand& state = declared->state;
-    // As fine as the picture, unless another tolerance is asked for.
+    // The default is the fineness of the picture.
     if (!declared->options.is_given("mesh.tolerance") && !declared->options.is_given("mesh.tolerance_pixels"))
       state.scene.mesh.tolerance_pixels = kPixelsOfACamera;
     using enum path_tracers::Material;

@@ -28,8 +28,8 @@
 namespace meniscus {
 namespace {
 
-// One table of colours for all frames: those that any rule can give to any atom. Nothing where each frame needs a table
-// of its own: where colours change from frame to frame, or objects have colours of their own.
+// Returns one table of colours for all frames: all colours that any rule can give to any atom. Nothing if each frame
+// needs a table of its own, because colours change from frame to frame, or objects have colours of their own.
 std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& asked, const ColorScheme& scheme,
                                                              const Structure& reach, const Coloring& beside) {
   if (scheme.changes_with_frames() || asked.figure.hides_surface || !asked.figure.objects.empty()) return {};
@@ -55,7 +55,7 @@ std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& asked,
   return all.colors();
 }
 
-// What all frames of a run share: one scene, the same from every chunk.
+// Returns the common part of all frames of a run: one scene, the same from every chunk.
 povray::SequenceScene sequence_of(FigureRun& run, povray::SceneOptions options) {
   const Scene& asked = run.scene();
   const FigureRequest& figure = asked.figure;
@@ -80,7 +80,7 @@ povray::SequenceScene sequence_of(FigureRun& run, povray::SceneOptions options) 
   return povray::SequenceScene(std::move(shared), options, asked.output);
 }
 
-// The scene of one molecule, or the part of the run's that is this frame.
+// Writes the scene of one molecule, or the part of the run's scene for this frame.
 povray::SceneReport write_figure(const Scene& asked, povray::SceneOptions options, const FigureFrame& frame,
                                  const povray::SequenceScene* sequence) {
   const Figure& figure = frame.figure;
@@ -120,7 +120,7 @@ void export_to_povray(const SceneCommand& command) {
       say(command, fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));
       render_command = report.command;
     }
-    // Notes of later frames would differ in their numbers only.
+    // Notes of later frames would differ only in their numbers.
     if (!noted)
       for (const std::string& note : report.notes)
         say(command, sequence ? fmt::format("note: frame {}: {}", number, note) : "note: " + note);
@@ -148,7 +148,7 @@ void declare_povray(CLI::App& command) {
            "pictures\nhave the numbers of the trajectory. To share the work among machines, give each the same options "
            "and its --only, and\nrender with +SF and +EF. povray 'surface.ini[film]' renders a run in any order and "
            "counts pictures from 1.");
-  auto declared = std::make_shared<DeclaredCommand<>>(command, for_povray);
+  auto declared = std::make_shared<DeclaredCommand<>>(command, povray_properties());
   declared->options.describe_output("Folder to write; created if missing");
   const Property& material = property_of("povray.material");
   declared->options.option("look.material")->description(help_of(material))->check(proposes(words_of(material)));

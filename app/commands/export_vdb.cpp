@@ -25,7 +25,7 @@
 namespace meniscus {
 namespace {
 
-// What the band takes of a frame, about: its voxels and their file.
+// The approximate memory of a frame: the voxels of the band and their file.
 constexpr std::uint64_t kBandBytesPerAtom = 50'000;
 
 struct VdbCommand : SceneCommand {
@@ -51,7 +51,7 @@ void export_to_vdb(const VdbCommand& asked) {
   if (scene.frames.asked() && !numbered)
     throw UsageError(fmt::format("-o {}: each frame needs a file of its own; put # where its number goes, as in {}",
                                  in_quotes(scene.output), in_quotes(numbered_name(scene.output))));
-  settle_selections(command.scene.molecule, command.scene.frames);
+  settle_selections(command.scene);
   NumberRun run(command);
   const auto make_worker = [&](const std::shared_ptr<MoleculeBuilder>& builder) -> NumberRun::Worker {
     return [&, builder](NumberedStructure numbered_structure) -> FinishFrame {
@@ -81,7 +81,8 @@ void declare_vdb(CLI::App& command) {
            "The grid `surface` has the Euclidean distance from the exact surface at each voxel of a band around it, "
            "negative in\nthe solid: a level set, as Houdini, Blender and OpenVDB's own tools take it. Voxel i, j, k is "
            "at i, j, k times --voxel.");
-  auto declared = std::make_shared<DeclaredCommand<VdbCommand>>(command, for_vdb);
+  auto declared = std::make_shared<DeclaredCommand<VdbCommand>>(
+      command, run_properties().with({"mesh.unit", "mesh.scale", "output.file", "scene.save"}));
   declared->options.describe_output("File to write; for frames with # for the number");
   PropertyOptions options(command);
   options.add("distances.voxel", declared->state.voxel);

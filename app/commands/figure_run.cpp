@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a scene's molecule or run, aims its cameras, and hands its figures to sinks.
+// Reads a scene's molecule or run, aims its cameras, and passes its figures to sinks.
 #include "app/commands/figure_run.h"
 
 #include <algorithm>
@@ -23,12 +23,11 @@ namespace {
 SceneCommand ready(const SceneCommand& command) {
   SceneCommand made = command;
   made.scene = readied(command.scene);
-  settle_selections(made.scene.molecule, made.scene.frames,
-                    {.figure = &made.scene.figure, .view = &made.scene.picture, .motion = &made.scene.run_camera});
+  settle_selections(made.scene);
   return made;
 }
 
-/// In the order of the frames' numbers, which a run may have in any order.
+/// Returns the keys in ascending order of the frames' numbers, because a run may have them in any order.
 std::vector<CameraKey> keys_of(std::span<const Camera> cameras, std::span<const std::uint64_t> frames) {
   std::vector<CameraKey> keys;
   for (std::size_t n = 0; n < frames.size(); ++n) keys.push_back({static_cast<double>(frames[n]), cameras[n]});
@@ -48,7 +47,7 @@ FigureRun::FigureRun(const SceneCommand& command, Velocities velocities)
 
 void FigureRun::open_run(Velocities velocities) {
   MoleculeRequest& molecule = command_.scene.molecule;
-  // Where pages open, atoms do not go on from where they were.
+  // Atoms that move where an open book opens have no velocity from their old positions.
   frames_ =
       std::make_unique<FrameRun>(molecule, command_.scene.frames, molecule.interface ? Velocities::none : velocities);
   shown_ = std::make_unique<ShownFrames>(molecule, *frames_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The figures that a command makes from a scene: one of a molecule, or one of each frame of a run.
+// Makes the figures of a scene: one of a molecule, or one for each frame of a run.
 #pragma once
 
 #include <algorithm>
@@ -27,69 +27,71 @@
 
 namespace meniscus {
 
-/// A figure on its way to where it is drawn or written.
+/// A figure and its frame.
 struct FigureFrame {
-  std::uint64_t number = 0;    ///< in the run, by which files are named
-  std::uint64_t source = 0;    ///< in the trajectory
-  std::uint64_t place = 0;     ///< in the run, from 0
+  std::uint64_t number = 0;    ///< number in the run, which names files
+  std::uint64_t source = 0;    ///< number in the trajectory
+  std::uint64_t place = 0;     ///< index in the run, from 0
   std::optional<double> time;  ///< ps
   Figure figure;
   Camera camera;
   std::vector<glm::dvec3> velocities;  ///< RunFrame::velocities
 };
 
-/// What the figures of a run need while they are made.
+/// The resources that the figures of a run need.
 struct FigureWork {
-  std::uint64_t bytes_per_atom = 0;     ///< that a frame takes until it is finished
-  std::uint64_t bytes_per_frame = 0;    ///< on top of that, however many atoms it has
-  const EglContext* context = nullptr;  ///< in which surfaces on GL are made; nullptr: in one of their own
+  std::uint64_t bytes_per_atom = 0;     ///< memory of a frame until it is finished, per atom
+  std::uint64_t bytes_per_frame = 0;    ///< in addition to that, for any number of atoms
+  const EglContext* context = nullptr;  ///< the context for surfaces on GL; nullptr: one of their own
 };
 
-/// A picture is a run of one frame: one loop makes both. Of one molecule the figure is made at once; of a run each is
-/// made when its turn comes, several at a time.
+/// The figures of a molecule or a run, made by one loop: a picture is a run of one frame. The figure of one molecule is
+/// made at once; figures of a run are made in turn, several at a time.
 class FigureRun {
  public:
-  /// Reads the molecule and computes its figure, or opens the run; and says so. Throws what reading and computing
-  /// throw.
+  /// Reads the molecule and computes its figure, or opens the run; and prints what it read. Throws the errors of
+  /// reading and computing.
   explicit FigureRun(const SceneCommand& command, Velocities velocities = Velocities::none);
 
-  /// Finds the camera of each frame. picture: with the size of the part that the molecule has. extent: framing() also
-  /// has the box around all frames. Throws as run_cameras does.
+  /// Finds the camera of each frame. picture: with the size of the part of the picture for the molecule. extent:
+  /// framing() also has the box around all frames. Throws like run_cameras.
   void aim(const ViewRequest& picture, bool extent);
 
-  /// The camera for another picture of the same, of a run for all its frames. given: by a file. Throws as aim().
+  /// Returns the camera for another picture of the same figure, in a run for all its frames. given: a camera from a
+  /// file. Throws like aim().
   Camera camera_for(const ViewRequest& picture, const std::optional<Camera>& given);
-  /// Takes from all frames what the colours of a scheme mean in each; of one molecule nothing changes.
+  /// Measures in all frames the numbers by which a scheme colours; does nothing for a single molecule.
   void measure(ColorScheme& color);
 
   bool is_run() const { return frames_ != nullptr; }
-  /// The command with its selections settled, the atoms beside the surface asked for, and colours measured.
+  /// Returns the command with resolved selections, with the atoms drawn in addition to the surface, and with measured
+  /// colours.
   const SceneCommand& command() const { return command_; }
   const Scene& scene() const { return command_.scene; }
-  /// Of a run: must be one.
+  /// Returns the frames. The command must make a run.
   FrameRun& frames() { return *frames_; }
   const RunFraming& framing() const { return framing_; }
   const Camera& camera(std::uint64_t place) const { return framing_.cameras[framing_.cameras.size() == 1 ? 0 : place]; }
-  /// Returns the camera of the next place; at the last place, that place's own.
+  /// Returns the camera of the next frame; at the last frame, its own camera.
   const Camera& next_camera(std::uint64_t place) const {
     return framing_.cameras[std::min<std::size_t>(place + 1, framing_.cameras.size() - 1)];
   }
-  /// --save-camera, once they are found. Throws OutputError.
+  /// Saves the cameras for --save-camera, once they are found. Throws OutputError.
   void save_cameras() const;
-  /// Of one molecule: must be.
+  /// Returns the figure. The command must make a single molecule.
   const Figure& figure() const { return *figure_; }
-  /// Of the molecule, or at the first frame of the run; as it is shown.
+  /// Returns the shown structure, of the molecule or of the first frame of the run.
   const Structure& structure() const { return frames_ ? shown_->first_shown() : figure_->molecule.structure; }
-  /// With all atoms that any frame may have.
+  /// Returns the structure with all atoms that any frame may have.
   const Structure& reach() const { return frames_ ? frames_->reach() : figure_->molecule.structure; }
-  /// What the colours of all figures mean.
+  /// Returns the meaning of the colours of all figures.
   ColorKey key() const;
 
-  /// Makes what leads from a figure to its file, perhaps on a thread of its own; what it returns is done in the order
-  /// of the frames.
+  /// Makes the file of a figure, perhaps on a thread of its own; the function that it returns runs in the order of the
+  /// frames.
   using Sink = std::function<FinishFrame(FigureFrame frame)>;
-  /// Hands all figures to sinks: each thread has one of its own. Of one molecule what the sink throws is thrown. Throws
-  /// as run_frames does.
+  /// Passes all figures to sinks; each thread has a sink of its own. For a single molecule, the errors of the sink are
+  /// thrown. Throws like run_frames.
   void make(const FigureWork& work, const std::function<Sink()>& make_sink);
 
  private:
@@ -98,32 +100,32 @@ class FigureRun {
   void tell_idle_cuts() const;
 
   SceneCommand command_;
-  GivenCameras given_;  ///< by files
+  GivenCameras given_;  ///< cameras from files
   std::unique_ptr<FrameRun> frames_;
   std::unique_ptr<ShownFrames> shown_;
   RunFraming framing_;
-  std::optional<Figure> figure_;  ///< of one molecule
+  std::optional<Figure> figure_;  ///< for a single molecule
   std::optional<ViewAim> aim_;
 };
 
-/// Makes one object of several copies where planes are to cut them, each elsewhere, or where they differ.
+/// Merges several copies into one object if planes cut them at different places, or if the copies differ.
 void settle_copies(std::vector<SurfaceObject>& objects, bool are_cut);
 
-/// Throws UsageError if caps would have to show values of a map, which the files do not hold. reason: that sentence.
+/// Throws UsageError if caps would have to show values of a map, which the files do not contain. reason: the message.
 void check_caps_of_map(const Scene& scene, std::string_view reason);
 
-/// Before anything is computed. Throws OutputError if the file of --save-camera cannot be written.
+/// Throws OutputError if the file of --save-camera cannot be written; must be called before anything is computed.
 void check_saved_camera(const SceneCommand& command);
 
-/// --save-camera: writes the camera, or where it moves those of all frames as the keys of a path. frames: their
-/// numbers; none of one molecule. Throws OutputError.
+/// Saves the camera for --save-camera; if it moves, the cameras of all frames as the keys of a path. frames: their
+/// numbers; empty for a single molecule. Throws OutputError.
 void save_cameras(const SceneCommand& command, std::span<const Camera> cameras, std::span<const std::uint64_t> frames);
 
-/// As run_frames takes them.
+/// Returns the result of a frame in the form that run_frames takes.
 MadeFrame made_frame(std::span<const std::filesystem::path> files);
 
-/// Runs a command whose options are taken, and saves its scene, if that is asked for, when all is done. Throws what
-/// `run` throws, and OutputError before it if the scene cannot be saved.
+/// Runs a command whose options are taken, and then saves its scene, if requested. Throws the errors of `run`, and
+/// OutputError before it if the scene cannot be saved.
 void run_and_save_scene(const SceneCommand& command, const std::function<void()>& run);
 
 }  // namespace meniscus

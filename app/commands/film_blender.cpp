@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus film --to blender`: writes a storyboard as surfaces, and when and how each of them is shown.
+// `meniscus film --to blender`: writes a storyboard as surfaces, with the times and the way in which each is shown.
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -114,7 +114,7 @@ class BlenderFilm {
     });
   }
 
-  /// The name of the file with it: of an earlier scene, if that looks the same.
+  /// Returns the name of the file with the surface, which may be that of an earlier scene with the same look.
   std::string write_surface(std::size_t n, FigureFrame frame) {
     const SceneCommand& command = storyboard_.scene(n).run.command();
     const MeshFineness fineness{blender::kTolerance, {}, 0.0, false};
@@ -140,7 +140,7 @@ class BlenderFilm {
   Progress progress_;
   blender::Story story_;
   Box extent_;
-  std::vector<std::unique_ptr<OutputFile>> files_;  ///< with surfaces, until all are there
+  std::vector<std::unique_ptr<OutputFile>> files_;  ///< surfaces, kept open until all are complete
 };
 
 }  // namespace

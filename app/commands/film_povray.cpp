@@ -46,7 +46,7 @@ bool sees_through(std::span<const OpacityRule> rules) {
   return std::ranges::any_of(rules, [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; });
 }
 
-/// What the frames share: all that any scene has. Throws UsageError where they cannot.
+/// Returns the common settings of all frames. Throws UsageError if scenes differ where they must not.
 povray::Run shared_by(Storyboard& storyboard) {
   povray::Run all;
   all.surface = false;
@@ -76,7 +76,8 @@ povray::Run shared_by(Storyboard& storyboard) {
   return all;
 }
 
-/// Options of numbers that change on the way in pictures, but not in POV-Ray, whose light is its own.
+/// Returns options with numbers that change during transitions in pictures, but not in POV-Ray, which has its own
+/// light.
 std::string changes_left_out(Storyboard& storyboard) {
   std::set<std::string> names;
   const auto look = [&](std::size_t n) {
@@ -108,7 +109,8 @@ std::vector<std::string> left_out_of_povray(Storyboard& storyboard) {
   return sentences;
 }
 
-/// What stands beside the surface in any scene: nothing, where it is not that of `figure`.
+/// Returns the objects drawn in addition to the surface in any scene: empty objects for scenes other than that of
+/// `figure`.
 std::vector<povray::SceneObject> objects_of(Storyboard& storyboard, std::size_t scene, const MoleculeShot& shot) {
   std::vector<povray::SceneObject> objects;
   for (std::size_t n = 0; n < storyboard.size(); ++n) {
@@ -163,7 +165,7 @@ class PovrayFilm : public FilmMaker {
     progress_.advance(1);
   }
 
-  /// The number of the frame. scene: whose shot it is.
+  /// Returns the number of the frame. scene: the scene of the shot.
   std::uint64_t write(const MoleculeShot& shot, std::size_t scene) {
     const Look& look = shot.settings.look;
     const FigureRequest& asked = shot.scene.figure;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Words about the fineness of meshes, the warning of large ones, and what chains bury of each other.
+// Texts about the fineness of meshes, warnings of large ones, and buried areas between chains.
 #include "app/commands/mesh_notes.h"
 
 #include <algorithm>

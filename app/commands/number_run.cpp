@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Passes one structure, or those of all frames, to the code that computes their numbers.
+// Passes one structure, or the structures of all frames, to the code that computes their numbers.
 #include "app/commands/number_run.h"
 
 #include <utility>
@@ -48,13 +48,13 @@ void NumberRun::make_molecule(const Worker& worker) {
 
 void NumberRun::make_frames(std::vector<FrameWorker> workers, const std::function<void()>& commit) {
   SceneCommand command = command_;
-  // On a terminal the rows themselves tell how far it is; a bar would run into them.
+  // On a terminal the rows show the progress; a bar would collide with them.
   ProgressStyle& progress = command.reporting.progress;
   if (progress == ProgressStyle::automatic && ::isatty(STDOUT_FILENO)) progress = ProgressStyle::none;
   try {
     run_frames(*frames_, command, std::move(workers));
   } catch (const RunError&) {
-    commit();  // of a run that misses some frames the others are kept; the exit code tells
+    commit();  // a run with failed frames keeps the others; the exit code reports it
     throw;
   }
   commit();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers that a command prints: of one molecule, or of each frame of a run.
+// Computes the numbers that a command prints: of one molecule, or of each frame of a run.
 #pragma once
 
 #include <cstdint>
@@ -17,32 +17,32 @@
 
 namespace meniscus {
 
-/// A structure on its way to its numbers.
+/// A structure and its frame.
 struct NumberedStructure {
   Structure structure;
-  Structure together;             ///< RunFrame::together, of a single molecule likewise
-  std::optional<FrameNote> note;  ///< which frame it is; nothing: it is a single molecule
-  std::uint64_t number = 0;       ///< of a frame, in the run, by which files are named
+  Structure together;             ///< RunFrame::together; a single molecule has it, too
+  std::optional<FrameNote> note;  ///< the frame; nothing for a single molecule
+  std::uint64_t number = 0;       ///< number of the frame in the run, which names files
 };
 
-/// A molecule is a run of one frame: one loop makes the numbers of both.
+/// The structures of a molecule or a run, passed on by one loop: a molecule is a run of one frame.
 class NumberRun {
  public:
-  /// command: its selections settled; must live as long. Reads the molecule or opens the run, and says so. Throws what
-  /// reading throws.
+  /// command: has resolved selections, and must outlive this object. Reads the molecule or opens the run, and prints
+  /// what it read. Throws the errors of reading.
   explicit NumberRun(const SceneCommand& command);
 
   bool is_run() const { return frames_ != nullptr; }
-  /// Of a run: must be one.
+  /// Returns the frames. The command must make a run.
   const FrameRun& frames() const { return *frames_; }
-  /// Of the molecule, or at the first frame of the run.
+  /// Returns the structure of the molecule, or of the first frame of the run.
   const Structure& structure() const { return frames_ ? frames_->structure() : molecule_; }
 
-  /// Does what can be done while others are worked on, perhaps on a thread of its own; what it returns is done in the
-  /// order of the frames.
+  /// Does the part of the work that can run at the same time as other frames, perhaps on a thread of its own; the
+  /// function that it returns runs in the order of the frames.
   using Worker = std::function<FinishFrame(NumberedStructure structure)>;
-  /// Hands all structures to workers: each thread has one of its own, with a builder. At the end commit() keeps what
-  /// was made, even if some frames failed. Throws as run_frames does; of one molecule what the worker throws.
+  /// Passes all structures to workers; each thread has a worker of its own, with a builder. At the end commit() keeps
+  /// the results, even if some frames failed. Throws like run_frames; for a single molecule, the errors of the worker.
   void make(std::uint64_t bytes_per_atom,
             const std::function<Worker(const std::shared_ptr<MoleculeBuilder>& builder)>& make_worker,
             const std::function<void()>& commit);
@@ -53,10 +53,10 @@ class NumberRun {
 
   const SceneCommand& command_;
   std::unique_ptr<FrameRun> frames_;
-  Structure molecule_;  ///< unless it is a run
+  Structure molecule_;  ///< empty for a run
 };
 
-/// Of an atom of the structure a number that it has in all frames of the run, and no other atom has.
+/// Returns the number of an atom of the structure that is the same in all frames of the run, and unique.
 std::uint32_t lasting_number(const Structure& structure, std::uint32_t atom);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads named views from cameras and scenes, and aims them at what a page shows.
+// Reads named views from cameras and scenes, and aims them at the contents of a page.
 #include "app/commands/page_views.h"
 
 #include <algorithm>
@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "app/commands/scene_files.h"
-#include "app/options/scene_trust.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
@@ -23,20 +22,20 @@
 namespace meniscus {
 namespace {
 
-/// A picture, or a text that says so.
+/// True for a picture, or a text that is a scene.
 bool is_scene(const std::string& file) {
   std::error_code unreadable;
   if (file.starts_with('{') || !std::filesystem::is_regular_file(path_of_text(file), unreadable)) return false;
   return is_png(file) || read_scene_text(file).find("\"meniscus_scene\"") != std::string::npos;
 }
 
-/// That of all atoms alike; 1 where some differ.
+/// Returns the opacity of all atoms; 1 if some differ.
 float opacity_of(const Scene& scene) {
   const std::vector<OpacityRule>& rules = scene.molecule.color.opacities;
   return rules.size() == 1 && !rules.front().atoms ? rules.front().opacity : 1.0f;
 }
 
-/// Says of which view an error is.
+/// Adds the name of the view to errors.
 template <typename Work>
 void named(const std::string& name, const Work& work) {
   try {

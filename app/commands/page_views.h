@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Views that readers of a page choose by their names, as --named-view asks for them.
+// The views of a page with names that readers choose (--named-view).
 #pragma once
 
 #include <optional>
@@ -14,24 +14,25 @@
 
 namespace meniscus {
 
-/// The views that --named-view NAME=FILE asks for. FILE is a camera, as for --camera, or a scene, whose camera, cuts
-/// and opacity of all atoms are taken.
+/// The views of --named-view NAME=FILE. FILE is a camera, as for --camera, or a scene, which provides its camera, its
+/// cuts and the opacity of all atoms.
 class NamedViews {
  public:
-  /// Reads the files, which no output replaces. trusts_scenes: they may name any files. Throws UsageError, and what
-  /// reading them throws.
+  /// Reads the files and protects them from being replaced by outputs. trusts_scenes: scenes may name any files. Throws
+  /// UsageError, and the errors of reading.
   NamedViews(const std::vector<std::string>& texts, const SceneCommand& page, bool trusts_scenes);
 
-  /// Finds their cameras. Throws as FigureRun::camera_for(), the view named.
+  /// Finds the cameras. Throws like FigureRun::camera_for(), with the name of the view.
   void aim(FigureRun& run);
-  /// As they show a figure, with its objects. Throws as cut_atoms() does, the view named. After aim().
+  /// Returns the views of a figure with its objects; call aim() first. Throws like cut_atoms(), with the name of the
+  /// view.
   std::vector<page::PageView> of(const Scene& page, const Figure& figure) const;
 
  private:
   struct View {
     std::string name;
-    Scene scene;                   ///< with the page's size
-    std::optional<Camera> camera;  ///< by a file, until it is aimed
+    Scene scene;                   ///< with the size of the page
+    std::optional<Camera> camera;  ///< from a file, until the view is aimed
   };
   std::vector<View> views_;
 };

@@ -20,7 +20,7 @@
 namespace meniscus {
 namespace {
 
-/// Tells how far a picture is that takes long on the CPU; GL makes it in a fraction of the time.
+/// Reports the progress of a picture that takes long on the CPU; GL makes it in a fraction of the time.
 class PictureProgress {
  public:
   PictureProgress(const RenderCommand& command, RenderSettings& settings) {
@@ -40,7 +40,7 @@ class PictureProgress {
     told_ = parts;
   }
 
-  static constexpr double kManyRays = 5e7;  // some seconds
+  static constexpr double kManyRays = 5e7;  // a few seconds
   static constexpr std::uint64_t kParts = 100;
   std::optional<Progress> progress_;
   std::uint64_t told_ = 0;
@@ -52,9 +52,9 @@ std::optional<Curve> curve_of_run(const Scene& scene, const FrameRun& run) {
   return curve_of(scene.annotations, numbers);
 }
 
-/// Of pictures whose size is one on paper.
+/// Warns of small letters in pictures with a size on paper.
 void tell_small_letters(const RenderCommand& command, const PictureLayout& layout) {
-  constexpr double kPointsPerInch = 72.0, kLeast = 5.0;  // what most journals ask for
+  constexpr double kPointsPerInch = 72.0, kLeast = 5.0;  // the limit of most journals
   const Scene& scene = command.scene;
   if (!scene_values::has_lengths_of_sides(scene) || scene.picture.dots_per_inch <= 0.0) return;
   const glm::ivec2 size = layout.size.size() + glm::ivec2(0, layout.strips.top + layout.strips.bottom);
@@ -93,7 +93,7 @@ FrameAnnotations::FrameAnnotations(const Scene& scene, FrameRun* run)
 Annotations FrameAnnotations::of(const SinkPicture& picture, const Structure& structure) const {
   Annotations annotations = annotations_of(request_, structure);
   if (!is_run_) return annotations;
-  annotations.labels_must_fit = false;  // the pictures beside it would lack one
+  annotations.labels_must_fit = false;  // otherwise the other pictures would lack one
   if (request_.time_stamp) annotations.time = time_text(picture.time, picture.source, longest_);
   annotations.curve = curve_;
   if (curve_) annotations.curve->now = picture.place;
@@ -135,7 +135,7 @@ void check_pictures(const NumberedPath& path, std::span<const std::uint64_t> num
     std::error_code ignored;
     return std::filesystem::exists(std::filesystem::symlink_status(path.at(number), ignored));
   };
-  // The first for its folder as well.
+  // The first path is checked for its folder as well.
   check_output(path.at(numbers.front()), existing);
   if (existing == Existing::replace) return;
   const auto there = std::ranges::find_if(numbers, is_there);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the pictures of `meniscus render` go: a file, numbered files, or a film.
+// The destination of the pictures of `meniscus render`: a file, numbered files, or a film.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +22,9 @@ namespace meniscus {
 
 /// A picture to be drawn.
 struct SinkPicture {
-  std::uint64_t number = 0;  ///< in the run
-  std::uint64_t place = 0;   ///< in the run, from 0
-  std::uint64_t source = 0;  ///< in the trajectory
+  std::uint64_t number = 0;  ///< number in the run
+  std::uint64_t place = 0;   ///< index in the run, from 0
+  std::uint64_t source = 0;  ///< number in the trajectory
   std::optional<double> time{};
   Camera camera{};
   /// The mattes that Framebuffer::seen indexes, and whether the picture has motion to the next frame. For EXR files.
@@ -32,57 +32,58 @@ struct SinkPicture {
   bool moves = false;
 };
 
-/// What is written into the pictures of a molecule, or of a run.
+/// The text and symbols in the pictures of a molecule, or of a run.
 class FrameAnnotations {
  public:
-  /// run: whose frames they are; nullptr: there is one picture. The scene must stay. Throws InputError for its curve.
+  /// run: the run of the frames; nullptr: there is one picture. The scene must stay valid. Throws InputError for its
+  /// curve.
   FrameAnnotations(const Scene& scene, FrameRun* run);
-  /// Throws InputError for a label of no atoms.
+  /// Returns the annotations of a picture. Throws InputError for a label of no atoms.
   Annotations of(const SinkPicture& picture, const Structure& structure) const;
-  /// Before the first picture. Throws what annotate() does of what does not fit, by any of the cameras. structure: of
-  /// the molecule, or in the first frame, whose labels need neither be there nor fit.
+  /// Checks the annotations before the first picture. Throws the errors of annotate() if something does not fit with
+  /// any of the cameras. structure: the molecule, or the first frame, whose labels need neither exist nor fit.
   void check(const PictureLayout& layout, std::span<const Camera> cameras, const Structure& structure) const;
 
  private:
   const AnnotationRequest& request_;
   bool is_run_;
-  std::optional<Curve> curve_;  ///< the same in all pictures but for its mark
-  double longest_ = 0.0;        ///< time of the run, ps
-  std::uint64_t last_ = 0;      ///< frame of the run, in the trajectory
+  std::optional<Curve> curve_;  ///< the same in all pictures except for its mark
+  double longest_ = 0.0;        ///< last time of the run, ps
+  std::uint64_t last_ = 0;      ///< last frame of the run, by its number in the trajectory
 };
 
-/// Where numbered pictures go; nothing where they go into a film of this format and size. Before anything is read.
-/// Throws UsageError for a name that does not fit, and for a film that cannot be.
+/// Returns the path of numbered pictures; nothing if they become a film of this format and size. Called before anything
+/// is read. Throws UsageError for an unsuitable name, and for an impossible film.
 std::optional<NumberedPath> numbered_output(const std::string& path, const FilmFormat& format, glm::ivec2 size);
 
-/// Before the first of them is made: throws OutputError if one of these pictures cannot be written.
+/// Throws OutputError if one of these pictures cannot be written; called before the first of them is made.
 void check_pictures(const NumberedPath& path, std::span<const std::uint64_t> numbers, Existing existing);
 
-/// The ground of a film of such pixels: white where no background was asked for, but in a film that keeps what is
-/// transparent.
+/// Returns the background of a film with such pixels: white if no background is set, except in a film that keeps
+/// transparency.
 std::optional<glm::vec3> ground_of_film(const std::optional<glm::vec3>& background, const FilmPixels& pixels);
 
 class PictureSink {
  public:
-  /// run: whose frames they are; nullptr: there is one picture. Throws UsageError for a name that does not fit, and for
-  /// a film of a part of a run. The command, the layout and the run must stay.
+  /// run: the run of the frames; nullptr: there is one picture. Throws UsageError for an unsuitable name, and for a
+  /// film of a part of a run. The command, the layout and the run must stay valid.
   PictureSink(const RenderCommand& command, const PictureLayout& layout, FrameRun* run);
 
-  /// Draws the molecule as the settings say: in bands where there are some to take (RenderSettings::take_band), else as
-  /// a whole.
+  /// Draws the molecule with these settings: in bands if a function takes them (RenderSettings::take_band), else as a
+  /// whole.
   using Draw = std::function<Framebuffer(const RenderSettings& settings)>;
-  /// What is written into a picture of the structure. Throws InputError for a label of no atoms.
+  /// Returns the annotations for a picture of the structure. Throws InputError for a label of no atoms.
   Annotations annotations(const SinkPicture& picture, const Structure& structure) const {
     return annotations_.of(picture, structure);
   }
-  /// FrameAnnotations::check()
+  /// Calls FrameAnnotations::check().
   void check(std::span<const Camera> cameras, const Structure& structure) const {
     annotations_.check(layout_, cameras, structure);
   }
-  /// Draws a picture, on any thread; what it returns adds it to a film.
+  /// Draws a picture, on any thread; the function that it returns adds it to a film.
   FinishFrame keep(const SinkPicture& picture, const Annotations& annotations, const Draw& draw);
 
-  /// Once all pictures are there.
+  /// Must be called after all pictures.
   void finish();
 
  private:
@@ -96,7 +97,7 @@ class PictureSink {
   std::optional<NumberedPath> numbered_;
   std::unique_ptr<FilmWriter> film_;
   FrameAnnotations annotations_;
-  std::mutex legend_;  ///< its letters come from one font, which one thread uses at a time
+  std::mutex legend_;  ///< its letters come from one font, which only one thread uses at a time
 };
 
 }  // namespace meniscus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints and writes what `meniscus pockets` finds: pockets of a molecule, or of each frame, followed from one to the
-// next.
+// Prints and writes the results of `meniscus pockets`: pockets of a molecule, or of each frame, tracked from one frame
+// to the next.
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -30,10 +30,10 @@
 namespace meniscus {
 namespace {
 
-/// Places of the large probe are more than atoms.
+/// There are more positions of the large probe than atoms.
 constexpr std::uint64_t kPocketBytesPerAtom = 10 * kSurfaceBytesPerAtom;
 
-/// Per atom of the structure, whether it is taken out. Throws InputError if nothing would be left.
+/// Returns, per atom of the structure, true if it is left out. Throws InputError if no atom remained.
 std::vector<bool> taken_out(const PocketsCommand& command, const Structure& structure) {
   std::vector<bool> taken = command.ligand.evaluate(structure.atoms);
   if (std::ranges::find(taken, false) == taken.end())
@@ -44,12 +44,12 @@ std::vector<bool> taken_out(const PocketsCommand& command, const Structure& stru
   return taken;
 }
 
-/// The file of one molecule, or of one frame.
+/// Returns the file of one molecule, or of one frame.
 std::string path_of(const std::string& path, const NumberedStructure& numbered) {
   return numbered.note ? NumberedPath::parse(path)->at(numbered.number) : path;
 }
 
-/// What the command's scene is of one frame alone.
+/// Returns the command's scene for a single frame.
 Scene scene_of(const Scene& asked, const std::optional<FrameNote>& note) {
   Scene scene = asked;
   if (!note) return scene;
@@ -145,17 +145,17 @@ class PocketTables {
   const PocketsCommand& command_;
   GrowingTable rows_;
   CavityTracks tracks_;
-  bool takes_out_anew_ = false;  ///< in each frame
+  bool takes_out_anew_ = false;  ///< true if the selection is evaluated in each frame
   std::vector<bool> left_out_;
   bool hinted_ = false;
-  std::string held_;  ///< of a single molecule: printed once its table is whole
+  std::string held_;  ///< for a single molecule: printed once its table is complete
 };
 
 }  // namespace
 
 void print_pockets(const PocketsCommand& asked) {
   PocketsCommand command = asked;
-  settle_selections(command.scene.molecule, command.scene.frames, {.of_atoms = {&command.ligand}});
+  settle_selections(command.scene, {&command.ligand});
   if (const std::string fault = scene_fault(command.scene); !fault.empty() && !command.figure.empty())
     throw UsageError("--figure: " + fault);
   PocketTables(command).make();

@@ -21,8 +21,9 @@ struct PocketsCommand : SceneCommand {
   double mesh_tolerance = 0.02;
 };
 
-/// Pockets of the molecule, or a line or a row for every frame, as soon as it is there (pocket_tables.cpp). Tables get
-/// their names at the end, with the frames that could be made; meshes and scenes are a file a frame.
+/// Prints the pockets of the molecule, or a line or a row for every frame as soon as it is finished
+/// (pocket_tables.cpp). Tables get their final names at the end, with the frames that could be made; there is one mesh
+/// and one scene per frame.
 void print_pockets(const PocketsCommand& command);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes from scenes and figures what is written for POV-Ray.
+// Converts scenes and figures to data for POV-Ray.
 #include "app/commands/povray_figures.h"
 
 #include <fmt/format.h>
@@ -11,6 +11,10 @@
 #include "core/queries/copies.h"
 
 namespace meniscus {
+
+TakenProperties povray_properties() {
+  return figure_properties().with({"look.shadows", "look.shadow_softness", "look.material", "look.comments"});
+}
 
 povray::SceneOptions povray_options(const Scene& scene, Existing existing) {
   using enum povray::Material;
@@ -59,7 +63,7 @@ std::vector<std::string> comment_names(const Scene& scene, const Structure& stru
   std::vector<std::string> names;
   if (!scene.renderer.comments) return names;
   for (const Atom& atom : shown_atoms(structure)) {
-    if (atom.residue_name.empty()) {  // as --csv and selections number it
+    if (atom.residue_name.empty()) {  // numbered like --csv and selections
       names.push_back(fmt::format("{} index {}", atom.name, atom.index));
       names.back().erase(0, names.back().find_first_not_of(' '));
       continue;

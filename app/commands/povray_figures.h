@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Figures as POV-Ray's scenes take them, for single scenes, runs and films.
+// Figures in the form of POV-Ray's scenes, for single scenes, runs and films.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
+#include "app/options/property_options.h"
 #include "core/math/ball.h"
 #include "core/scene/figure.h"
 #include "core/scene/scene.h"
@@ -14,21 +15,24 @@
 
 namespace meniscus {
 
-/// What the scene asks of all its files.
+/// Returns the properties of `meniscus export povray`.
+TakenProperties povray_properties();
+
+/// Returns the options that all files of the scene share.
 povray::SceneOptions povray_options(const Scene& scene, Existing existing);
 
-/// Throws UsageError for what no scene for POV-Ray can show.
+/// Throws UsageError for settings that no scene for POV-Ray can show.
 void check_povray(const Scene& scene);
 
-/// What is drawn beside the surface with looks of its own. keeps_empty: those that show nothing have a place, too.
-/// figure must stay.
+/// Returns the objects drawn in addition to the surface that have materials of their own. keeps_empty: objects that
+/// show nothing have an entry, too. figure must stay valid.
 std::vector<povray::SceneObject> povray_objects(const Figure& figure, const FigureRequest& request,
                                                 const Camera& camera, bool keeps_empty);
 
-/// Of the surface.
+/// Returns the cut of the surface.
 povray::SurfaceCut povray_cut(const Figure& figure, const FigureRequest& request, const Camera& camera);
 
-/// Of all atoms that are shown, if comments should tell them.
+/// Returns the names of all shown atoms, if comments are to contain them.
 std::vector<std::string> comment_names(const Scene& scene, const Structure& structure);
 
 }  // namespace meniscus

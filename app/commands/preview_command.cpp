@@ -30,8 +30,36 @@ MoleculeRequest PreviewCommand::read_molecule_request() const {
   return molecule;
 }
 
+TakenProperties preview_properties() {
+  return render_properties().with({"-surface.interface",
+                                   "-surface.by",
+                                   "-surface.cavities",
+                                   "-surface.threads",
+                                   "-surface.verify",
+                                   "-frames.only",
+                                   "-frames.progress",
+                                   "-Film",
+                                   "-camera.path",
+                                   "-camera.turntable",
+                                   "-camera.follow",
+                                   "-camera.save",
+                                   "-image.aovs",
+                                   "-image.cryptomatte",
+                                   "-image.color_space",
+                                   "-image.extent",
+                                   "-picture.any_cost",
+                                   "-legend.file",
+                                   "-annotations.time_stamp",
+                                   "-annotations.curve",
+                                   "-annotations.curve_column",
+                                   "-output.file",
+                                   "-scene.save"},
+                                  {{{"output.force"}, {"preview.record"}, "it is only for --record"}});
+}
+
 void add_preview_options(CLI::App& command, DeclaredPreview& declared) {
-  const SceneOptions& shared = declared.options;
+  SceneOptions& shared = declared.options;
+  shared.be_live();
   shared.option("molecule.model")->description("Model to show; default: all of them, each a frame");
   shared.option("image.samples")->description("Rays per pixel of exported pictures [4; of scenes 9]");
   shared.option("image.background")

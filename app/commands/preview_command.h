@@ -17,27 +17,30 @@
 namespace meniscus {
 
 struct PreviewCommand : SceneCommand {
-  bool models = false;                ///< each model of the file is a frame
-  bool aims = false;                  ///< the scene says how the camera looks at first
-  ExportWishes wishes;                ///< of exported pictures
-  std::optional<std::uint16_t> port;  ///< of --serve
+  bool models = false;                ///< true if each model of the file is a frame
+  bool aims = false;                  ///< true if the scene sets the first camera
+  ExportWishes wishes;                ///< for exported pictures
+  std::optional<std::uint16_t> port;  ///< the value of --serve
   std::string record, commands, token_file, output_folder = ".";
 
-  /// The molecule as it is read: all models, if each is a frame.
+  /// Returns the request for the molecule: all models, if each is a frame.
   MoleculeRequest read_molecule_request() const;
 };
 
 using DeclaredPreview = DeclaredCommand<PreviewCommand>;
 
-/// Adds the options of the preview alone, and what the others say differently.
+/// Returns the properties of `meniscus preview`.
+TakenProperties preview_properties();
+
+/// Adds the options that only the preview has, and those with other defaults.
 void add_preview_options(CLI::App& command, DeclaredPreview& declared);
 
-/// Takes the options. What a scene file does not say is as in render, of which it is a picture; without one the
-/// preview's own defaults count, which are quick to draw.
+/// Takes the options. A scene file starts from the defaults of render, whose picture it is; without one the preview has
+/// its own defaults, which are fast to draw.
 void take_preview(DeclaredPreview& declared, const std::vector<std::string>& named = {});
 
-/// The molecule again, at a frame, with the atoms that a figure draws beside its surface. Files are read again when
-/// these change.
+/// Reads the molecule again, at a frame, with the atoms that a figure draws in addition to its surface. Files are read
+/// again when these atoms change.
 class ShownReader {
  public:
   explicit ShownReader(const PreviewCommand& command);
@@ -50,13 +53,12 @@ class ShownReader {
   bool models_ = false;
 };
 
-/// As render aims it: what stands beside the surface counts, and the molecule is framed beside the legend. color: with
-/// the numbers of its file. Throws InputError, RequestError.
+/// Returns the camera that render would use: everything drawn counts, and the molecule is framed next to the legend.
+/// color: with the numbers of its file. Throws InputError, RequestError.
 Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, const ColorScheme& color,
                     const Structure& structure);
 
-/// As `meniscus render` makes it, by this program as a process of its own, whose end `watch` may want. Throws
-/// RequestError, OutputError.
+/// Makes a film like `meniscus render`, in a child process that `watch` can cancel. Throws RequestError, OutputError.
 void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch);
 
 /// Opens scenes of one molecule.
@@ -64,7 +66,7 @@ class SceneOpener {
  public:
   explicit SceneOpener(const DeclaredPreview& begun);
 
-  /// Throws InputError, UsageError; RequestError where the scene is of another molecule.
+  /// Opens a scene. Throws InputError, UsageError; RequestError if the scene is of another molecule.
   OpenedScene operator()(const std::filesystem::path& path) const;
 
  private:
@@ -72,7 +74,7 @@ class SceneOpener {
 
   Scene begun_;
   bool models_;
-  std::vector<std::string> named_;  ///< words of the command line: files among them may be named by scenes, too
+  std::vector<std::string> named_;  ///< words of the command line; scenes may name files among them
 };
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a preview's molecule again for a figure, aims cameras as render does, opens scenes, and has films made of them.
+// Reads a preview's molecule again for a figure, aims cameras as render does, opens scenes, and starts films.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -32,7 +32,7 @@
 namespace meniscus {
 namespace {
 
-/// The value of a property, paths in one form.
+/// Returns the value of a property, with paths normalized.
 std::vector<std::string> settled_texts(const Scene& scene, const Property& property) {
   std::vector<std::string> texts = value_texts(scene, property);
   if (property.type == ValueType::file)
@@ -71,7 +71,7 @@ Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, cons
   }
   const Strips strips = scene_strips(scene, layout.size());
   layout.height -= strips.top + strips.bottom;
-  // Framing needs atoms and their copies alone.
+  // Framing needs only atoms and their copies.
   const SurfaceRequest& surface = scene.molecule.surface;
   const std::vector<Ball> balls = grown(balls_of(structure), growth_of(surface.kind, surface.probe_radius));
   std::vector<SurfaceObject> objects;
@@ -97,7 +97,7 @@ void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch
   check_output(target.path, target.existing);
   scene.output = target.path.string();
   std::vector<std::string> words = render_words(scene);
-  words.front() = system_file::program().string();
+  words.front() = system_file::program_path().string();
   words.insert(words.end(), {"-q", "--progress", "json"});
   if (target.existing == Existing::replace) words.emplace_back("--force");
   const StopHandler handler([] { stop_children(); }, std::nullopt);
@@ -120,7 +120,7 @@ void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch
       fault = event.value("error", fault);
     }
   } catch (...) {
-    child.stop();  // it removes what it has begun
+    child.stop();  // the child removes its incomplete file
     while (child.next_line()) {
     }
     child.wait();
@@ -142,7 +142,7 @@ bool SceneOpener::is_of_this_molecule(const Scene& scene) const {
   return std::ranges::all_of(properties(), [&](const Property* property) {
     if (!property->has(in_scene) || (models_ && property->key == "molecule.model")) return true;
     const bool reads = property->section() == "molecule" || property->section() == "frames";
-    // Of surfaces the files that they are coloured by.
+    // These properties of surfaces are the files of colours.
     const bool colors =
         property->section() == "surface" && (property->type == ValueType::file || property->name() == "color_column");
     if (!reads && !colors) return true;
@@ -153,7 +153,7 @@ bool SceneOpener::is_of_this_molecule(const Scene& scene) const {
 
 OpenedScene SceneOpener::operator()(const std::filesystem::path& path) const {
   CLI::App app("", "preview");
-  DeclaredPreview declared(app, for_preview);
+  DeclaredPreview declared(app, preview_properties());
   declared.options.name_file(path.string());
   declared.state.reporting.quiet = true;
   try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options of `meniscus render` besides its scene, and what its pictures have in common.
+// The options of `meniscus render` in addition to its scene, and common parts of its pictures.
 #pragma once
 
 #include "app/options/scene_options.h"
@@ -9,22 +9,22 @@
 namespace meniscus {
 
 struct RenderCommand : SceneCommand {
-  bool provenance = false;    ///< the command line is in the picture
-  bool names_program = true;  ///< the program's version is, and of single pictures the scene
-  bool keeps_scene = false;   ///< the scene is
+  bool provenance = false;    ///< true if the picture contains the command line
+  bool names_program = true;  ///< true if the picture contains the program's version, and a single picture its scene
+  bool keeps_scene = false;   ///< true if the picture contains the scene
   bool stats = false;
   bool is_draft = false;
-  bool resumes = false;  ///< pictures of a run that are there stay
-  std::string made_of;   ///< made_of() of a run that resumes
+  bool resumes = false;  ///< true if existing pictures of a run stay
+  std::string made_of;   ///< made_of() for a run that resumes
 };
 
-/// As render_settings(), with times of stages where they are said.
+/// Returns render_settings(), with times of stages if they are printed.
 RenderSettings picture_settings(const RenderCommand& command, const PictureLayout& layout);
 
-/// How the pictures are written.
+/// Returns the settings for writing pictures.
 ImageSettings image_settings(const RenderCommand& command);
 
-/// Pictures of what the view needs alone (--extent): of a molecule, or of the frames of a run.
+/// Makes pictures of only the part that the view needs (--extent): of a molecule, or of the frames of a run.
 void render_views(const RenderCommand& command);
 
 }  // namespace meniscus

@@ -26,7 +26,7 @@
 #include "core/gpu/egl_context.h"
 #include "core/render/picture.h"
 #include "core/render/picture_file.h"
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 #include "core/scene/figure_key.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/molecule.h"
@@ -39,7 +39,7 @@
 namespace meniscus {
 namespace {
 
-/// The atoms of a structure with their colours, and no surface yet. Throws InputError.
+/// The atoms of a structure with their colours, without a surface. Throws InputError.
 struct ColoredAtoms {
   Molecule molecule;  ///< without objects
   std::vector<Ball> balls;
@@ -53,7 +53,7 @@ double milliseconds(const std::vector<StageTime>& times, std::initializer_list<s
   return sum;
 }
 
-/// Throws UsageError for options that only a complete surface can serve, and for --device cpu.
+/// Throws UsageError for options that need a complete surface, and for --device cpu.
 void check_view_options(const MoleculeRequest& request) {
   const auto refuse = [](const char* option) {
     throw UsageError(fmt::format("{} needs the complete surface; leave --extent out", option));
@@ -88,14 +88,14 @@ ColoredAtoms colored_atoms(const MoleculeRequest& request, const ColorScheme& co
   return atoms;
 }
 
-/// What the next pictures of `view` show.
+/// Sets the atoms and the surface of the next pictures of `view`.
 void show(const ColoredAtoms& atoms, double probe_radius, Extent extent, ViewPipeline& view) {
   view.set_atoms(atoms.balls);
   view.set_coloring(atoms.coloring);
   view.set_surface(probe_radius, extent);
 }
 
-/// The four groups of stages and the ray casting line by line, with what each of them found.
+/// Returns the times of the four groups of stages and of ray casting, line by line, with the results of each.
 std::string stats_text(const ViewStats& n, const std::vector<StageTime>& times, glm::ivec2 picture_size) {
   const auto line = [](const char* name, double ms, const std::string& found) {
     return fmt::format("  {:<34} {:>9.2f} ms   {}\n", name, ms, found);
@@ -115,7 +115,7 @@ std::string stats_text(const ViewStats& n, const std::vector<StageTime>& times, 
               fmt::format("{}x{} pixels", picture_size.x, picture_size.y));
 }
 
-/// The atoms of the molecule, or of a frame of a run, and the cameras that see them.
+/// The atoms of the molecule, or of a frame of a run, and their cameras.
 struct Viewed {
   std::unique_ptr<FrameRun> run;
   std::unique_ptr<ShownFrames> frames;
@@ -155,7 +155,7 @@ void render_views(const RenderCommand& asked) {
   check_view_options(asked.scene.molecule);
   RenderCommand command = asked;
   Scene& scene = command.scene;
-  settle_selections(scene.molecule, scene.frames, {.view = &scene.picture, .motion = &scene.run_camera});
+  settle_selections(scene);
   Viewed viewed(command);
   const PictureLayout layout(scene, viewed.key(scene));
   const std::vector<Camera> cameras = viewed.cameras(scene, layout.size);
@@ -163,7 +163,7 @@ void render_views(const RenderCommand& asked) {
   if (viewed.run) sink.check(cameras, viewed.frames->first_shown());
   const EglContext context(scene.molecule.surface.gl);
   ViewPipeline pipeline;
-  Renderer renderer;
+  GlRenderer renderer;
   double grown_by = 0.0;
   const auto keep = [&](const SinkPicture& picture) {
     show(viewed.atoms, scene.molecule.surface.probe_radius, *scene.image.extent, pipeline);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns options that scenes share into words, and has each scene parse them.
+// Turns the options that scenes share into words, and lets each scene parse them.
 #include "app/commands/scene_files.h"
 
 #include <algorithm>
@@ -14,12 +14,11 @@
 
 namespace meniscus {
 
-std::vector<std::string> shared_words(const SceneOptions& options, CommandBit bit, std::string_view section,
-                                      std::span<const std::string_view> but) {
+std::vector<std::string> shared_words(const SceneOptions& options, std::span<const std::string_view> but) {
   std::vector<std::string> words;
   for (const Property* property : properties()) {
-    if ((property->commands & bit) == 0 || !options.typed(property->key) ||
-        std::ranges::find(but, property->key) != but.end() || property->section() == section)
+    if (!options.taken().has(*property) || !options.typed(property->key) ||
+        std::ranges::find(but, property->key) != but.end())
       continue;
     const std::string name(property->long_option());
     if (property->type == ValueType::flag) {
@@ -36,13 +35,13 @@ std::vector<std::string> shared_words(const SceneOptions& options, CommandBit bi
 
 SceneCommand read_scene_file(const std::string& path, std::vector<std::string> words, const Reporting& reporting) {
   CLI::App app("", "render");
-  DeclaredCommand<RenderCommand> read(app, for_render);
+  DeclaredCommand<RenderCommand> read(app, render_properties());
   read.state.reporting.quiet = true;
-  // What the scene's own output was is not written, so it may be there, and may be read.
+  // The scene's own output is not written, so it may exist, and may be read.
   words.insert(words.begin(), {"--scene", path, "-o", "-"});
   std::ranges::reverse(words);
   app.parse(words);
-  read.state.reporting.quiet = true;  // an option that does nothing in one scene may do something in another
+  read.state.reporting.quiet = true;  // an option without effect in one scene may have one in another
   read.options.take();
   SceneCommand command = std::move(static_cast<SceneCommand&>(read.state));
   const PictureOutput& image = command.scene.image;
@@ -57,7 +56,7 @@ SceneCommand read_scene_file(const std::string& path, std::vector<std::string> w
 
 void make_draft(Scene& scene) {
   ViewRequest& picture = scene.picture;
-  // Even, as films need it.
+  // Returns half the size, an even number, as films require.
   const auto half = [](int pixels) { return std::max(2, (pixels / 2 + 1) / 2 * 2); };
   picture.width = half(picture.width);
   picture.height = half(picture.height);

@@ -19,7 +19,7 @@
 namespace meniscus {
 namespace {
 
-/// One number for all, or as many as there are, with commas between. Throws UsageError.
+/// Parses one number for all, or `count` numbers separated by commas. Throws UsageError.
 std::vector<double> seconds_in(const std::string& text, std::size_t count, const char* option, const char* of_what) {
   constexpr double kLongest = 3600.0;
   std::vector<double> seconds;
@@ -39,7 +39,7 @@ std::vector<double> seconds_in(const std::string& text, std::size_t count, const
   return seconds;
 }
 
-/// Checked before anything is read.
+/// Returns the film after a check of its scenes, before anything is read.
 const FilmCommand& with_scenes(const FilmCommand& film) {
   if (film.files.size() < 2) throw UsageError("a film goes from one scene to the next: name two scenes or more");
   return film;
@@ -52,10 +52,10 @@ bool is_written_into(const Scene& scene) {
 }
 
 std::vector<SceneCommand> read_scenes(const DeclaredFilm& declared) {
-  constexpr std::array<std::string_view, 8> kOfFilm{"output.file", "picture.draft", "frames.fps",    "frames.codec",
-                                                    "frames.crf",  "frames.bits",   "frames.chroma", "frames.progress"};
+  constexpr std::array<std::string_view, 7> kOfFilm{"output.file", "frames.fps",    "frames.codec",   "frames.crf",
+                                                    "frames.bits", "frames.chroma", "frames.progress"};
   const FilmCommand& film = declared.state;
-  std::vector<std::string> words = shared_words(declared.options, for_film, "storyboard", kOfFilm);
+  std::vector<std::string> words = shared_words(declared.options, kOfFilm);
   Reporting reporting = film.reporting;
   reporting.progress = ProgressStyle::none;
   std::vector<SceneCommand> read;
@@ -69,7 +69,7 @@ std::vector<SceneCommand> read_scenes(const DeclaredFilm& declared) {
   return read;
 }
 
-/// Says which scene is at fault.
+/// Adds the name of the scene to errors.
 void of_scene(const std::string& file, const std::function<void()>& work) {
   try {
     work();
@@ -104,7 +104,7 @@ Storyboard::Storyboard(const DeclaredFilm& declared)
   for (SceneCommand& command : read) {
     if (command_.is_draft) make_draft(command.scene);
     titles_.push_back(command.scene.annotations.title);
-    // What is written into pictures is in no scene for another renderer, and leaves no room for it.
+    // Scenes for other renderers contain no text, and reserve no room for it.
     if (is_exported()) {
       leaves_writing_out_ = leaves_writing_out_ || is_written_into(command.scene);
       command.scene.legend = {};

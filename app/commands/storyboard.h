@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scenes of a film in their order: how long each is shown, and the way from each to the next.
+// The scenes of a film in order, with the duration of each and the transition to the next.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@
 
 namespace meniscus {
 
-/// What a film is made of: pictures of our own, the frames of a scene for another renderer, or scenes and keys of
-/// another program.
+/// The kind of film: our own pictures, the frames of a scene for another renderer, or scenes and keys for another
+/// program.
 enum class FilmMedium { pictures, povray, blender };
 
 struct FilmCommand : SceneCommand {
@@ -32,7 +32,7 @@ struct FilmCommand : SceneCommand {
 };
 using DeclaredFilm = DeclaredCommand<FilmCommand>;
 
-/// A scene on its way into the film.
+/// A scene of the film with its figures.
 struct FilmScene {
   FigureRun run;
   ColorKey key;
@@ -45,54 +45,55 @@ struct FilmScene {
   std::uint64_t pictures(std::uint64_t held) { return run.is_run() ? run.frames().numbers().size() : held; }
 };
 
-/// What becomes of a film: pictures, or a scene for another renderer.
+/// Makes a film from shots and transitions: pictures, or a scene for another renderer.
 class FilmMaker {
  public:
   virtual ~FilmMaker() = default;
-  /// Of that scene, from 0, the shots begin.
+  /// Begins the shots of that scene, counted from 0.
   virtual void begin(std::size_t scene) = 0;
-  /// A shot that is shown so many times. place: in the scene's run, from 0.
+  /// Shows a shot for `times` pictures. place: index in the scene's run, from 0.
   virtual void show(const Shot& shot, std::uint64_t place, std::uint64_t times) = 0;
-  /// A picture of a transition, `share` of its way.
+  /// Shows a picture of a transition; `share` is its progress in [0, 1].
   virtual void show(Transition& transition, double share) = 0;
 };
 
 class Storyboard {
  public:
-  /// Reads the scenes: all in the size of the first, unless the command line names one. Throws UsageError, and what
-  /// reading, computing and aiming throw. The command must stay.
+  /// Reads the scenes, all in the size of the first, unless the command line sets one. Throws UsageError, and the
+  /// errors of reading, computing and aiming. The command must stay valid.
   explicit Storyboard(const DeclaredFilm& declared);
 
   std::size_t size() const { return scenes_.size(); }
   FilmScene& scene(std::size_t n) { return *scenes_[n]; }
   const FilmCommand& command() const { return command_; }
-  /// The format of the film, which is transparent if the command or any scene says so.
+  /// Returns the format of the film, which is transparent if the command or any scene says so.
   const FilmFormat& format() const { return format_; }
   bool is_exported() const { return command_.medium != FilmMedium::pictures; }
   std::uint64_t pictures() const;
-  /// For how many pictures a scene is shown that is no run, and the transition to the next one lasts.
+  /// Returns the number of pictures of a scene that is not a run; the next function returns that of the transition
+  /// after it.
   std::uint64_t held(std::size_t n) const { return timing_.held[n]; }
   std::uint64_t between(std::size_t n) const { return timing_.between[n]; }
-  /// What the scene has written above its pictures, in exports too.
+  /// Returns the title above the scene's pictures, in exports too.
   const std::string& title(std::size_t n) const { return titles_[n]; }
-  /// Whether titles, labels, legends and the like were taken out of scenes.
+  /// True if titles, labels, legends and the like were removed from scenes.
   bool leaves_writing_out() const { return leaves_writing_out_; }
-  /// Is there a scene of which this is true?
+  /// True if the predicate is true for some scene.
   bool any(const std::function<bool(const Scene&)>& is_true) const;
-  /// Says what another renderer leaves out, a note each.
+  /// Prints a note about each thing that another renderer leaves out.
   void tell_left_out(const std::vector<std::string>& sentences) const;
 
-  /// Hands all shots and transitions to the maker in the order of the film, once. context: in which surfaces are
-  /// computed; nullptr: on the CPU. bytes_per_pixel: what a frame takes until it is finished.
+  /// Passes all shots and transitions to the maker in the order of the film, once. context: for computing surfaces;
+  /// nullptr: on the CPU. bytes_per_pixel: memory of a frame until it is finished.
   void play(FilmMaker& maker, const EglContext* context, std::uint64_t bytes_per_pixel);
 
  private:
-  /// How many pictures each scene and each transition has.
+  /// The number of pictures of each scene and each transition.
   struct Timing {
     explicit Timing(const FilmCommand& film);
     std::vector<std::uint64_t> held, between;
   };
-  /// Before anything is computed. Throws UsageError, RequestError, OutputError.
+  /// Checks the pictures before anything is computed. Throws UsageError, RequestError, OutputError.
   void check_pictures_of(const std::vector<SceneCommand>& scenes) const;
   void go_over(const Shot& next, std::uint64_t count, FilmMaker& maker, const EglContext* context);
 
@@ -101,15 +102,15 @@ class Storyboard {
   FilmFormat format_;
   std::vector<std::unique_ptr<FilmScene>> scenes_;
   std::vector<std::string> titles_;
-  std::optional<Shot> last_;  ///< of the scene before
+  std::optional<Shot> last_;  ///< the last shot of the previous scene
   bool leaves_writing_out_ = false;
 };
 
-/// Writes a folder with a scene for POV-Ray of the storyboard (--to povray).
+/// Writes the storyboard as a folder with a scene for POV-Ray (--to povray).
 void write_povray_film(Storyboard& storyboard);
 
-/// Writes a folder with the surfaces of the storyboard, and when each is shown by which camera, for Blender
-/// (--to blender). Throws UsageError for a scene of a run.
+/// Writes the storyboard as a folder with its surfaces, and the times and cameras of each, for Blender (--to blender).
+/// Throws UsageError for a scene of a run.
 void write_blender_film(Storyboard& storyboard);
 
 }  // namespace meniscus

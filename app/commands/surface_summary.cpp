@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Passes the files of `meniscus surface --csv-summary` through a pipeline, and keeps tables that a later call can go on
-// with.
+// Computes the files of `meniscus surface --csv-summary` in a pipeline, and keeps tables that a later call can
+// continue.
 #include "app/commands/surface_command.h"
 #include "app/commands/resumed_run.h"
 
@@ -35,26 +35,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a row begins with.
+/// Returns the first cell of a row.
 std::string first_cell(const std::string& row) {
   const std::size_t begin = row.starts_with('"') ? row.find("\",") + 1 : 0;
   return row.substr(0, row.find(',', begin));
 }
 
-/// Of a summary: of a file that was computed.
+/// True for a row of a summary whose file was computed.
 bool is_whole(const std::string& row) { return row.ends_with(",yes,\n"); }
 
-/// A table whose rows are kept as they come, and that a later call can go on with.
+/// A table whose rows are kept as they come, and which a later call can continue.
 class LastingTable {
  public:
-  /// path: empty: it is not wanted. note: a first line that the finished table does not have; empty: none.
+  /// path: empty: no table is written. note: a first line that the finished table does not have; empty: none.
   LastingTable(const std::string& path, std::string note, std::string header)
       : path_(path), part_(path + ".part"), note_(std::move(note)), header_(std::move(header)) {}
 
   bool is_wanted() const { return !path_.empty(); }
   bool has_part() const { return is_wanted() && fs::exists(part_); }
 
-  /// Begins with those of its rows, with their ends, that are `kept`.
+  /// Begins with those existing complete rows for which `kept` is true.
   template <typename Kept>
   void begin(const Kept& kept) {
     if (!is_wanted()) return;
@@ -103,7 +103,7 @@ class LastingTable {
   std::ofstream file_;
 };
 
-/// What became of a file.
+/// The result of a file.
 struct SummarizedFile {
   std::size_t number = 0;
   std::string row, atoms, residues;
@@ -123,7 +123,7 @@ class Summary {
         atoms_(command.atom_csv, "", "file," + atom_csv_header(columns_of({}))),
         residues_(command.residue_csv, "",
                   "file," + residue_csv_header(columns_of({}), command.scene.molecule.surface.probe_radius)) {
-    command_.scene.molecule.surface.cpu = true;  // a context for each file would cost more than most of them
+    command_.scene.molecule.surface.cpu = true;  // a context for each file would cost more than most of the files
   }
 
   void make() {
@@ -172,7 +172,7 @@ class Summary {
             escaped(summary_.part())));
       while (std::getline(old, line) && !old.eof())
         if (is_whole(line + "\n")) done.insert(first_cell(line));
-      std::error_code ignored;  // what is not there has failed, or will
+      std::error_code ignored;  // a missing file has failed, or will fail
       const fs::file_time_type written = fs::last_write_time(summary_.part(), ignored);
       for (const std::string& file : files_)
         if (fs::last_write_time(file, ignored) > written) done.erase(csv_cell(file));
@@ -204,7 +204,7 @@ class Summary {
     auto file = std::make_shared<SummarizedFile>();
     file->number = number;
     const auto begin = std::chrono::steady_clock::now();
-    // While it waits for its parts, this thread begins no other file: memory holds as many as are made at once.
+    // While it waits for its parts, this thread begins no other file, because memory is limited to the files at work.
     tbb::this_task_arena::isolate([&] {
       try {
         compute(*file);
@@ -258,7 +258,7 @@ class Summary {
   std::optional<std::pair<ExitCode, std::string>> first_failure_;
 };
 
-/// What belongs to one molecule, or to a run of it.
+/// Throws for options that need one molecule, or a run.
 void check_summary(const SurfaceCommand& command) {
   const Scene& scene = command.scene;
   const std::pair<bool, const char*> others[] = {{command.json, "--json"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints and writes what `meniscus surface` computes: numbers of a molecule, or a line or row per frame, with cavities
-// followed from one to the next.
+// Prints and writes the results of `meniscus surface`: numbers of a molecule, or a line or row per frame, with cavities
+// tracked from one frame to the next.
 #include <algorithm>
 #include <iostream>
 #include <iterator>
@@ -31,20 +31,20 @@
 namespace meniscus {
 namespace {
 
-/// What is known of a molecule, or of a frame before its place among the others matters.
+/// The numbers of a molecule, or of a frame before its place among the others matters.
 struct SurfaceNumbers {
   std::vector<SeriesValue> values;
   std::string printed, atom_header, atoms, residue_header, residues, gradient_header, gradients, patches;
   std::vector<Cavity> cavities;
-  std::vector<std::string> lining;  ///< of each
+  std::vector<std::string> lining;  ///< of each cavity
 };
 
-/// What a frame adds to the front of its rows; nothing of a single molecule.
+/// Returns the first cells of a frame's rows; empty for a single molecule.
 std::string prefix_of(const std::optional<FrameNote>& note) { return note ? frame_cells(*note) + "," : std::string(); }
 
-/// Of each atom; of several copies what each sees past its own object.
+/// Returns the open sky of each atom; in several copies, each atom is seen past its own object.
 AreaColumn open_sky(const Molecule& molecule) {
-  constexpr double kTolerance = 0.3;  // Å: points enough for a mean
+  constexpr double kTolerance = 0.3;  // Å: enough points for a mean
   AreaColumn column{"open_sky", std::vector<double>(molecule.structure.atoms.size(), 0.0), 0.0};
   for (const SurfaceObject& object : molecule.objects) {
     const TriangleMesh mesh = tessellate(object.surface, {.tolerance = kTolerance});
@@ -149,7 +149,7 @@ class SurfaceTables {
     return {};
   }
 
-  /// What goes on from one frame to the next.
+  /// Updates the state that continues from one frame to the next.
   void follow(SurfaceNumbers& numbers, const FrameNote& note) {
     if (series_.is_wanted()) series_.write(series_csv_header(numbers.values), series_csv_row(numbers.values, note));
     if (plot_) plot_frame(numbers.values, note);
@@ -172,7 +172,7 @@ class SurfaceTables {
     print_now(held_);
   }
 
-  /// Over time if all frames have one, else over their numbers.
+  /// The x axis is time if all frames have one, else their numbers.
   SeriesPlot plot() const {
     const bool has_times = std::ranges::all_of(plotted_, [](const FrameNote& note) { return note.time.has_value(); });
     SeriesPlot plot;
@@ -184,7 +184,7 @@ class SurfaceTables {
     return plot;
   }
 
-  /// Numbers alone are kept of a frame: there may be many.
+  /// Only the numbers of a frame are kept, because there may be many frames.
   void plot_frame(const std::vector<SeriesValue>& values, const FrameNote& note) {
     std::size_t panel = 0;
     for (const SeriesValue& value : values) {
@@ -201,7 +201,7 @@ class SurfaceTables {
   std::optional<OutputFile> plot_;
   std::vector<FrameNote> plotted_;
   std::vector<PlotPanel> panels_;
-  std::string held_;  ///< of a single molecule: printed once its tables are whole
+  std::string held_;  ///< for a single molecule: printed once its tables are complete
 };
 
 }  // namespace
@@ -210,7 +210,7 @@ void print_surface(const SurfaceCommand& asked) {
   check_outputs(asked);
   SurfaceCommand command = asked;
   command.scene.frames.context = command.context;
-  settle_selections(command.scene.molecule, command.scene.frames);
+  settle_selections(command.scene);
   SurfaceTables(command).make();
 }
 

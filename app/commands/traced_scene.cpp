@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes meshes, spheres and cylinders of a figure's surface and of what stands beside it.
+// Makes meshes, spheres and cylinders from a figure's surface and from everything drawn in addition.
 #include "app/commands/traced_scene.h"
 
 #include <optional>
@@ -15,14 +15,14 @@
 namespace meniscus {
 namespace {
 
-// To three decimals.
+// Returns the middle of the balls, rounded to three decimals.
 glm::dvec3 middle_of(std::span<const Ball> balls) {
   Box box;
   for (const Ball& ball : balls) box.include(ball.center);
   return glm::round((box.low + box.high) * 0.5e3) / 1e3;
 }
 
-// What is shown of a surface, with caps where planes cut it.
+// Returns the visible part of a surface, with caps where planes cut it.
 path_tracers::SceneItem item_of(const SurfaceObject& object, std::span<const ClipPlane> planes, const CapStyle& cap,
                                 double tolerance, const glm::dvec3& origin) {
   const CappedMesh shown = capped_mesh(object, planes, cap.color.has_value(), tolerance);
@@ -39,7 +39,7 @@ void add_surface(const Scene& asked, Figure figure, double tolerance, path_trace
     scene.items.push_back(item_of(object, planes, asked.figure.cap, tolerance, scene.origin));
 }
 
-// What is drawn beside the surface with looks of its own.
+// Adds objects with materials of their own.
 void add_more(const Scene& asked, const Figure& figure, std::span<const Atom> atoms, double tolerance,
               path_tracers::Scene& scene) {
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
@@ -56,6 +56,10 @@ void add_more(const Scene& asked, const Figure& figure, std::span<const Atom> at
 }
 
 }  // namespace
+
+TakenProperties traced_properties() {
+  return figure_properties().with({"look.material", "mesh.tolerance", "mesh.tolerance_pixels"});
+}
 
 TracedScene traced_scene(const FigureRun& run, FigureFrame frame) {
   const Scene& asked = run.scene();

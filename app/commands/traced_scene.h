@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a figure shows as meshes, spheres and cylinders, for scenes of other programs.
+// A figure as meshes, spheres and cylinders, for scenes of other programs.
 #pragma once
 
 #include <span>
@@ -10,15 +10,18 @@
 
 namespace meniscus {
 
-/// A figure's scene, and how fine it is.
+/// Returns the properties of exports for path tracers.
+TakenProperties traced_properties();
+
+/// A figure's scene, and its fineness.
 struct TracedScene {
   path_tracers::Scene scene;
   double tolerance = 0.0;  ///< Å
 };
 
-/// Of a frame of the run, or of its one molecule: the surface with caps where planes cut it, and all beside it. Scenes
-/// of a run have one origin, and are as fine as its first camera needs, unless another tolerance is asked for. Throws
-/// as capped_mesh() does.
+/// Makes the scene of a frame of the run, or of its one molecule: the surface with caps where planes cut it, and
+/// everything drawn in addition. Scenes of a run have one origin, and the fineness that its first camera needs, unless
+/// another tolerance is set. Throws like capped_mesh().
 TracedScene traced_scene(const FigureRun& run, FigureFrame frame);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refuses `meniscus preview` in builds without window and page.
+// Reports that there is no `meniscus preview`, in builds without window and page.
 #include "app/commands/commands.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_error.h"

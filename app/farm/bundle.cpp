@@ -118,11 +118,11 @@ Bundle bundle_from_json(const Json& json) {
 
 const CommandKind& kind_of(const Words& command) {
   using enum Step;
-  static const std::vector<CommandKind> kinds{{"render", for_render, {render}, Maker::meniscus},
-                                              {"export povray", for_povray, {surface, render}, Maker::povray},
-                                              {"export blender", for_blender, {surface, render}, Maker::blender},
-                                              {"export mitsuba", for_path_tracers, {surface}, Maker::meniscus},
-                                              {"export pbrt", for_path_tracers, {surface}, Maker::meniscus}};
+  static const std::vector<CommandKind> kinds{{"render", {render}, Maker::meniscus},
+                                              {"export povray", {surface, render}, Maker::povray},
+                                              {"export blender", {surface, render}, Maker::blender},
+                                              {"export mitsuba", {surface}, Maker::meniscus},
+                                              {"export pbrt", {surface}, Maker::meniscus}};
   const bool exports = command.size() > 1 && command.front() == "export";
   const std::string name = command.empty() ? "" : exports ? command[0] + " " + command[1] : command[0];
   const auto found = std::ranges::find(kinds, name, &CommandKind::name);

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "app/film/film_format.h"
-#include "core/properties/property.h"
 
 namespace meniscus::farm {
 
@@ -30,7 +29,6 @@ enum class Maker {
 /// A command that makes frames, and how a bundle divides its work.
 struct CommandKind {
   std::string_view name;    ///< "render" or "export povray"
-  CommandBit options;       ///< the options that the command has
   std::vector<Step> steps;  ///< in order; the last one makes the results
   Maker renderer;           ///< the program of Step::render
 };

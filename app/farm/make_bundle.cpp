@@ -174,8 +174,8 @@ std::vector<std::string> bundled_words(const BundledCommand& command, const std:
     scene.picture.zoom_to.reset();
   }
   std::vector<std::string> words = command.words;
-  const std::vector<std::string> values = scene_words(scene, kind_of(command.words).options,
-                                                      [&](const std::string& path) { return inputs.add_file(path); });
+  const std::vector<std::string> values =
+      scene_words(scene, [&](const std::string& path) { return inputs.add_file(path); });
   words.insert(words.end(), values.begin(), values.end());
   words.insert(words.end(), command.further.begin(), command.further.end());
   if (camera) words.insert(words.end(), {"--camera", inputs.add_text("camera.json", camera_json(*camera))});
@@ -230,7 +230,7 @@ MadeBundle described(const BundleOptions& options, const BundledCommand& given, 
   SceneCommand command = given.command;
   command.scene = readied(command.scene);
   Scene& scene = command.scene;
-  settle_selections(scene.molecule, scene.frames, {.view = &scene.picture, .motion = &scene.run_camera});
+  settle_selections(scene);
   check_picture(scene);
   if (!scene.legend.file.empty()) check_image_path(scene.legend.file);
   const GivenCameras cameras = given_cameras(scene.picture, scene.run_camera);

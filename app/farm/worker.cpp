@@ -49,7 +49,7 @@ void keep_reason(std::string_view line, std::string& reason) {
 
 Words meniscus_command(const Bundle& bundle, Step step, const Order& order, const Frames& frames, bool alone) {
   // The frames of a run must come from one version, so PATH does not count.
-  Words words{system_file::program().string()};
+  Words words{system_file::program_path().string()};
   append(words, bundle.command);
   append(words, bundle.device);
   if (!order.device.empty()) std::erase(words, "--require-gpu");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of options, in the order in which abbreviations are tried: the first that begins with the word is used.
+// Contains the table of options in the order in which abbreviations are matched: the first option that begins with the
+// word is used.
 #include "app/msms/arguments.h"
 
 #include <array>
@@ -19,7 +20,7 @@ namespace {
 constexpr double kSmallestDensity = 0.01, kLargestDensity = 1000.0;
 constexpr double kLargestProbe = 100.0;  // Å
 
-/// The words behind an option, one after another.
+/// Reads the words after an option, one after another.
 class Words {
  public:
   explicit Words(std::span<const char* const> words) : rest_(words) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses component 0, all of them, or the one that touches some spheres.
+// Selects component 0, all components, or the component that touches some spheres.
 #include "app/msms/chosen_surface.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr std::size_t kMostAreas = std::size_t{1} << 26;  // a gigabyte, and as 
 constexpr int kAttempts = 16;
 constexpr double kShorter = 0.9;
 
-/// The atoms that a face touches.
+/// Returns the atoms that a face touches.
 std::vector<std::uint32_t> touched_atoms(const Surface& surface, const Face& face) {
   if (face.kind == PatchKind::convex) return {surface.convex[face.patch].atom};
   if (face.kind == PatchKind::toroidal) {
@@ -49,7 +49,7 @@ ChosenSurface::ChosenSurface(const Arguments& arguments, const Spheres& spheres)
   }
 }
 
-// A cavity if there is one: an atom of its wall may touch the outside as well.
+// Prefers a cavity, because an atom of its wall may touch the outside as well.
 std::uint32_t ChosenSurface::component_touching(const std::vector<std::uint32_t>& numbers,
                                                 const Spheres& spheres) const {
   std::vector<std::uint32_t> wanted;
@@ -88,7 +88,7 @@ std::vector<AtomAreas> ChosenSurface::areas() const {
     throw CapacityError(fmt::format(
         "the areas of {} spheres in {} components are too many for one table; leave -af or -all_components out",
         computed_.surface.atoms.size(), chosen_.size()));
-  // Components that nobody asked for are one group, behind the others.
+  // All other components form one group, after the selected ones.
   const auto others = static_cast<std::uint32_t>(chosen_.size());
   std::vector<std::uint32_t> group(computed_.components.count, others);
   for (std::uint32_t n = 0; n < chosen_.size(); ++n) group[chosen_[n]] = n;
@@ -99,7 +99,7 @@ std::vector<AtomAreas> ChosenSurface::areas() const {
   return areas;
 }
 
-// Long edges may cut a face's rim short, or cross it; somewhat shorter ones do not.
+// Long edges may cut a face's rim short, or cross it; slightly shorter ones do not.
 void ChosenSurface::triangulate() {
   MeshOptions options;
   options.split_colors = false;

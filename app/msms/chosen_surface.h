@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surface that a command line asks for: computed, with the components that are wanted, and their meshes.
+// The surface that a command line selects: computed, with the selected components and their meshes.
 #pragma once
 
 #include <cstdint>
@@ -17,21 +17,22 @@ namespace meniscus::msms {
 
 class ChosenSurface {
  public:
-  /// On the CPU. Throws OpenSurfaceError, CapacityError, and InputError where no component touches the spheres that
-  /// -one_cavity names.
+  /// Computes the surface on the CPU. Throws OpenSurfaceError, CapacityError, and InputError if no component touches
+  /// the spheres that -one_cavity names.
   ChosenSurface(const Arguments& arguments, const Spheres& spheres);
 
   ChosenSurface(const ChosenSurface&) = delete;
   ChosenSurface& operator=(const ChosenSurface&) = delete;
 
   std::size_t component_count() const { return chosen_.size(); }
-  /// Of each component that is wanted.
+  /// Returns the size of each selected component.
   std::vector<ReducedComponentSize> sizes() const;
-  /// Areas of the atoms, for each component that is wanted. Throws CapacityError: more than 2^26 numbers of each kind.
+  /// Returns the areas of the atoms, for each selected component. Throws CapacityError for more than 2^26 numbers of
+  /// each kind.
   std::vector<AtomAreas> areas() const;
-  /// Triangulates; call before mesh(). Throws OpenSurfaceError.
+  /// Triangulates the components; must be called before mesh(). Throws OpenSurfaceError.
   void triangulate();
-  /// Of the n-th component that is wanted.
+  /// Returns the mesh of the n-th selected component.
   MsmsMesh mesh(std::size_t n);
 
  private:

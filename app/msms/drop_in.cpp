@@ -52,7 +52,7 @@ Spheres spheres_of(std::vector<Ball> balls, std::vector<std::string> names, cons
       std::minmax_element(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) { return a.radius < b.radius; });
   spheres.smallest_radius = smallest->radius;
   spheres.largest_radius = largest->radius;
-  // A column that some rows lack would shift what is behind it.
+  // A column that is missing in some rows would shift the columns after it.
   const auto named = std::ranges::count_if(names, [](const std::string& name) { return !name.empty(); });
   if (named > 0) {
     for (std::string& name : names)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the drop-in programs share: the spheres they read, and the files they write.
+// The common part of the drop-in programs: the spheres that they read, and the files that they write.
 #pragma once
 
 #include <map>
@@ -14,29 +14,30 @@
 namespace meniscus::msms {
 
 struct Spheres {
-  std::vector<Ball> balls;  ///< those that the probe rolls over: a sphere of radius 0 is left out
+  std::vector<Ball> balls;  ///< spheres that the probe touches: spheres of radius 0 are left out
   MsmsSpheres rows;
   double smallest_radius = 0.0, largest_radius = 0.0;
 };
 
-/// Reads x y z r [[1] name] a line; "-": standard input. Throws InputError, with file and line, also when there is no
+/// Reads lines x y z r [[1] name]; "-": standard input. Throws InputError, with file and line, also if there is no
 /// sphere with a radius; CapacityError.
 Spheres read_spheres(const std::string& file);
 
-/// The same of spheres that came otherwise; `file` names them. Throws InputError: no number, a radius below 0 or above
-/// kLargestRadius, a coordinate beyond kLargestCoordinate.
+/// Makes spheres from other sources; `file` names them in errors. Throws InputError for NaN, for a radius below 0 or
+/// above kLargestRadius, and for a coordinate beyond kLargestCoordinate.
 Spheres spheres_of(std::vector<Ball> balls, std::vector<std::string> names, const std::string& file);
 
-/// -noh: takes out the balls of radius 1.2 Å, as MSMS tells hydrogens. Throws InputError where no other is there.
+/// Implements -noh: removes the balls of radius 1.2 Å, by which MSMS recognizes hydrogens. Throws InputError if no
+/// other ball exists.
 void leave_out_hydrogens(Spheres& spheres);
 
 class OutputFiles {
  public:
-  /// Begins a file, which replaces one of that name in the end. Throws OutputError: also where its folder is missing.
+  /// Begins a file, which replaces an existing one at the end. Throws OutputError, also if its folder is missing.
   void begin(const std::string& path);
-  /// Writes all of a file; begins it if it has not begun.
+  /// Writes the whole contents of a file; begins it if it has not begun.
   void write(const std::string& path, const std::string& text);
-  /// Gives all files their names.
+  /// Gives all files their final names.
   void commit();
 
  private:

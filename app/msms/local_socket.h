@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A blocking socket on this machine alone: implemented in local_socket_posix.cpp and local_socket_windows.cpp.
+// A blocking socket on this machine only, implemented in local_socket_posix.cpp and local_socket_windows.cpp.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace meniscus::msms {
 
-/// Closed with this object. Where a function fails, last_error() says why.
+/// A socket, closed by the destructor. If a function fails, last_error() has the reason.
 class LocalSocket {
  public:
   /// Listens on a port of 127.0.0.1.
@@ -19,11 +19,12 @@ class LocalSocket {
   LocalSocket(LocalSocket&& other) noexcept : number_(other.number_) { other.number_ = kNone; }
   LocalSocket& operator=(LocalSocket&&) = delete;
 
-  /// Has someone called within this time?
+  /// True if a client has connected within this time.
   bool has_caller(int milliseconds) const;
-  /// The first that called; what it does not take or send within `seconds` fails.
+  /// Accepts the first client. Each later transfer fails if it takes more than `seconds`.
   std::optional<LocalSocket> caller(int seconds) const;
-  /// Bytes received or sent, which may be fewer; none where the other side has closed, -1 if that fails.
+  /// Returns the number of bytes received or sent, possibly fewer than requested; 0 if the other side has closed, -1 on
+  /// failure.
   std::ptrdiff_t receive(std::span<std::byte> bytes) const;
   std::ptrdiff_t send(std::span<const std::byte> bytes) const;
 

@@ -16,7 +16,7 @@
 namespace meniscus::msms {
 namespace {
 
-// A client that is gone is an error here, no signal that ends the program.
+// A client that has disconnected is an error here, not a signal that ends the program.
 #if defined(__APPLE__)
 constexpr int kNoSignal = 0;
 void send_no_signal(int socket) {

@@ -27,10 +27,10 @@
 namespace meniscus::msms {
 namespace {
 
-/// The version whose files and lines these are.
+/// The version of MSMS with these files and lines.
 constexpr const char* kAnswersAs = "2.6.1";
 
-/// Which program, as whom it answers, where.
+/// Returns the program's name, the version that it emulates, and the machine.
 std::string banner() {
   const std::string host = system_process::host();
   return fmt::format(
@@ -41,7 +41,7 @@ std::string banner() {
       kAnswersAs, host.empty() ? "localhost" : host);
 }
 
-/// The lines INPUT and PARAM.
+/// Returns the lines INPUT and PARAM.
 std::string input_lines(const Arguments& arguments, std::size_t spheres, double smallest_radius,
                         double largest_radius) {
   return fmt::format(
@@ -51,14 +51,14 @@ std::string input_lines(const Arguments& arguments, std::size_t spheres, double 
       arguments.hdensity);
 }
 
-/// One line for each component above number 0, which are those that have files of their own.
+/// Returns one line for each component above number 0, which have files of their own.
 std::string component_lines(std::size_t count) {
   std::string lines;
   for (std::size_t c = 1; c < count; ++c) lines += fmt::format("    RS component {} identified\n", c);
   return lines;
 }
 
-/// Areas of each component, in closed form.
+/// Returns the areas of each component, in closed form.
 std::string analytic_table(double probe_radius, std::span<const ReducedComponentSize> sizes) {
   std::string table =
       "ANALYTICAL SURFACE AREA :\n    Comp. probe_radius,   reent,    toric,   contact    SES       SAS\n";
@@ -68,7 +68,8 @@ std::string analytic_table(double probe_radius, std::span<const ReducedComponent
   return table;
 }
 
-/// Volume and area of each component, and the sum of volumes. MSMS takes them from triangles; these are in closed form.
+/// Returns volume and area of each component, and the sum of volumes. MSMS computes them from triangles; these are in
+/// closed form.
 std::string numeric_table(double probe_radius, std::span<const ReducedComponentSize> sizes) {
   std::string table = "NUMERICAL VOLUMES AND AREA\n    Comp. probe_radius SES_volume SES_area)\n";
   double total = 0;
@@ -79,7 +80,7 @@ std::string numeric_table(double probe_radius, std::span<const ReducedComponentS
   return table + fmt::format("    Total ses_volume: {:9.3f}\n", total);
 }
 
-/// The last two lines. Time since `start`, and of processors since the process began.
+/// Returns the last two lines: the time since `start`, and the processor time since the process began.
 std::string ending(std::chrono::steady_clock::time_point start) {
   const system_process::ProcessorTime used = system_process::processor_time();
   const std::chrono::duration<double> real = std::chrono::steady_clock::now() - start;
@@ -91,14 +92,14 @@ std::string with_extension(const std::string& path, const std::string& extension
   return path.ends_with(extension) ? path : path + extension;
 }
 
-/// P.vert for component 0, P_k.vert for component k.
+/// Returns P.vert for component 0, P_k.vert for component k.
 std::string mesh_path(const Arguments& arguments, std::size_t component, const char* extension) {
   return arguments.mesh_files + (component ? "_" + std::to_string(component) : "") + extension;
 }
 
 void run(const Arguments& arguments, std::chrono::steady_clock::time_point start) {
   const bool mesh_wanted = arguments.mesh && !arguments.mesh_files.empty();
-  // Whether they can be written is known before the work begins.
+  // Files are opened before the work begins, so that errors come early.
   OutputFiles files;
   protect_input(path_of_text(arguments.spheres));
   if (mesh_wanted)

@@ -35,22 +35,23 @@ struct ShaperSettings {
   double probe_radius = 1.4;      ///< Probe_Radius, Å
   double grid_scale = 2.0;        ///< Grid_scale: points of its grid per Å
   bool fill_cavities = false;     ///< Cavity_Detection_Filling: small cavities are left out
-  double smallest_cavity = 11.4;  ///< Conditional_Volume_Filling_Value, Å³: of those that stay
-  std::string root;               ///< Root_FileName: what names of files begin with
+  double smallest_cavity = 11.4;  ///< Conditional_Volume_Filling_Value, Å³: the smallest volume of a cavity that stays
+  std::string root;               ///< Root_FileName: the beginning of file names
   bool msms_files = true;         ///< .vert and .face: unless Save_Mesh_MSMS_Format is false
   bool off_file = true;           ///< .off: unless Save_Mesh_MSMS_Format is true
   std::vector<std::string> unknown_keys;
 };
 
-/// Vertices per Å² of a mesh that meets each line of a cubic grid once: such lines of one direction cross a surface at
-/// scale² |n| points per Å², n the normal's component along them, whose mean over the sphere is 1/2; three directions.
+/// Returns the density, in vertices per Å², of a mesh that meets each line of a cubic grid once. Lines of one direction
+/// cross a surface at scale² |n| points per Å², where n is the normal's component along them, with a mean of 1/2 over
+/// the sphere; there are three directions.
 constexpr double shaper_density(double grid_scale) { return 1.5 * grid_scale * grid_scale; }
 
 constexpr double kLargestProbe = 100.0, kLargestCavity = 1e9;   // Å, Å³
 constexpr double kSmallestScale = 0.1, kLargestScale = 20.0;    // points per Å
 constexpr std::size_t kLargestSettings = std::size_t{1} << 20;  // bytes
 
-/// One line's value, and where it is.
+/// The value in one line, and its position.
 struct Value {
   const TextFile& file;
   std::size_t line;
@@ -79,10 +80,10 @@ struct Key {
   Take take;
 };
 
-/// It changes how NanoShaper works, how good its mesh is, or surfaces that are refused here.
+/// Ignores a key that changes how NanoShaper works, how good its mesh is, or surfaces that are refused here.
 void pass_over(const Value&, ShaperSettings&) {}
 
-/// A file that there is not here, or atoms left out.
+/// Refuses a key that requests a file that is not available here, or atoms to be left out.
 void must_be_false(const Value& value, ShaperSettings&) {
   if (value.truth()) value.refuse("false; meniscus-nanoshaper does not have this feature");
 }
@@ -131,7 +132,7 @@ constexpr std::array kKeys{
     Key{"Force_Serial_Build", pass_over},
     Key{"Grid_perfil", pass_over},
     Key{"Grid_perfill", pass_over},                // as VMD 1.9.3 spells it
-    Key{"Keep_Water_Shaped_Cavities", pass_over},  // all have room for the probe
+    Key{"Keep_Water_Shaped_Cavities", pass_over},  // all cavities have room for the probe
     Key{"Link_Pockets", pass_over},
     Key{"Load_Balancing", pass_over},
     Key{"Memb_Height", pass_over},
@@ -159,7 +160,7 @@ constexpr std::array kKeys{
 };
 
 void take(const Value& value, ShaperSettings& settings) {
-  if (value.key.starts_with("Max_")) return;  // sizes of its grids
+  if (value.key.starts_with("Max_")) return;  // sizes of NanoShaper's grids
   const auto key = std::ranges::find(kKeys, value.key, &Key::name);
   if (key != kKeys.end())
     key->take(value, settings);
@@ -167,10 +168,10 @@ void take(const Value& value, ShaperSettings& settings) {
     settings.unknown_keys.emplace_back(value.key);
 }
 
-/// Lines "key = value"; blank lines and lines that begin with # or % are passed over. Each key of NanoShaper is read,
-/// refused where its value would change the mesh or its files in a way that there is not here, or known to change
-/// neither; others are listed. Throws InputError, with file and line: no such form, a value that is none or refused, no
-/// XYZR_FileName.
+/// Reads lines "key = value"; blank lines and lines that begin with # or % are ignored. Each key of NanoShaper is used,
+/// refused if its value would change the mesh or its files in a way that is not supported, or known to change neither;
+/// other keys are listed. Throws InputError, with file and line, for another format, for an invalid or refused value,
+/// and for a missing XYZR_FileName.
 ShaperSettings read_shaper_settings(const std::string& path) {
   const TextFile file = read_text_file(path, kLargestSettings);
   ShaperSettings settings;
@@ -198,7 +199,7 @@ but normal, PLY, maps. Other keys change nothing; unknown ones are named on stan
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 bad input, 5 too large, 6 output not written, 7 not closed.
 )";
 
-/// Cavities that are to be filled have no triangles.
+/// Returns false for cavities to be filled, which get no triangles.
 std::vector<bool> components_that_stay(const Surface& surface, const ShaperSettings& settings) {
   std::vector<bool> stays;
   for (const Component& component : surface.components)
@@ -223,7 +224,7 @@ MsmsMesh rows_of(const FineMesh& even, const std::vector<bool>& stays) {
       }
       triangle.corner[c] = row[vertex];
     }
-    triangle.face = 1;  // and contact: NanoShaper tells neither apart
+    triangle.face = 1;  // and contact: NanoShaper distinguishes neither
     rows.triangles.push_back(triangle);
   }
   weld_for_files(rows);
@@ -251,7 +252,7 @@ ExitCode run(std::span<const char* const> words) {
     for (const std::string& name : {vert, face}) files.begin(name);
   if (settings.off_file) files.begin(off);
   Spheres spheres = read_spheres(settings.spheres);
-  spheres.rows.names.clear();  // nine columns, always
+  spheres.rows.names.clear();  // always nine columns
   const Surface surface = compute_surface_cpu(spheres.balls, settings.probe_radius);
   require_closed(surface);
   EvenMeshOptions fineness;

@@ -56,7 +56,7 @@ Request parse(std::span<const char* const> words, bool named) {
   return request;
 }
 
-/// Blanks would end the column.
+/// Removes blanks, which would end the column.
 std::string without_blanks(std::string_view name) {
   std::string text;
   for (const char c : name)
@@ -93,7 +93,7 @@ void run(std::span<const char* const> words, bool named) {
   ReadOptions options;
   options.keep_water = options.keep_ions = true;
   options.radii.set = request.hydrogens ? "bondi" : "united";
-  options.radii.may_cover_none = true;  // ligands get those of their elements
+  options.radii.may_cover_none = true;  // ligands get the radii of their elements
   options.hydrogens = request.hydrogens ? Hydrogens::keep : Hydrogens::drop;
   const Structure structure = read_structure(request.file, options);
   for (const Warning& warning : structure.report.warnings) std::cerr << escaped(warning.text) << "\n";

@@ -25,7 +25,7 @@ namespace {
 constexpr int kWaitForClient = 120'000;  // milliseconds
 constexpr int kWaitForBlock = 30;        // seconds
 constexpr std::size_t kMostSpheres = 50'000'000;
-constexpr std::size_t kSpheresTogether = 1 << 16;  // memory grows with what has come, not with what was announced
+constexpr std::size_t kSpheresTogether = 1 << 16;  // memory grows with received data, not with announced sizes
 constexpr const char* kClient = "the client of -socketPort";
 
 LocalSocket listening_on(std::uint16_t port) {
@@ -72,12 +72,12 @@ void send(const LocalSocket& client, const std::vector<T>& values) {
 
 struct SentSphere {
   float x, y, z, radius;
-  std::int32_t flag;  // as in files; what VMD has there is not looked at
+  std::int32_t flag;  // as in files; VMD's value is ignored
 };
 
 Spheres receive_spheres(const LocalSocket& client, Arguments& arguments) {
   std::array<float, 2> probe_and_density{};
-  std::array<std::int32_t, 3> numbers{};  // of which the last one counts the spheres
+  std::array<std::int32_t, 3> numbers{};  // the last one is the number of spheres
   receive(client, std::span(probe_and_density));
   receive(client, std::span(numbers));
   arguments.probe_radius = probe_and_density[0];

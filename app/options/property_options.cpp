@@ -3,15 +3,15 @@
 #include "app/options/property_options.h"
 
 #include <algorithm>
-#include <cstdint>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/film/film_format.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/parse_number.h"
+#include "core/scene/scene_value.h"
 
 namespace meniscus {
 namespace {
@@ -20,21 +20,91 @@ namespace {
 CLI::Validator within(const Property& property) {
   return CLI::Validator(
       [&property](std::string& text) -> std::string {
-        double number = 0.0;
-        std::int64_t whole = 0;
-        const bool is_count = property.type == ValueType::count;
-        if ((is_count ? parse_whole_number(text, whole) : parse_number(text, number)) &&
-            property.is_within(is_count ? static_cast<double>(whole) : number))
+        try {
+          scene_values::number_in_range(property, text);
           return {};
-        const char* const kind = is_count ? "whole number" : "number";
-        if (property.highest >= kUnlimited)
-          return fmt::format("{} is not a {} of at least {}", in_quotes(text), kind, property.lowest);
-        return fmt::format("{} is not a {} from {} to {}", in_quotes(text), kind, property.lowest, property.highest);
+        } catch (const RequestError& error) {
+          return error.what();
+        }
       },
       "");
 }
 
+bool is_film(const GivenScene& given) { return is_film_path(given.scene.output); }
+
+/// Returns the properties of figures, as pictures or for other programs.
+TakenProperties shown_properties() {
+  return run_properties().with({"Surface", "-surface.patches", "-surface.min_patch", "Colour", "Figure",
+                                "-surface.clip_all", "Beside the surface", "Camera", "image.size", "image.width",
+                                "image.height", "image.dpi", "output.file", "scene.save"});
+}
+
 }  // namespace
+
+void TakenProperties::add(std::initializer_list<std::string_view> names, std::initializer_list<Need> needs) {
+  needs_.insert(needs_.end(), needs);
+  for (std::string_view name : names) {
+    const bool is_left_out = name.starts_with('-');
+    name.remove_prefix(is_left_out ? 1 : 0);
+    bool is_known = false;
+    for (const Property* property : properties()) {
+      if (property->heading != name && property->key != name) continue;
+      is_known = true;
+      if (is_left_out)
+        taken_.erase(property);
+      else
+        taken_.insert(property);
+    }
+    if (!is_known) throw std::logic_error(fmt::format("{} is neither a heading nor a key of properties", name));
+  }
+}
+
+TakenProperties TakenProperties::with(std::initializer_list<std::string_view> names,
+                                      std::initializer_list<Need> needs) const {
+  TakenProperties more = *this;
+  more.add(names, needs);
+  return more;
+}
+
+const TakenProperties& run_properties() {
+  static const TakenProperties taken(
+      {"Input", "Radii", "Assembly", "Frames", "Alignment of frames", "surface.kind", "surface.probe", "Computing",
+       "output.force", "scene.read", "scene.trust", "scene.set"},
+      {{{"frames.jobs", "frames.progress"},
+        [](const GivenScene& given) { return given.scene.frames.asked(); },
+        "there is no run of frames"}});
+  return taken;
+}
+
+const TakenProperties& figure_properties() {
+  static const TakenProperties taken =
+      shown_properties().with({}, {{{"image.dpi"},
+                                    {"image.width", "image.height"},
+                                    "the size is in pixels; add --width or --height with a length, such as 85mm"}});
+  return taken;
+}
+
+const TakenProperties& render_properties() {
+  static const TakenProperties taken = shown_properties().with(
+      {"Surface", "Figure", "Film", "Light", "Lines", "-look.material", "Picture", "Legend", "Labels"},
+      {film_need(), {{"frames.fps"}, is_film, "the output is not a film"}});
+  return taken;
+}
+
+Need film_need() {
+  return {{"frames.codec", "frames.crf", "frames.bits", "frames.chroma"},
+          is_film,
+          "the output is not a film; name one, such as -o a.mp4",
+          true};
+}
+
+Need superposition_need(Condition condition) {
+  return {
+      {"frames.superpose", "frames.center", "frames.reference"},
+      std::move(condition),
+      "areas and volumes stay the same however a frame is turned and moved; places and gradients, which are written "
+      "to files, do not"};
+}
 
 CLI::Validator proposes(const std::vector<std::string>& words) {
   return CLI::Validator([](std::string&) { return std::string(); }, "", CLI::detail::join(words, "|"));
@@ -66,12 +136,12 @@ CLI::Option* PropertyOptions::add_switch(std::string_view key, const std::functi
   return finish(property, command_.add_flag_callback(std::string(property.option), turn_on));
 }
 
-std::size_t PropertyOptions::place_of_word(const Property& property, const std::vector<std::string>& words,
-                                           const std::vector<std::string>& numbers, const std::string& text) {
-  for (std::size_t place = 0; place < words.size(); ++place)
-    if (text == words[place] || text == numbers[place]) return place;
-  throw CLI::ValidationError(std::string(property.long_option()),
-                             fmt::format("{} is not one of {}", in_quotes(text), fmt::join(words, ", ")));
+std::size_t PropertyOptions::place_of_word(const Property& property, const std::string& text) {
+  try {
+    return scene_values::place_of_word(words_of(property), text);
+  } catch (const RequestError& error) {
+    throw CLI::ValidationError(std::string(property.long_option()), error.what());
+  }
 }
 
 CLI::Option* PropertyOptions::finish(const Property& property, CLI::Option* option) const {
@@ -88,12 +158,11 @@ CLI::Option* PropertyOptions::finish(const Property& property, CLI::Option* opti
 }
 
 std::size_t place_of(const std::string& text, const Property& property) {
-  const std::vector<std::string> words = words_of(property);
-  const auto word = std::ranges::find(words, text);
-  if (word == words.end())
-    throw UsageError(
-        fmt::format("{}: {} is not one of {}", property.long_option(), in_quotes(text), fmt::join(words, ", ")));
-  return static_cast<std::size_t>(word - words.begin());
+  try {
+    return scene_values::place_of_word(words_of(property), text);
+  } catch (const RequestError& error) {
+    throw UsageError(fmt::format("{}: {}", property.long_option(), error.what()));
+  }
 }
 
 Selection parse_selection_option(const std::string& option, const std::string& text) {

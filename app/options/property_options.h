@@ -1,24 +1,62 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adds options to a command as the table of properties declares them; the caller only binds their values.
+// The properties that a command takes, and its options as the table of properties declares them; the caller only binds
+// their values.
 #pragma once
 
 #include <concepts>
 #include <functional>
 #include <initializer_list>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "core/properties/properties.h"
+#include "core/scene/idle_values.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {
+
+/// The scene's properties for which a command has options, and conditions of their effect. Each command declares its
+/// own: those of a common set below, and more or fewer. Options that no scene has are added by the command itself.
+class TakenProperties {
+ public:
+  /// names: headings of the help, such as "Colour", and keys, such as "molecule.quiet"; one that begins with a minus is
+  /// left out. The last one that names a property decides. Throws std::logic_error for a name that is neither. needs:
+  /// conditions that this command adds to those of all scenes.
+  TakenProperties(std::initializer_list<std::string_view> names, std::initializer_list<Need> needs = {}) {
+    add(names, needs);
+  }
+
+  /// Returns a copy with more and fewer properties, and more conditions.
+  TakenProperties with(std::initializer_list<std::string_view> names, std::initializer_list<Need> needs = {}) const;
+
+  bool has(const Property& property) const { return taken_.contains(&property); }
+  bool has(std::string_view key) const { return has(property_of(key)); }
+  const std::vector<Need>& needs() const { return needs_; }
+
+ private:
+  void add(std::initializer_list<std::string_view> names, std::initializer_list<Need> needs);
+
+  std::set<const Property*> taken_;
+  std::vector<Need> needs_;
+};
+
+/// Returns the properties of every command that computes surfaces of a molecule or of a run of frames.
+const TakenProperties& run_properties();
+/// Returns the properties of every export of a figure.
+const TakenProperties& figure_properties();
+/// Returns the properties of `meniscus render`.
+const TakenProperties& render_properties();
+
+/// Returns the condition of options for films: the output is one.
+Need film_need();
+/// Returns the condition of options that turn and move frames. condition: a table of places or directions is written.
+Need superposition_need(Condition condition);
 
 /// Lets any value pass, and proposes these. The name of a check is where command_tree() finds its words.
 CLI::Validator proposes(const std::vector<std::string>& words);
@@ -43,18 +81,15 @@ class PropertyOptions {
       return finish(property, command_.add_option(std::string(property.option), target));
   }
 
-  /// One of the property's words; `meanings` in their order. The option's results stay words, which scene files store.
-  /// Scenes of version 0.1.0 have the numbers of enumerators instead; they are understood, too.
+  /// One of the property's words; `meanings` in their order.
   template <typename Target, typename Meaning>
   CLI::Option* add_word(std::string_view key, Target& target, std::initializer_list<Meaning> meanings) {
     const Property& property = property_of(key);
-    const std::vector<std::string> words = words_of(property);
-    if (words.size() != meanings.size()) throw std::logic_error("words and meanings differ: " + std::string(key));
-    const auto take = [&target, values = std::vector<Meaning>(meanings)](std::size_t place) { target = values[place]; };
-    std::vector<std::string> numbers;
-    for (const Meaning& meaning : meanings) numbers.push_back(number_of(meaning));
-    return add_parsed(key, [&property, words, numbers, take](const std::string& text) {
-      take(place_of_word(property, words, numbers, text));
+    if (words_of(property).size() != meanings.size())
+      throw std::logic_error("words and meanings differ: " + std::string(key));
+    return add_parsed(key, [&property, &target, values = std::vector<Meaning>(meanings)](const std::string& text) {
+      const std::size_t place = place_of_word(property, text);
+      target = values[place];
     });
   }
 
@@ -66,16 +101,8 @@ class PropertyOptions {
   CLI::Option* add_switch(std::string_view key, const std::function<void()>& turn_on);
 
  private:
-  template <typename Meaning>
-  static std::string number_of(const Meaning& meaning) {
-    if constexpr (std::is_enum_v<Meaning>)
-      return std::to_string(static_cast<int>(meaning));
-    else
-      return fmt::format("{}", meaning);
-  }
-  /// Throws CLI::ValidationError unless text is one of the words, or one of the numbers.
-  static std::size_t place_of_word(const Property& property, const std::vector<std::string>& words,
-                                   const std::vector<std::string>& numbers, const std::string& text);
+  /// Throws CLI::ValidationError unless text is one of the words.
+  static std::size_t place_of_word(const Property& property, const std::string& text);
   CLI::Option* finish(const Property& property, CLI::Option* option) const;
 
   CLI::App& command_;

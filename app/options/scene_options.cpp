@@ -16,16 +16,17 @@
 #include <fmt/ranges.h>
 
 #include "app/options/command_tree.h"
-#include "app/options/idle_options.h"
+#include "app/options/named_files.h"
 #include "app/options/property_options.h"
-#include "app/options/scene_trust.h"
 #include "app/options/usage_faults.h"
 #include "app/process/program_error.h"
 #include "core/base/binary_file.h"
 #include "core/base/error.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/color/color_maps.h"
+#include "core/image/png_file.h"
 #include "core/mesh/check_by_mesh.h"
 #include "core/scene/scene_paths.h"
 #include "core/scene/scene_values.h"
@@ -35,10 +36,6 @@
 
 namespace meniscus {
 namespace {
-
-bool has_option(const Property& property, CommandBit bit) {
-  return (property.commands & bit) != 0 && is_scene_value(property);
-}
 
 /// Which GPUs this process is meant to see, which of several it takes, and where their kernels are kept.
 void read_environment(DeviceChoice& choice) {
@@ -98,10 +95,10 @@ bool is_path(const Property& property) {
 
 }  // namespace
 
-SceneOptions::SceneOptions(CLI::App& command, CommandBit bit, SceneCommand& into)
-    : command_(command), bit_(bit), into_(into) {
+SceneOptions::SceneOptions(CLI::App& command, TakenProperties taken, SceneCommand& into)
+    : command_(command), taken_(std::move(taken)), into_(into) {
   for (const Property* property : properties()) {
-    if ((property->commands & bit) == 0) continue;
+    if (!taken_.has(*property)) continue;
     if (is_scene_value(*property))
       add_option(command, *property);
     else
@@ -110,7 +107,7 @@ SceneOptions::SceneOptions(CLI::App& command, CommandBit bit, SceneCommand& into
   if (command.get_option_no_throw("--device")) read_environment(into.scene.molecule.surface.gl);
   if (command.get_option_no_throw("FILE"))
     option("molecule.file")->description("Molecule: " + format_names() + "; .gz too; - is standard input")->required();
-  if ((bit & kForRuns) != 0) into.scene.frames.index_folder = cache_folder();
+  if (taken_.has("frames.frames")) into.scene.frames.index_folder = cache_folder();
 }
 
 /// Those that say how the work is done; and trajectories that are after FILE.
@@ -155,7 +152,12 @@ CLI::Option* SceneOptions::option(std::string_view key) const {
   return command_.get_option(std::string(property_of(key).long_option()));
 }
 
+bool SceneOptions::has_option(const Property& property) const {
+  return taken_.has(property) && is_scene_value(property);
+}
+
 void SceneOptions::describe_output(const std::string& what, OutputName name) {
+  takes_output_of_scene_ = name == OutputName::optional;
   option("output.file")->description(what)->required(name == OutputName::required);
 }
 
@@ -222,7 +224,7 @@ std::vector<SceneSetting> SceneOptions::read_scene_file(const std::vector<std::s
   std::erase_if(settings, [&](const SceneSetting& setting) {
     const Property& property = *setting.property;
     // The name of a picture does not fit the folder of an export.
-    if (property.key == "output.file" && bit_ != for_render) return true;
+    if (property.key == "output.file" && !takes_output_of_scene_) return true;
     return is_path(property) && !property.has(repeatable) && typed(property.key);
   });
   for (SceneSetting& setting : settings)
@@ -240,7 +242,7 @@ std::vector<SceneSetting> SceneOptions::read_scene_file(const std::vector<std::s
 void SceneOptions::check_inputs() const {
   if (typed("report.csv_summary")) return;  // a table of many files has a row for each that is missing
   for (const Property* property : properties()) {
-    if (property->type != ValueType::file || !has_option(*property, bit_) || !is_given(property->key)) continue;
+    if (property->type != ValueType::file || !has_option(*property) || !is_given(property->key)) continue;
     for (const std::string& path : value_texts(into_.scene, *property)) {
       std::error_code ignored;
       if (path == "-" || std::filesystem::exists(path_of_text(path), ignored)) continue;
@@ -250,6 +252,20 @@ void SceneOptions::check_inputs() const {
                                    property->key, in_quotes(path)));
     }
   }
+}
+
+/// Throws where an output, of an option or of a setting, would replace what the command reads or another output.
+void SceneOptions::guard_files(std::span<const SceneSetting> settings) const {
+  NamedFiles files(command_);
+  if (!file_.empty()) files.read(file_);
+  for (const SceneSetting& setting : settings)
+    for (const std::string& text : setting.texts) {
+      if (setting.property->type == ValueType::new_file)
+        files.write(std::string(setting.property->long_option()), text);
+      else if (setting.property->type == ValueType::file || setting.property->type == ValueType::camera)
+        files.read(text);
+    }
+  files.check();
 }
 
 /// Of --set, in the form of a scene file's settings.
@@ -263,7 +279,7 @@ std::vector<SceneSetting> SceneOptions::typed_settings() const {
     std::vector<std::string_view> keys;
     const Property* named = nullptr;
     for (const Property* property : properties()) {
-      if (!has_option(*property, bit_)) continue;
+      if (!has_option(*property)) continue;
       keys.push_back(property->key);
       if (property->key == key) named = property;
     }
@@ -282,12 +298,12 @@ std::vector<SceneSetting> SceneOptions::typed_settings() const {
 
 void SceneOptions::take_setting(const SceneSetting& setting) {
   const Property& property = *setting.property;
-  if ((property.commands & bit_) != 0) {
+  if (taken_.has(property)) {
     places_[std::string(property.key)] = setting.place;
     return set(property, setting.texts);
   }
   left_out_.emplace_back(property.key);
-  const bool shows = has_option(property_of("surface.color"), bit_);
+  const bool shows = has_option(property_of("surface.color"));
   if (!shows || !property.has(needs_support)) return;
   Scene alone;
   set_value(alone, property, setting.texts);
@@ -302,7 +318,7 @@ void SceneOptions::take(const std::vector<std::string>& named) {
   for (const Property* property : properties()) {
     if (!is_scene_value(*property)) continue;
     const bool is_overruled = !typed(property->key) && std::ranges::any_of(properties(), [&](const Property* other) {
-      if (other->excluded.empty() || !has_option(*other, bit_)) return false;
+      if (other->excluded.empty() || !has_option(*other)) return false;
       const std::vector<std::string> keys = parted(other->excluded);
       return std::ranges::find(keys, property->key) != keys.end() && typed(other->key);
     });
@@ -310,7 +326,7 @@ void SceneOptions::take(const std::vector<std::string>& named) {
       if (setting.property == property && !is_overruled) take_setting(setting);
     for (const SceneSetting& setting : typed_by_key)
       if (setting.property == property) take_setting(setting);
-    if (!has_option(*property, bit_)) continue;
+    if (!has_option(*property)) continue;
     if (const std::vector<std::string> texts = typed_texts(*property); !texts.empty() || typed(property->key))
       set(*property, texts);
   }
@@ -324,9 +340,13 @@ void SceneOptions::take(const std::vector<std::string>& named) {
     refuse(error.key(), error.what());
   }
   settings.insert(settings.end(), typed_by_key.begin(), typed_by_key.end());
-  guard_files(command_, file_, settings);
-  std::vector<std::string> sentences =
-      idle_options({command_, into_.scene, [this](std::string_view key) { return is_given(key); }});
+  guard_files(settings);
+  const GivenScene given{into_.scene, [this](std::string_view key) { return is_given(key); }, is_live_};
+  std::vector<std::string> sentences;
+  for (SceneNote& note : idle_values(given, taken_.needs())) {
+    if (note.is_refused) throw UsageError(note.text);
+    sentences.push_back(std::move(note.text));
+  }
   if (std::string left_out = told_left_out(); !left_out.empty()) sentences.push_back(std::move(left_out));
   for (const std::string& sentence : sentences)
     if (!into_.reporting.quiet) std::cerr << "meniscus: " << escaped(sentence) << std::endl;
@@ -335,17 +355,17 @@ void SceneOptions::take(const std::vector<std::string>& named) {
 /// What the scene file says of the picture and this command, which shows the molecule, does not show: a sentence.
 /// Empty: nothing.
 std::string SceneOptions::told_left_out() const {
-  if (!has_option(property_of("surface.color"), bit_)) return "";
+  if (!has_option(property_of("surface.color"))) return "";
   const auto has_any_of = [&](std::string_view section) {
     return std::ranges::any_of(properties(), [&](const Property* property) {
-      return property->section() == section && has_option(*property, bit_);
+      return property->section() == section && has_option(*property);
     });
   };
   std::string names;
   for (const std::string& key : left_out_) {
     const std::string_view section = property_of(key).section();
     const bool is_seen = section == "annotations" || key == "frames.motion_blur" || key == "image.background" ||
-                         (section == "legend" && (key != "legend.shown" || bit_ != for_page)) ||
+                         (section == "legend" && key != shown_anyway_) ||
                          ((section == "look" || section == "camera") && has_any_of(section));
     if (is_seen) names += (names.empty() ? "" : ", ") + key;
   }
@@ -357,7 +377,7 @@ std::string SceneOptions::told_left_out() const {
 void SceneOptions::turn_one_molecule() {
   Scene& scene = into_.scene;
   ModelChoice& model = scene.molecule.reading.model;
-  if (bit_ != for_render || scene.run_camera.turns == 0.0 || scene.frames.asked() || model.all) return;
+  if (!taken_.has("frames.codec") || scene.run_camera.turns == 0.0 || scene.frames.asked() || model.all) return;
   constexpr double kSeconds = 4.0;
   scene.frames.frames = fmt::format("{}", model.number - 1);
   scene.frames.repeat = static_cast<std::uint64_t>(std::max(std::lround(kSeconds * scene.film.frames_per_second), 2l));
@@ -371,11 +391,10 @@ void SceneOptions::turn_one_molecule() {
 void SceneOptions::check_table() const {
   const auto name = [](std::string_view key) { return std::string(property_of(key).long_option()); };
   for (const Property* property : properties()) {
-    if (!has_option(*property, bit_) || !is_given(property->key)) continue;
+    if (!has_option(*property) || !is_given(property->key)) continue;
     for (const std::string& other : parted(property->excluded))
-      if (is_given(other) && has_option(property_of(other), bit_))
-        throw CLI::ExcludesError(name(property->key), name(other));
-    if (!property->needed.empty() && has_option(property_of(property->needed), bit_) && !is_given(property->needed))
+      if (is_given(other) && has_option(property_of(other))) throw CLI::ExcludesError(name(property->key), name(other));
+    if (!property->needed.empty() && has_option(property_of(property->needed)) && !is_given(property->needed))
       throw CLI::RequiresError(name(property->key), name(property->needed));
   }
 }
@@ -407,6 +426,17 @@ void SceneOutput::commit() {
 std::string scene_text_beside(const Scene& scene, const std::string& path, std::span<const AddedFile> added) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   return scene_text(scene, folder.empty() ? "." : folder, added);
+}
+
+std::string read_scene_text(const std::string& file) {
+  constexpr std::size_t kLargestScene = std::size_t{16} << 20;  // bytes
+  std::string text = png_note(file, kSceneNote).value_or("");
+  if (!text.empty()) return text;
+  if (is_png(file))
+    throw InputError(file, 0,
+                     "is a picture that carries no scene; pictures made with --no-provenance, frames of runs and "
+                     "pictures of other programs have none");
+  return std::string(read_text_file(file, kLargestScene).text);
 }
 
 std::string cache_folder() {

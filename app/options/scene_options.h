@@ -9,10 +9,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "app/options/property_options.h"
 #include "core/base/output_file.h"
 #include "core/properties/properties.h"
 #include "core/scene/scene.h"
@@ -68,13 +70,18 @@ enum class OutputName { required, optional };
 class SceneOptions {
  public:
   /// The command and `into` must live as long.
-  SceneOptions(CLI::App& command, CommandBit bit, SceneCommand& into);
+  SceneOptions(CLI::App& command, TakenProperties taken, SceneCommand& into);
 
   /// The option of a property that the command has, for what it says otherwise than the table.
   CLI::Option* option(std::string_view key) const;
 
-  /// What -o names.
+  /// What -o names. Where it is optional, a scene file may name it.
   void describe_output(const std::string& what, OutputName name = OutputName::required);
+
+  /// Says nothing of this property where a scene has it: the command shows it without an option.
+  void show_anyway(std::string_view key) { shown_anyway_ = key; }
+  /// Says nothing of values that may have an effect later, because the scene changes while it is shown.
+  void be_live() { is_live_ = true; }
 
   /// Has a scene file read as if --scene named it.
   void name_file(const std::string& path) { file_ = path; }
@@ -93,13 +100,16 @@ class SceneOptions {
   /// The path of the scene file; empty: there is none.
   const std::string& file() const { return file_; }
   const CLI::App& command() const { return command_; }
+  const TakenProperties& taken() const { return taken_; }
   const Scene& scene() const { return into_.scene; }
 
  private:
   void add_own_option(const Property& property);
   std::vector<SceneSetting> read_scene_file(const std::vector<std::string>& named);
   std::vector<SceneSetting> typed_settings() const;
+  void guard_files(std::span<const SceneSetting> settings) const;
   void take_setting(const SceneSetting& setting);
+  bool has_option(const Property& property) const;
   std::string told_left_out() const;
   void set(const Property& property, const std::vector<std::string>& texts);
   void check_table() const;
@@ -108,8 +118,10 @@ class SceneOptions {
   [[noreturn]] void refuse(std::string_view key, const std::string& what) const;
 
   CLI::App& command_;
-  CommandBit bit_;
+  TakenProperties taken_;
   SceneCommand& into_;
+  bool takes_output_of_scene_ = false, is_live_ = false;
+  std::string_view shown_anyway_;
   std::string file_;
   std::map<std::string, std::string> places_;  ///< in the scene file, by key
   std::vector<std::string> left_out_;
@@ -121,7 +133,7 @@ struct DeclaredCommand {
   State state;
   SceneOptions options;
 
-  DeclaredCommand(CLI::App& command, CommandBit bit) : options(command, bit, state) {}
+  DeclaredCommand(CLI::App& command, TakenProperties taken) : options(command, std::move(taken), state) {}
   DeclaredCommand(const DeclaredCommand&) = delete;
   DeclaredCommand& operator=(const DeclaredCommand&) = delete;
 };
@@ -142,6 +154,9 @@ class SceneOutput {
 
 /// The scene with paths as seen from the folder of `path`, where it is to be saved. added: as for scene_text().
 std::string scene_text_beside(const Scene& scene, const std::string& path, std::span<const AddedFile> added = {});
+
+/// Returns the JSON of a scene file, or of the picture that carries it. Throws InputError.
+std::string read_scene_text(const std::string& file);
 
 /// Where indices of frames and compiled kernels are kept: beside other caches of the user, or nowhere.
 std::string cache_folder();

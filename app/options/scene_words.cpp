@@ -9,7 +9,7 @@
 
 namespace meniscus {
 
-std::vector<std::string> scene_words(const Scene& scene, CommandBit command,
+std::vector<std::string> scene_words(const Scene& scene,
                                      const std::function<std::string(const std::string& path)>& path) {
   const auto named = [&](const Property& property, const std::string& text) {
     const bool is_file =
@@ -18,7 +18,7 @@ std::vector<std::string> scene_words(const Scene& scene, CommandBit command,
   };
   std::vector<std::string> words{named(property_of("molecule.file"), scene.molecule.file)};
   for (const Property* property : properties()) {
-    if ((property->commands & command) == 0 || !is_scene_value(*property)) continue;
+    if (!is_scene_value(*property)) continue;
     if (property->key == "molecule.file" || property->key == "output.file") continue;
     const std::string option(property->long_option());
     for (const std::string& given : value_texts(scene, *property)) {
@@ -38,7 +38,7 @@ std::vector<std::string> scene_words(const Scene& scene, CommandBit command,
 
 std::vector<std::string> render_words(const Scene& scene) {
   std::vector<std::string> words{"meniscus", "render"};
-  const std::vector<std::string> values = scene_words(scene, for_render);
+  const std::vector<std::string> values = scene_words(scene);
   words.insert(words.end(), values.begin(), values.end());
   if (!scene.output.empty()) words.insert(words.end(), {"-o", scene.output});
   return words;

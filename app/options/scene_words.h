@@ -12,9 +12,9 @@
 
 namespace meniscus {
 
-/// FILE, and an option for each value of a command that differs from Scene{}, but for where its output goes. path: what
-/// is written instead of the path of a file that is read.
-std::vector<std::string> scene_words(const Scene& scene, CommandBit command,
+/// Returns FILE, and an option for each value that differs from Scene{}, but for where its output goes. path: what is
+/// written instead of the path of a file that is read.
+std::vector<std::string> scene_words(const Scene& scene,
                                      const std::function<std::string(const std::string& path)>& path = {});
 
 /// "meniscus", "render" and the same, with the output.

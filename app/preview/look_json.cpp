@@ -24,8 +24,7 @@ namespace {
 std::vector<const LookNumber*> live_numbers() {
   std::vector<const LookNumber*> live;
   for (const LookNumber& number : look_numbers())
-    if (number.in || number.asked == &LookRequest::silhouettes || number.asked == &LookRequest::patch_lines)
-      live.push_back(&number);
+    if (number.in || number.key == "look.silhouettes" || number.key == "look.patch_lines") live.push_back(&number);
   return live;
 }
 
@@ -72,7 +71,7 @@ LookRequest changed_look(LookRequest look, const CommandReader& command) {
     const Property& property = property_of(number->key);
     const std::string key = json_key(*number);
     if (command.has(key.c_str()))
-      look.*number->asked = static_cast<float>(command.number(key.c_str(), property.lowest, property.highest));
+      *number->asked(look) = static_cast<float>(command.number(key.c_str(), property.lowest, property.highest));
   }
   return look;
 }

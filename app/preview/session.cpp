@@ -23,7 +23,7 @@ Json recorded(Json command) {
 
 }  // namespace
 
-PreviewSession::PreviewSession(std::unique_ptr<ViewRenderer> renderer, Structure structure, PreviewState state,
+PreviewSession::PreviewSession(std::unique_ptr<PreviewRenderer> renderer, Structure structure, PreviewState state,
                                const std::optional<Camera>& camera, std::filesystem::path export_folder,
                                std::optional<TrajectoryPositions> trajectory, SessionContext context)
     : state_(std::move(state)),

@@ -34,7 +34,7 @@ class PreviewSession {
  public:
   /// A structure with instances has one model, and the renderer draws its copies. `state` says how it looks at first;
   /// without `camera` everything is shown. Throws InputError for a bad camera or first frame, and as color_atoms does.
-  PreviewSession(std::unique_ptr<ViewRenderer> renderer, Structure structure, PreviewState state,
+  PreviewSession(std::unique_ptr<PreviewRenderer> renderer, Structure structure, PreviewState state,
                  const std::optional<Camera>& camera, std::filesystem::path export_folder,
                  std::optional<TrajectoryPositions> trajectory = {}, SessionContext context = {});
 

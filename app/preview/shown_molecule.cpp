@@ -308,12 +308,12 @@ Structure ShownMolecule::frame_structure() const {
 
 const Atom& ShownMolecule::atom_in_view(std::uint32_t atom) const {
   const std::size_t own = atoms().size();
-  return atom < own ? structure_.atoms[atoms()[atom]] : marked_->beside.at(atom - own);
+  return atom < own ? structure_.atoms[atoms()[atom]] : marked_->extra_atoms.at(atom - own);
 }
 
 std::vector<Atom> ShownMolecule::atoms_in_view() const {
   std::vector<Atom> atoms = frame_structure().atoms;
-  if (marked_) atoms.insert(atoms.end(), marked_->beside.begin(), marked_->beside.end());
+  if (marked_) atoms.insert(atoms.end(), marked_->extra_atoms.begin(), marked_->extra_atoms.end());
   return atoms;
 }
 

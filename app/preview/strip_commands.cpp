@@ -20,7 +20,7 @@ constexpr double kSecondsBetween = 2.0;  // as --transition has it
 /// What must be asked for to have the numbers of this look.
 LookRequest request_for(LookRequest asked, Look look, bool outlines_patches) {
   for (const LookNumber& number : look_numbers())
-    if (number.in) asked.*number.asked = number.in(look);
+    if (number.in) *number.asked(asked) = number.in(look);
   asked.light_direction = look.light_direction;
   asked.silhouettes = look.silhouettes;
   asked.outer_lines = look.outer_lines;

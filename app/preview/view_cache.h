@@ -16,7 +16,7 @@
 
 #include "app/preview/shown_molecule.h"
 #include "core/scene/surface_kind.h"
-#include "core/scene/view_renderer.h"
+#include "core/scene/renderers.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -67,7 +67,7 @@ enum class Quality {
 /// Every function gets the state that is shown and its molecule; states are distinguished by their revisions.
 class ViewCache {
  public:
-  explicit ViewCache(std::unique_ptr<ViewRenderer> renderer) : renderer_(std::move(renderer)) {}
+  explicit ViewCache(std::unique_ptr<PreviewRenderer> renderer) : renderer_(std::move(renderer)) {}
 
   /// Hands the renderer what another state has made again. moves: the balls of the surface too.
   void take(const PreviewState& state, const ShownMolecule& molecule, Renewal renewal, bool moves);
@@ -85,7 +85,7 @@ class ViewCache {
   /// Whether the first surface takes so long that there should be something to see before.
   bool wants_balls(const PreviewState& state, const ShownMolecule& molecule) const;
 
-  /// The last picture with its legend; see ViewRenderer::draw().
+  /// The last picture with its legend; see PreviewRenderer::draw().
   std::vector<std::uint8_t> rgba() const;
   /// Of GL; 0: the picture is rgba() alone.
   std::uint32_t texture() const { return drawn_.legend || shows_balls() ? 0 : renderer_->texture(); }
@@ -124,7 +124,7 @@ class ViewCache {
     std::shared_ptr<const LegendStrip> legend;
   };
 
-  std::unique_ptr<ViewRenderer> renderer_;
+  std::unique_ptr<PreviewRenderer> renderer_;
   ExposedAreas areas_;
   Drawn drawn_;
   BallPicture balls_;         ///< the last picture, if it is of this quality

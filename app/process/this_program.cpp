@@ -23,7 +23,7 @@ std::string& remembered() {
 
 std::filesystem::path addon_folder() {
   std::error_code none;
-  const fs::path program = system_file::program().parent_path();
+  const fs::path program = system_file::program_path().parent_path();
   const fs::path installed = program.parent_path() / "share/meniscus/addon", built = program / "share/meniscus/addon";
   return !fs::exists(installed, none) && fs::exists(built, none) ? built : installed;
 }

@@ -29,13 +29,13 @@ std::string header(const std::string& first, const std::vector<AreaColumn>& colu
 
 constexpr const char* kAtomColumns = "index,model,chain,residue,number,icode,name,element,class,radius";
 
-// model, chain, residue, number, icode
+// Returns model, chain, residue, number, icode.
 std::string place(const Atom& atom) {
   return fmt::format("{},{},{},{},{}", atom.model, csv_cell(atom.chain), csv_cell(atom.residue_name),
                      atom.residue_number, letter(atom.insertion_code));
 }
 
-// Accessible areas by the probe of the greatest ones have a relative one behind them.
+// Adds a relative area after each accessible area by the probe of the largest ones.
 std::vector<AreaColumn> with_relatives(const Structure& structure, std::vector<AreaColumn> columns,
                                        double probe_radius) {
   for (std::size_t n = 0, count = columns.size(); n < count; ++n)
@@ -44,7 +44,7 @@ std::vector<AreaColumn> with_relatives(const Structure& structure, std::vector<A
   return columns;
 }
 
-// What kAtomColumns names.
+// Returns the cells of kAtomColumns.
 std::string atom_cells(const Atom& atom) {
   return fmt::format("{},{},{},{},{},{}", atom.index, place(atom), csv_cell(atom.name),
                      atom.element ? element_symbol(atom.element) : "", class_name(atom.kind), atom.radius);

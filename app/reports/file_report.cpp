@@ -47,7 +47,7 @@ std::string box_text(const Frame& frame) {
                      degrees_between(a, b));
 }
 
-/// Frames that cannot be read are said, and otherwise taken to tell nothing.
+/// Reads a frame. A frame that cannot be read is reported, and returned without contents.
 Frame read_or_warn(Trajectory& trajectory, std::uint64_t number) {
   Frame frame;
   try {

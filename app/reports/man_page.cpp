@@ -10,7 +10,7 @@
 namespace meniscus {
 namespace {
 
-/// Text that means itself: groff takes backslashes, hyphens, quotes and a few others for typography.
+/// Escapes text for groff, which takes backslashes, hyphens, quotes and a few other characters for typography.
 std::string plain(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -40,11 +40,11 @@ std::string plain(std::string_view text) {
         result += c;
     }
   }
-  // A line that begins so would be a macro.
+  // A line that begins with a dot would be a macro.
   return result.starts_with('.') ? "\\&" + result : result;
 }
 
-/// A request for each line of a text that is printed as it is.
+/// Returns a request for each line of a text that is printed verbatim.
 std::string as_it_is(std::string_view text) {
   while (text.starts_with('\n')) text.remove_prefix(1);
   while (text.ends_with('\n')) text.remove_suffix(1);
@@ -68,7 +68,7 @@ std::string heading(std::string_view name, std::string_view section, std::string
                      margins.date, plain(margins.version), plain(name), plain(summary));
 }
 
-/// \fB\-o\fR, \fB\-\-output\fR \fIPATH\fR
+/// Returns \fB\-o\fR, \fB\-\-output\fR \fIPATH\fR.
 std::string term(const OptionEntry& option, bool argument) {
   std::string text;
   for (const std::string& name : option.names)
@@ -91,7 +91,7 @@ std::string synopsis(const CommandEntry& command) {
   return text + (command.commands.empty() ? "\n" : " \\fICOMMAND\\fR\n");
 }
 
-/// The examples come first in a footer; what else it says is behind an empty line.
+/// Splits a footer: the examples come first, other text after an empty line.
 std::string examples_and_details(const std::string& footer) {
   if (footer.empty()) return {};
   const std::size_t gap = footer.find("\n\n");

@@ -15,45 +15,45 @@
 
 namespace meniscus {
 
-/// Of a picture without a pixel of the molecule.
+/// The warning about a picture without a pixel of the molecule.
 inline constexpr const char* kShowsNothing =
     "warning: the picture shows nothing: no ray meets a part of the surface that --show and --clip leave; check where "
     "the camera looks";
 
-/// A line on stderr, unless quiet. Control characters are escaped.
+/// Prints a line on standard error, unless quiet. Control characters are escaped.
 void say(const SceneCommand& command, const std::string& line);
 
-/// The warnings about a file on stderr, as detailed as wanted, unless quiet.
+/// Prints the warnings about a file on standard error, in the requested detail, unless quiet.
 void say_warnings(const SceneCommand& command, const Structure& structure);
 
-/// Warns that this share of a surface lies outside of the volume map that colours it, unless none does. whose: "the
+/// Warns that this share of a surface lies outside the volume map that colours it, unless it is 0. whose: "the
 /// surface".
 void tell_beyond_map(const SceneCommand& command, double share, std::string_view whose);
 
-/// Progress on stderr: a bar on a terminal, plain lines elsewhere, nothing when quiet.
+/// Returns a sink for progress on standard error: a bar on a terminal, plain lines elsewhere, nothing when quiet.
 ProgressSink progress_on_stderr(const SceneCommand& command);
 
-/// Reads the file and says what was read and left out, and each warning. With --assembly list it prints the assemblies
-/// and ends the program by CLI::Success.
+/// Reads the file and prints which atoms were read and left out, and each warning. With --assembly list it prints the
+/// assemblies and ends the program by CLI::Success.
 Structure read_and_tell(const SceneCommand& command);
 
-/// What was read and left out, each warning, and how many frames a run has.
+/// Prints which atoms were read and left out, each warning, and the number of frames of a run.
 void tell_run(const SceneCommand& command, const FrameRun& frames);
 
-/// How much of the surface its map reaches, on which device it was computed, and whether radii grew.
+/// Prints the part of the surface that its map covers, the device that computed it, and whether radii grew.
 void tell_built(const SceneCommand& command, const Molecule& molecule);
-/// By how much radii were grown to tell ties apart, Å; nothing where it is 0.
+/// Prints the growth of radii, Å, that resolved ties; nothing if it is 0.
 void tell_grown_radii(const SceneCommand& command, double grown_by);
 
-/// Computes and colours a structure, and says on which device.
+/// Computes and colours a structure, and prints the device.
 Molecule build_and_tell(const SceneCommand& command, Structure structure);
-/// The same of the molecule's file.
+/// Reads, computes and colours the molecule's file, and prints all of the above.
 Molecule load_molecule(const SceneCommand& command);
 
-/// On what a picture was made, and how long each stage took.
+/// Prints the device that made a picture, and the time of each stage.
 void say_times(const SceneCommand& command, const std::string& device, std::span<const StageTime> stages);
 
-/// Warns if the camera given is certain to see nothing of the structure.
+/// Warns if the given camera certainly sees nothing of the structure.
 void tell_if_unseen(const SceneCommand& command, const std::optional<Camera>& given, const Structure& structure);
 
 }  // namespace meniscus

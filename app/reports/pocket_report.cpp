@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Raised when a key changes its meaning or goes away; new keys do not raise it.
+/// The version, raised when a key changes its meaning or is removed, but not for new keys.
 constexpr int kPocketSchemaVersion = 1;
 
 std::string left_out_name(const PocketReport& report, const LeftOutResidue& residue) {
@@ -104,7 +104,7 @@ std::string pocket_cells(const PocketReport& report, std::size_t n) {
                      csv_cell(residues_of(report.structure, pocket.cavity.atoms)), csv_cell(in_pocket(report, n)));
 }
 
-/// The first few of some words, for a line that people read.
+/// Returns the first few of some words, for a line that people read.
 std::string first_of(const std::string& words) {
   constexpr std::size_t kWidth = 48;
   if (words.size() <= kWidth) return words;
@@ -219,8 +219,8 @@ std::string unplaced_ligands(const PocketReport& report) {
                      report.pockets.found.request.large_probe_radius);
 }
 
-/// Chains of at most 30 residues beside one at least three times as long, such as peptides that are bound to it, that
-/// were not taken out; by name, in the order of the file.
+/// Returns the names of chains of at most 30 residues next to one at least three times as long, such as bound peptides,
+/// that were not left out; in the order of the file.
 std::vector<std::string> short_chains(const PocketReport& report) {
   constexpr std::size_t kShort = 30, kTimes = 3;
   std::set<std::uint32_t> taken;
@@ -269,7 +269,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kOfOthers = "#d9d9d9";
 
-/// A rule for --color.
+/// Returns a rule for --color.
 std::string rule_of(const Structure& structure, const Pocket& pocket, std::size_t rank) {
   std::string rule = "index";
   for (const std::uint32_t a : pocket.cavity.atoms) rule += fmt::format(" {}", structure.atoms[a].index);
@@ -282,7 +282,7 @@ std::string pocket_figure(const PocketReport& report, const std::string& scene, 
   Json figure = Json::parse(scene);
   const std::vector<Pocket>& pockets = report.pockets.found.pockets;
   Json colors = Json::array({kOfOthers});
-  // Of several rules that speak of an atom the last counts.
+  // The last of several rules for an atom counts.
   for (std::size_t n = pockets.size(); n-- > 0;) colors.push_back(rule_of(report.structure, pockets[n], n));
   Json& molecule = figure["molecule"];
   const bool some_left_out = report.pockets.atom_count < report.structure.atoms.size();

@@ -21,31 +21,32 @@ struct PocketReport {
 };
 
 std::string pocket_table(const PocketReport& report);
-/// Indented, ends with a line feed.
+/// Returns indented JSON that ends with a line feed.
 std::string pocket_json(const PocketReport& report);
-/// The same object in one line that begins with "frame" and "time" (null if unknown).
+/// Returns the same object in one line that begins with "frame" and "time" (null if unknown).
 std::string pocket_json_line(const PocketReport& report, const FrameNote& note);
 
-/// rank,kind,volume,excess,area,wall_area,mouth_area,mouths,mouth_areas,depth,x,y,z,atoms,residues,left_out. `excess`:
-/// Å³, by how much the volume may be too large; mouth_areas: with semicolons between; left_out: residues that were
-/// taken out with at least half of their atoms here.
+/// Returns rank,kind,volume,excess,area,wall_area,mouth_area,mouths,mouth_areas,depth,x,y,z,atoms,residues,left_out.
+/// `excess`: Å³, the largest possible error of the volume, which is never too small; mouth_areas: separated by
+/// semicolons; left_out: residues that were left out with at least half of their atoms in the pocket.
 std::string pocket_csv_header();
 std::string pocket_csv_rows(const PocketReport& report);
 
-/// frame,time,pocket,event,other and the columns above, where a pocket keeps its number as cavities do
-/// (cavity_tracks.h). One that is gone has one last row.
+/// Returns frame,time,pocket,event,other and the columns above. A pocket keeps its number as cavities do
+/// (cavity_tracks.h); one that has vanished has one last row.
 std::string pocket_series_header();
 std::string pocket_series_rows(const PocketReport& report, const FrameNote& note, const std::vector<CavityStep>& steps);
 
-/// A line of the table of a run, and the line above all of them.
+/// Returns the header of the table of a run; the next function returns a row.
 std::string pocket_row_header();
 std::string pocket_row(const PocketReport& report, const FrameNote& note);
 
-/// Sentences that say what to try next; none where there is nothing to say.
+/// Returns sentences with hints on what to try next, possibly none.
 std::vector<std::string> pocket_hints(const PocketReport& report);
 
-/// scene: of the command that found the pockets (scene_text()). left_out: the expression by which atoms were taken out.
-/// Atoms that line several pockets have the colour of the first; later than the 21st colours begin again.
+/// Returns a scene that shows the pockets. scene: that of the command that found the pockets (scene_text()). left_out:
+/// the expression for the atoms that were left out. Atoms that line several pockets have the colour of the first one;
+/// after the 21st pocket colours repeat.
 std::string pocket_figure(const PocketReport& report, const std::string& scene, const std::string& left_out);
 
 }  // namespace meniscus

@@ -30,21 +30,21 @@ bool ends_the_run(const std::exception& error) {
   return code == kExitOutput || code == kExitGpu || code == kExitUsage || code == kExitInternal;
 }
 
-/// The first frame that failed, and how many did.
+/// The first frame that failed, and the number of failures.
 struct Failures {
   std::uint64_t count = 0, frame = 0;
   ExitCode code = kExitOk;
   std::string message;
 };
 
-/// The first picture that has some fault, and how many have it.
+/// The first picture with some fault, and the number of such pictures.
 struct FaultyPictures {
   std::uint64_t count = 0, first = 0;
 
   void note(std::uint64_t frame, bool is_faulty) {
     if (is_faulty && count++ == 0) first = frame;
   }
-  /// "3 of the pictures show nothing (first: frame 7)"
+  /// Returns "3 of the pictures show nothing (first: frame 7)".
   std::string words(const char* one, const char* many) const {
     return fmt::format("{} of the pictures {} (first: frame {})", with_thousands(count), count == 1 ? one : many,
                        first);
@@ -70,14 +70,14 @@ double milliseconds_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-/// A frame as it was read, or why it could not be.
+/// A frame that was read, or the error.
 struct Read {
   std::optional<RunFrame> frame;
   std::exception_ptr error;
   Clock::time_point begin;
 };
 
-/// A frame to finish, and what it took up to here.
+/// A frame to finish, and the time spent on it so far.
 struct Prepared {
   FinishFrame finish;
   double milliseconds;
@@ -95,7 +95,7 @@ Read read_next(FrameRun& frames) {
   return read;
 }
 
-/// Works within a part of the cores.
+/// Returns a job that uses a part of the cores.
 Jobs::Worker job_of(FrameWorker worker, std::shared_ptr<tbb::task_arena> cores) {
   return [worker = std::move(worker), cores = std::move(cores)](Read read) {
     if (read.error) std::rethrow_exception(read.error);
@@ -110,7 +110,7 @@ std::vector<Jobs::Worker> jobs_of(std::vector<FrameWorker> workers) {
   std::vector<Jobs::Worker> jobs;
   for (FrameWorker& worker : workers) {
     auto arena = std::make_shared<tbb::task_arena>(each);
-    arena->initialize();  // one that lacked the memory in the first frame would wait for itself in the next, for ever
+    arena->initialize();  // without memory for the first frame it would wait for itself forever in the next
     jobs.push_back(job_of(std::move(worker), std::move(arena)));
   }
   return jobs;
@@ -123,7 +123,7 @@ std::size_t frames_at_once(const FrameRun& frames, const SceneCommand& command, 
   const auto cores =
       static_cast<std::uint64_t>(command.scene.molecule.surface.threads > 0 ? command.scene.molecule.surface.threads
                                                                             : tbb::info::default_concurrency());
-  constexpr std::uint64_t kPartOfMemory = 4;  // the rest is for what else runs, and for the files read
+  constexpr std::uint64_t kPartOfMemory = 4;  // the rest is for other programs, and for the files read
   const std::uint64_t fit = memory_size() / kPartOfMemory / std::max<std::uint64_t>(1, frame_bytes);
   return std::max<std::uint64_t>(1, std::min({cores, fit, std::uint64_t{frames.chunk().size()}}));
 }
@@ -151,7 +151,7 @@ void run_frames(FrameRun& frames, const SceneCommand& command, std::vector<Frame
   RunProgress progress(command.reporting.progress, command.reporting.quiet, frames.chunk().size(), workers.size());
   Failures failures;
   FaultyPictures empty, unlabelled;
-  // One more than are worked on waits to be, and one to be finished.
+  // In addition to the frames at work, one waits to start, and one to be finished.
   const std::size_t most_pending = workers.size() == 1 ? 1 : workers.size() + 2;
   Jobs jobs(jobs_of(std::move(workers)));
   std::size_t begun = 0;

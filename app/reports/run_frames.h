@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the frames of a run, several at once, continues after one that fails, and reports all in their order.
+// Makes the frames of a run, several at once, continues after a failed frame, and reports all frames in order.
 #pragma once
 
 #include <cstddef>
@@ -16,35 +16,36 @@
 
 namespace meniscus {
 
-/// What came of a frame.
+/// The result of a frame.
 struct MadeFrame {
-  std::vector<std::string> files;  ///< those written
-  bool shows_nothing = false;      ///< it is a picture on which nothing is to be seen
-  bool lacks_labels = false;       ///< it is a picture that has no room for them
+  std::vector<std::string> files;  ///< the files that were written
+  bool shows_nothing = false;      ///< true for a picture that shows nothing
+  bool lacks_labels = false;       ///< true for a picture without room for its labels
 };
 
-/// What is left to do with a frame when those before it are done: on the thread that called run_frames.
+/// The rest of the work on a frame, which runs after all previous frames, on the thread that called run_frames.
 using FinishFrame = std::function<MadeFrame()>;
-/// Does what can be done with a frame while others are worked on, perhaps on a thread of its own.
+/// Does the part of the work on a frame that can run at the same time as other frames, perhaps on a thread of its own.
 using FrameWorker = std::function<FinishFrame(RunFrame frame)>;
 
-/// Builders for as many frames as are worked on at once: as many as asked for (--jobs), else as the processor, the
-/// frames and the memory allow. `frame_bytes`: what a frame takes until it is finished. One alone where surfaces are
-/// made by GL, in `context` if there is one. Throws what MoleculeBuilder throws.
+/// Returns one builder per frame at work: as many as requested (--jobs), else as many as the processor, the frames and
+/// the memory allow. `frame_bytes`: the memory of a frame until it is finished. There is only one if GL makes the
+/// surfaces, in `context` if that is given. Throws like MoleculeBuilder.
 std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& frames, const SceneCommand& command,
                                                              std::uint64_t frame_bytes,
                                                              const EglContext* context = nullptr);
 
-/// Says how much of a frame's surface a volume map did not reach, of that frame of which it is the most.
+/// Prints the largest share of a frame's surface outside a volume map.
 void tell_beyond_map(const SceneCommand& command, std::span<const std::shared_ptr<MoleculeBuilder>> builders);
 
-/// What a frame takes until it is finished, about: its surface and areas; and a mesh of half a pixel, with its file.
+/// The approximate memory of a frame until it is finished: its surface and areas; and a mesh of half a pixel, with its
+/// file.
 constexpr std::uint64_t kSurfaceBytesPerAtom = 8'000, kMeshBytesPerAtom = 150'000;
 
-/// Has the frames of the chunk made by the workers, each by one of them, and finishes them in their order. The workers
-/// share the cores; one that is alone works on the calling thread, with all of them. A frame that throws, in reading or
-/// making, is told on stderr, and the run goes on; but OutputError and GpuError end it at once, as the next frame would
-/// meet them too. Pictures that show nothing, or lack their labels, are told in one line for all of them. At the end
+/// Has the frames of the chunk made, each by one worker, and finishes them in order. The workers share the cores; a
+/// single worker uses all of them on the calling thread. If reading or making a frame throws, the error is printed on
+/// standard error, and the run continues; but OutputError and GpuError end it at once, because the next frame would
+/// meet them, too. Pictures that show nothing, or lack their labels, are reported together in one line. At the end it
 /// throws RunError: with the code of the first frame that failed, else with kExitIncomplete if the trajectory was cut
 /// short and the run reaches its last whole frame.
 void run_frames(FrameRun& frames, const SceneCommand& command, std::vector<FrameWorker> workers);

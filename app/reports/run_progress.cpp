@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes progress in the style that was asked for.
+// Writes progress in the requested style.
 #include "app/reports/run_progress.h"
 
 #include <iostream>

@@ -12,19 +12,19 @@
 
 namespace meniscus {
 
-/// Tells the progress of one run; one thread.
+/// Reports the progress of one run; for one thread.
 class RunProgress {
  public:
-  /// at_once: so many frames are worked on at the same time. word: what is called a frame here.
+  /// at_once: number of frames at work at the same time. word: the word for a frame here.
   RunProgress(ProgressStyle style, bool quiet, std::uint64_t frames, std::size_t at_once = 1,
               const char* word = "frame");
 
-  /// empty: its picture shows nothing.
+  /// Reports a finished frame. empty: its picture shows nothing.
   void done(std::uint64_t frame, const std::vector<std::string>& files, double milliseconds, bool empty = false);
   void failed(std::uint64_t frame, int exit_code, const std::string& message);
-  /// A line for people about what delays the run.
+  /// Prints a line for people about what delays the run.
   void tell(const std::string& line) const;
-  /// Behind the last frame, whatever became of it.
+  /// Must be called after the last frame, in case of failure, too.
   void end();
 
  private:

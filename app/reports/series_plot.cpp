@@ -14,12 +14,12 @@ namespace {
 
 constexpr double kPlotWidth = 720, kPanel = 150, kLeft = 84, kRight = 18, kTop = 30, kBelow = 22, kFoot = 26;
 
-/// A range of values and where its ticks are.
+/// A range of values and its ticks.
 struct PlotAxis {
   double low, high, step;
   int decimals;
 
-  /// `most`: ticks.
+  /// `most`: largest number of ticks.
   PlotAxis(const std::vector<double>& values, int most, bool with_margin) {
     const auto [least, greatest] = std::ranges::minmax(values);
     const double size = std::max({greatest - least, 1e-6 * std::abs(greatest), 1e-9});
@@ -37,7 +37,7 @@ struct PlotAxis {
     for (double n = std::ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; n += 1) ticks.push_back(n * step);
     return ticks;
   }
-  /// -0 is not a number for people.
+  /// Formats a tick; -0 becomes 0.
   std::string label(double tick) const { return fmt::format("{:.{}f}", tick == 0.0 ? 0.0 : tick, decimals); }
   double part(double value) const { return (value - low) / (high - low); }
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of a run of frames as curves: a plain SVG, one panel below the other.
+// Plots series over the frames of a run as curves: a plain SVG, one panel below the other.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace meniscus {
 
 /// A curve in a panel of its own.
 struct PlotPanel {
-  std::string title;           ///< a word of ours with its unit, no text of a file
+  std::string title;           ///< a word of this program with its unit, never text of a file
   std::vector<double> values;  ///< one per SeriesPlot::x
 };
 
@@ -19,8 +19,8 @@ struct SeriesPlot {
   std::vector<PlotPanel> panels;
 };
 
-/// The plot as SVG 1.1, with nothing but lines and text; ends with a line feed. Ticks are at 1, 2 or 5 times a power of
-/// ten; curves fill their panels.
+/// Returns the plot as SVG 1.1 that consists only of lines and text; it ends with a line feed. Ticks are at 1, 2 or 5
+/// times a power of ten; curves fill their panels.
 std::string plot_svg(const SeriesPlot& plot);
 
 }  // namespace meniscus

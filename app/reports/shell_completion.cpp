@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the completion of each shell from the tree of commands. In all of them the words before the cursor are
-// followed down the tree; what may be there is the options of that command, its commands, the words of an option, or
-// a path.
+// Writes the completion of each shell from the tree of commands. In all shells the words before the cursor are followed
+// down the tree; candidates are the options of that command, its commands, the words of an option, or a path.
 #include "app/reports/shell_completion.h"
 
 #include <algorithm>
@@ -23,15 +22,15 @@ std::string replaced(std::string text, std::string_view what, std::string_view w
   return text;
 }
 
-/// In single quotes, as bash and zsh read them.
+/// Quotes a text in single quotes for bash and zsh.
 std::string shell_quoted(const std::string& text) { return "'" + replaced(text, "'", R"('\'')") + "'"; }
 
-/// In single quotes, as fish reads them.
+/// Quotes a text in single quotes for fish.
 std::string fish_quoted(const std::string& text) {
   return "'" + replaced(replaced(text, "\\", "\\\\"), "'", "\\'") + "'";
 }
 
-/// "meniscus/export/povray"
+/// Returns "meniscus/export/povray".
 std::string slashed(const CommandEntry& command) { return replaced(command.path, " ", "/"); }
 
 std::vector<OptionEntry> options_of(const CommandEntry& command) {
@@ -41,7 +40,7 @@ std::vector<OptionEntry> options_of(const CommandEntry& command) {
   return all;
 }
 
-/// The words with which a case statement goes one command down: "meniscus/export|meniscus/export/ply".
+/// Returns the patterns with which a case statement goes one command down: "meniscus/export|meniscus/export/ply".
 std::vector<std::string> commands_below(const CommandEntry& program) {
   std::vector<std::string> all;
   for (const CommandEntry* command : all_commands(program))
@@ -57,7 +56,7 @@ std::vector<std::string> command_names(const CommandEntry& command) {
 
 // bash
 
-/// The lines of a case statement for the values of a command's options.
+/// Returns the lines of a case statement for the values of a command's options.
 std::string bash_values(const CommandEntry& command) {
   std::string lines;
   for (const OptionEntry& option : options_of(command)) {
@@ -73,7 +72,7 @@ std::string bash_values(const CommandEntry& command) {
   return lines;
 }
 
-/// What may be where no value is due.
+/// Returns the candidates where no value is expected.
 std::string bash_words(const CommandEntry& command) {
   std::vector<std::string> options, words = command_names(command);
   for (const OptionEntry& option : options_of(command))
@@ -89,7 +88,7 @@ std::string bash_words(const CommandEntry& command) {
 
 // zsh
 
-/// A text within a specification of _arguments.
+/// Escapes a text within a specification of _arguments.
 std::string zsh_text(const std::string& text) {
   std::string safe = replaced(text, "\\", "\\\\");
   for (const std::string_view special : {"[", "]", ":"}) safe = replaced(safe, special, "\\" + std::string(special));
@@ -200,7 +199,7 @@ std::string zsh_completion(const CommandEntry& program) {
   std::string text =
       fmt::format("#compdef {0}\n# Completion of {0} for zsh; written by: {0} completion zsh\n", program.name);
   for (const CommandEntry* command : all_commands(program)) text += "\n" + zsh_function(*command);
-  // Loaded by its name it is called at once; sourced it only says what it completes.
+  // When zsh loads the script by its name, it must complete at once; when the script is sourced, it only registers.
   return text + fmt::format(R"(
 if [[ $funcstack[1] == _{0} ]]; then
   _{0} "$@"

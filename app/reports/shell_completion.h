@@ -8,13 +8,13 @@
 
 namespace meniscus {
 
-/// To be sourced by bash, or put into a folder of bash-completion under the program's name.
+/// Returns a script to be sourced by bash, or put into a folder of bash-completion under the program's name.
 std::string bash_completion(const CommandEntry& program);
 
-/// To be put into a folder of zsh's fpath as _NAME.
+/// Returns a script to be put into a folder of zsh's fpath as _NAME.
 std::string zsh_completion(const CommandEntry& program);
 
-/// To be put into a folder of fish's completions as NAME.fish.
+/// Returns a script to be put into a folder of fish's completions as NAME.fish.
 std::string fish_completion(const CommandEntry& program);
 
 }  // namespace meniscus

@@ -17,12 +17,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Raised when a key changes its meaning or goes away; new keys do not raise it.
+/// The version, raised when a key changes its meaning or is removed, but not for new keys.
 constexpr int kSchemaVersion = 2;
 
 const char* kind_name(ComponentKind kind) { return kind == ComponentKind::outer ? "outer" : "cavity"; }
 
-/// A cavity's volume is that of the void.
+/// Returns the volume of a component, positive also for a cavity.
 double volume_of(const Component& component) {
   return component.kind == ComponentKind::cavity ? -component.volume : component.volume;
 }
@@ -74,7 +74,7 @@ void add_columns(Json& row, const std::vector<AreaColumn>& columns, const AtomGr
   for (const AreaColumn& column : columns) row[column.name] = column.total_of(group);
 }
 
-/// Chains always; objects, when there are several, with the numbers of their own surfaces.
+/// Returns the list of chains, always, and of objects, if there are several, with the numbers of their own surfaces.
 Json group_list(const SurfaceReport& report) {
   Json list = Json::array();
   const Structure& structure = report.molecule.structure;
@@ -143,7 +143,7 @@ std::string component_table(const Surface& surface) {
   return text;
 }
 
-/// A row of areas for each chain; what all have together if there is more to say than the lines above do.
+/// Returns a row of areas for each chain, and their totals if the lines above do not have them all.
 std::string chain_table(const SurfaceReport& report) {
   std::vector<AtomGroup> rows = group_atoms(report.molecule.structure, Grouping::chain);
   if (rows.size() == 1 && !report.context) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `meniscus surface` prints: a table for people, a JSON object for programs.
+// The output of `meniscus surface`: a table for people, a JSON object for programs.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace meniscus {
 
-/// Which atoms --context put around the molecule.
+/// The atoms that --context added around the molecule.
 struct ContextNote {
   std::string selection;
   std::size_t atoms = 0;
@@ -29,13 +29,13 @@ struct SurfaceReport {
   const std::optional<PatchReport>& patches;
 };
 
-/// Indented, ends with a line feed.
+/// Returns indented JSON that ends with a line feed.
 std::string report_json(const SurfaceReport& report);
 std::string report_table(const SurfaceReport& report);
 
-/// The object of report_json in one line that begins with "frame" and "time" (null if unknown).
+/// Returns the object of report_json in one line that begins with "frame" and "time" (null if unknown).
 std::string report_json_line(const SurfaceReport& report, const FrameNote& note);
-/// A row of the table of a run, and the line above all of them.
+/// Returns a row of the table of a run; the next function returns its header.
 std::string report_row(const SurfaceReport& report, const FrameNote& note);
 std::string report_row_header(const MoleculeRequest& options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Asks compiler, libraries and GL for their versions.
+// Queries compiler, libraries and GL for their versions.
 #include "app/reports/version_report.h"
 
 #include <cstdlib>
@@ -36,7 +36,7 @@ constexpr const char* kCompiler = "GCC " __VERSION__;
 
 std::string row(std::string_view what, std::string_view answer) { return fmt::format("\n{:<12}{}", what, answer); }
 
-/// What `ask` says, or why it cannot.
+/// Returns the result of `ask`, or the reason why there is none.
 template <class Ask>
 std::string answer_of(Ask ask) {
   try {

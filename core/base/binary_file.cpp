@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads blocks of a file as bytes of either order or as lines, and notices changes of the file.
+// Reads blocks and lines of a file, and detects changes of the file.
 #include "core/base/binary_file.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ std::string advice_on_pdb_code(std::string_view word) {
 BinaryFile::BinaryFile(const std::string& path, Contents contents) : path_(path) {
   const bool atoms = contents == Contents::atoms;
   const std::filesystem::path file = path_of_text(path);
-  // Asked before opening, because to open a pipe waits for someone who writes to it.
+  // The kind is looked up before opening, because opening a pipe waits for a process that writes to it.
   std::optional<State> state = system_file::state_of(file);
   if (!state) unreadable(path, errno);
   if (state->kind == State::Kind::folder)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file of any size read at any place, as bytes or as lines, which notices when someone writes to it meanwhile.
+// Files of any size, read at any offset as bytes or as lines. Changes of a file while it is read are noticed.
 #pragma once
 
 #include <algorithm>
@@ -15,29 +15,29 @@
 
 namespace meniscus {
 
-/// What a file is read for; messages say so.
+/// The contents that a file should have, which error messages name.
 enum class Contents { atoms, frames };
 
-/// A regular file, open for reading. What lies behind the size it had when opened is never looked at, so a simulation
+/// A regular file, open for reading. Bytes beyond the size that it had when opened are never read, so that a simulation
 /// may go on appending to it.
 class BinaryFile {
  public:
-  /// Throws InputError: missing, a folder, a pipe or device, unreadable, empty.
+  /// Opens the file. Throws InputError if it is missing, a folder, a pipe or device, unreadable or empty.
   explicit BinaryFile(const std::string& path, Contents contents = Contents::frames);
   ~BinaryFile();
   BinaryFile(const BinaryFile&) = delete;
   BinaryFile& operator=(const BinaryFile&) = delete;
 
   const std::string& path() const { return path_; }
-  std::uint64_t size() const { return size_; }  ///< when it was opened
-  /// Time of the last change when it was opened, in nanoseconds; for comparing.
+  std::uint64_t size() const { return size_; }  ///< bytes, when it was opened
+  /// The time of the last change when the file was opened, in nanoseconds, for comparing only.
   std::int64_t modified() const { return modified_; }
 
-  /// Reads exactly these bytes. Throws InputError: after the end, a fault of the disk.
+  /// Reads exactly these bytes. Throws InputError if they reach beyond the end, or for an error of the disk.
   void read(std::uint64_t offset, std::span<std::byte> bytes) const;
 
-  /// Throws InputError if the file was changed since it was opened, other than by appending. To be called behind reads,
-  /// before what they gave is believed.
+  /// Throws InputError if the file was changed since it was opened, other than by appending. It has to be called after
+  /// reading and before the data is used.
   void check_unchanged();
 
  private:
@@ -50,7 +50,7 @@ class BinaryFile {
   std::vector<std::byte> tail_;  ///< what is before the end, to tell appending from writing again
 };
 
-/// The number that is at `bytes`, which need not be aligned.
+/// Returns the number at `bytes`, which need not be aligned, in the byte order `order`.
 template <typename Number>
 Number number_at(const std::byte* bytes, std::endian order) {
   std::array<std::byte, sizeof(Number)> copy;
@@ -59,20 +59,22 @@ Number number_at(const std::byte* bytes, std::endian order) {
   return std::bit_cast<Number>(copy);
 }
 
-/// Goes through the lines of a file from its beginning, or from where seek() says.
+/// Reads the lines of a file one after another from its beginning, or from the offset of seek().
 class FileLines {
  public:
-  /// The file must outlive this object.
+  /// Begins at the first line. The file must outlive this object.
   explicit FileLines(const BinaryFile& file) : file_(file) {}
 
-  /// The next line begins at this offset. What of the block lies behind it stays.
+  /// Sets the offset at which the next line begins. A block in memory that contains this offset is kept.
   void seek(std::uint64_t offset);
-  /// The next line without its end; false after the last one. A line longer than a block is given in pieces. It holds
-  /// until the next call. Throws InputError as BinaryFile::read.
+  /// Reads the next line without its line end; false after the last one. A line that is longer than a block comes in
+  /// pieces. The line is valid until the next call. Throws InputError as BinaryFile::read.
   bool next(std::string_view& line);
 
-  std::uint64_t begin() const { return begin_; }                 ///< offset of the line last given
-  std::uint64_t behind() const { return block_begin_ + used_; }  ///< offset behind it and its end
+  std::uint64_t begin() const { return begin_; }  ///< offset of the last line read
+  std::uint64_t next_offset() const {
+    return block_begin_ + used_;
+  }  ///< offset after the last line read and its line end
   bool ended_by_newline() const { return used_ > 0 && block_[used_ - 1] == '\n'; }
 
  private:
@@ -85,10 +87,10 @@ class FileLines {
   std::size_t used_ = 0;
 };
 
-/// The line without the CR of CR LF.
+/// Returns the line without the CR of CR LF.
 std::string_view without_return(std::string_view line);
 
-/// "; 1ubq is a PDB code, not a file; download ..." for a word that looks like a code of the PDB, else empty.
+/// Returns "; 1ubq is a PDB code, not a file; download ..." for a word that looks like a PDB code, else an empty text.
 std::string advice_on_pdb_code(std::string_view word);
 
 }  // namespace meniscus

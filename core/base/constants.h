@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constants that everything shares: the index that means none, and the units of other programs' files.
+// Constants that all modules share: the index that means none, and ångströms per nanometre.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 
 namespace meniscus {
 
+/// The index that means that there is none.
 inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 inline constexpr double kAngstromPerNanometre = 10.0;

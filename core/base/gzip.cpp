@@ -14,7 +14,8 @@
 
 namespace meniscus {
 
-/// Unpacks all members; RFC 1952 checks length and CRC of each. Zero padding after the last one is usual on tapes.
+/// zlib checks length and CRC of each member (RFC 1952). Zeros after the last member are accepted, because tapes add
+/// them.
 std::string unpack_gzip(const std::string& path, const std::string& packed, std::size_t largest) {
   z_stream stream{};
   if (inflateInit2(&stream, 15 + 16) != Z_OK) throw std::bad_alloc();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files packed with gzip, and the errors for files that are too large or packed by other programs.
+// Unpacking of gzip data, and errors for files that are too large or packed by other programs.
 #pragma once
 
 #include <array>
@@ -14,16 +14,18 @@
 
 namespace meniscus {
 
-/// Unpacks all members. path: of the file, for messages. Throws InputError where the data is damaged, cut short or
-/// followed by other bytes, and where this build has no zlib; CapacityError beyond `largest` bytes.
+/// Unpacks all members of gzip data and returns their bytes. path: the file, for messages. Throws InputError if the
+/// data is damaged, cut short or followed by other bytes, or if this build has no zlib. Throws CapacityError for more
+/// than `largest` bytes.
 std::string unpack_gzip(const std::string& path, const std::string& packed, std::size_t largest);
 
+/// Throws CapacityError for a file of more than `largest` bytes.
 [[noreturn]] inline void refuse_too_large(const std::string& path, std::size_t largest) {
   throw CapacityError(
       fmt::format("{}: holds more than {} bytes, more than this program reads", path, with_thousands(largest)));
 }
 
-/// Throws InputError for bytes that begin as other packers write them, with the command that unpacks the file.
+/// Throws InputError if the bytes begin like a file of another packer. The message has the command that unpacks it.
 inline void refuse_packed(const std::string& path, std::string_view bytes) {
   struct Packer {
     std::string_view magic;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replaces the names of options by the door's spelling of them.
+// Replaces the names of options in a text by their spelling in this interface.
 #include "core/base/message.h"
 
 namespace meniscus {

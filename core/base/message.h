@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages that name options: core writes "@NAME@", and each door spells it as its users do.
+// Messages that name options. Core writes "@NAME@", and each interface (command line, library) spells it in its own
+// way.
 #pragma once
 
 #include <string>
@@ -11,12 +12,11 @@
 
 namespace meniscus {
 
-/// The text with each "@NAME@" and "@NAME VALUE@" as this door writes an option and its value (option_name() in
-/// text.h):
-/// "@frames all@" becomes "frames=all" in libraries.
+/// Returns the text with each "@NAME@" and "@NAME VALUE@" spelled as this interface writes an option and its value
+/// (option_name() in text.h). For example "@frames all@" becomes "frames=all" in libraries.
 std::string with_options(std::string_view text);
 
-/// fmt::format() of such a text. Only the text itself names options, not what is put in.
+/// Formats such a text by fmt::format(). Options are replaced in the text only, not in the values.
 template <typename... Values>
 std::string message(fmt::format_string<Values...> text, Values&&... values) {
   const fmt::string_view form = text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds modules beside the program or where the build put them, and loads them.
+// Finds modules next to the program or in the build folder, and loads them.
 #include "core/base/module_file.h"
 
 #include <filesystem>
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void require_room(const ModuleFile& module) {
+void require_address_space(const ModuleFile& module) {
   void* const room = ::mmap(nullptr, module.room, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (room == MAP_FAILED)
     throw CapacityError(
@@ -29,7 +29,7 @@ void require_room(const ModuleFile& module) {
 
 fs::path path_of(const ModuleFile& module) {
   std::error_code none;
-  const fs::path program = system_file::program().parent_path();
+  const fs::path program = system_file::program_path().parent_path();
   for (const fs::path& path :
        {program / module.name, program / "../lib/meniscus" / module.name, fs::path(module.built)})
     if (fs::exists(path, none)) return path;
@@ -43,7 +43,7 @@ fs::path path_of(const ModuleFile& module) {
 
 void* load_from_module(const ModuleFile& module, const char* function) {
   const fs::path path = path_of(module);
-  require_room(module);
+  require_address_space(module);
   void* const handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const address = handle ? ::dlsym(handle, function) : nullptr;
   if (address) return address;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Jobs that several threads do at once, with results in the order in which the jobs were begun.
+// Jobs that run on several threads, with results in the order in which the jobs were begun.
 #pragma once
 
 #include <condition_variable>
@@ -14,20 +14,20 @@
 
 namespace meniscus {
 
-/// Belongs to one thread, which begins all jobs and takes all results.
+/// A queue of jobs. One thread owns it, begins all jobs and takes all results.
 template <typename Input, typename Result>
 class OrderedJobs {
  public:
   using Worker = std::function<Result(Input)>;
 
-  /// Each worker has a thread of its own and does one job after another. A single one has none: it does the jobs in
-  /// take(), on the thread of the caller. At least one.
+  /// Starts one thread for each worker, which does one job after another. A single worker has no thread: it does the
+  /// jobs in take(), on the caller's thread. There must be at least one worker.
   explicit OrderedJobs(std::vector<Worker> workers) : workers_(std::move(workers)) {
     if (workers_.size() < 2) return;
     for (const Worker& worker : workers_) threads_.emplace_back([this, &worker] { work(worker); });
   }
 
-  /// Waits for the jobs that are being done; those that have not begun are dropped.
+  /// Waits for the running jobs. Jobs that have not begun are dropped.
   ~OrderedJobs() {
     {
       const std::lock_guard lock(mutex_);
@@ -39,6 +39,7 @@ class OrderedJobs {
   OrderedJobs(const OrderedJobs&) = delete;
   OrderedJobs& operator=(const OrderedJobs&) = delete;
 
+  /// Adds a job, which the next free worker does.
   void begin(Input input) {
     std::packaged_task<Result(const Worker&)> task(
         [input = std::move(input)](const Worker& worker) mutable { return worker(std::move(input)); });
@@ -50,10 +51,10 @@ class OrderedJobs {
     changed_.notify_one();
   }
 
-  /// Jobs begun whose results are not taken.
+  /// Returns how many jobs were begun whose results have not been taken.
   std::size_t pending() const { return results_.size(); }
 
-  /// The result of the earliest pending job, as soon as it is there. Throws what the job threw.
+  /// Waits for the earliest pending job and returns its result. Throws what the job threw.
   Result take() {
     if (threads_.empty()) do_next(workers_.front());
     std::future<Result> first = std::move(results_.front());
@@ -77,7 +78,7 @@ class OrderedJobs {
       waiting_.pop_front();
       lock.unlock();
       task(worker);
-      task = {};  // what the job holds is let go on this thread, and now
+      task = {};  // frees the job's data now, on this thread
       lock.lock();
     }
   }
@@ -88,7 +89,7 @@ class OrderedJobs {
   std::deque<std::packaged_task<Result(const Worker&)>> waiting_;
   std::deque<std::future<Result>> results_;
   bool stop_ = false;
-  std::vector<std::jthread> threads_;  ///< last: they end before what they use
+  std::vector<std::jthread> threads_;  ///< last member: the threads end before what they use
 };
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes files beside their final names, syncs and renames them, and clears away those that were never finished.
+// Writes temporary files, syncs and renames them, and deletes those that were never committed.
 #include "core/base/output_file.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ std::string reason(int error) { return std::strerror(error); }
 
 fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
-/// The files that protect_input() was told of.
+/// The files that protect_input() protects. It may be used by several threads.
 class Inputs {
  public:
   void add(const State& state) {
@@ -65,12 +65,12 @@ void refuse_unsuitable_target(const fs::path& target, Existing existing) {
   if (existing == Existing::refuse) throw OutputError(text, message("exists already; use @force@ to replace it"));
 }
 
-/// Temporary files of this process that have not got their final name, and folders made for them, newest first. What
-/// is done under the lock needs no memory and no other lock, so that a signal handler may go through them.
+/// The temporary files of this process that have not been renamed yet, and the folders made for them, newest first.
+/// Nothing under the lock allocates memory or takes another lock, so that a signal handler may walk the list.
 class Unfinished {
  public:
-  /// Has `make` make a file or folder of this path, and notes it where that says true: under one lock, so that nothing
-  /// is made behind unlink_all().
+  /// Calls `make`, which makes a file or folder at this path, and notes the path if it returns true. Both happen under
+  /// one lock, so that nothing is made after unlink_all().
   template <typename Make>
   void add(const fs::path& path, const Make& make) {
     auto entry = std::make_unique<Entry>(Entry{path, nullptr});
@@ -89,10 +89,10 @@ class Unfinished {
     if (found) *place = found->older;
     unlock();
   }
-  /// Files go before the folder they are in, for it is older; a folder that others use meanwhile stays. The lock is
-  /// kept, for the program ends.
+  /// Deletes all files and folders of the list. A file is newer than its folder and therefore goes first. A folder that
+  /// contains files of others stays. The lock is kept, because the program ends.
   void unlink_all() noexcept {
-    // The program may be ending because of an error under this very lock.
+    // The program may be ending because of an error while it held this very lock.
     constexpr int kMostWaits = 1000;
     for (int waits = 0; locked_.test_and_set(std::memory_order_acquire); ++waits) {
       if (waits == kMostWaits) return;
@@ -125,11 +125,11 @@ void remove_unfinished_outputs() noexcept { unfinished.unlink_all(); }
 OutputFile::OutputFile(fs::path target, Existing existing) : target_(std::move(target)), existing_(existing) {
   refuse_unsuitable_target(target_, existing_);
   static std::atomic<unsigned> serial{0};
-  // Our own exclusive name instead of mkstemp: mkstemp's mode 0600 would outlive the rename.
+  // The name is made unique here instead of by mkstemp(), whose mode 0600 the renamed file would keep.
   int error = EEXIST;
   for (int attempt = 0; descriptor_ < 0 && error == EEXIST && attempt < 1000; ++attempt) {
     temporary_ = folder_of(target_) /
-                 path_of_text(fmt::format(".{}.{}-{}.part{}", text_of_path(target_.stem()), system_file::process(),
+                 path_of_text(fmt::format(".{}.{}-{}.part{}", text_of_path(target_.stem()), system_file::process_id(),
                                           serial++, text_of_path(target_.extension())));
     unfinished.add(temporary_, [&] {
       descriptor_ = system_file::create(temporary_);
@@ -171,13 +171,13 @@ void OutputFile::rewrite_beginning(std::span<const std::byte> bytes) {
 void OutputFile::sync() {
   if (descriptor_ >= 0 && !system_file::close(std::exchange(descriptor_, -1)))
     fail("cannot be written: " + reason(errno));
-  // A program may have replaced the temporary file by name, so the name is synced, not our descriptor.
+  // The file is synced by its name, not by the descriptor, because a program may have replaced the temporary file.
   if (!system_file::state_of(temporary_)) fail("vanished while it was written: " + reason(errno));
   if (!system_file::sync(temporary_)) fail("cannot be written: " + reason(errno));
 }
 
 void OutputFile::rename_to_target() {
-  replaced_ = system_file::state_of_entry(target_).has_value();
+  has_replaced_ = system_file::state_of_entry(target_).has_value();
   if (existing_ == Existing::refuse) {
     refuse_unsuitable_target(target_, existing_);
     if (!system_file::rename_to_free(temporary_, target_)) {
@@ -191,7 +191,8 @@ void OutputFile::rename_to_target() {
 }
 
 void OutputFile::commit() {
-  const fs::path folder = folder_of(target_);  // nothing may fail once the file has its name
+  // The folder is computed first, because nothing may fail once the file has its final name.
+  const fs::path folder = folder_of(target_);
   sync();
   rename_to_target();
   unfinished.remove(temporary_);
@@ -244,7 +245,7 @@ OutputFolder::OutputFolder(fs::path folder, Existing existing) : folder_(std::mo
 
 OutputFolder::~OutputFolder() {
   files_.clear();
-  if (committed_) {
+  if (is_committed_) {
     for (const fs::path& path : created_folders_) unfinished.remove(path);
   } else {
     remove_created_folders();
@@ -269,16 +270,16 @@ void OutputFolder::commit() {
   for (const auto& file : files_) file->sync();
   std::size_t renamed = 0;
   try {
-    const std::lock_guard whole(unfinished);  // a program that ends leaves all of them or none
+    const std::lock_guard whole(unfinished);  // a program that ends meanwhile leaves all of the files or none
     for (; renamed < files_.size(); ++renamed) files_[renamed]->rename_to_target();
   } catch (...) {
     for (std::size_t n = 0; n < renamed; ++n) {
-      if (!files_[n]->replaced_) system_file::remove(files_[n]->target_);
+      if (!files_[n]->has_replaced_) system_file::remove(files_[n]->target_);
     }
     throw;
   }
   system_file::sync_folder(folder_);
-  committed_ = true;
+  is_committed_ = true;
 }
 
 void write_shared_files(const std::filesystem::path& folder, Existing existing, std::span<const SharedFile> files) {
@@ -292,7 +293,7 @@ void write_shared_files(const std::filesystem::path& folder, Existing existing, 
       if (!is_there(shared)) output.file(shared.name).write(shared.text);
     output.commit();
   } catch (const OutputError&) {
-    if (!std::ranges::all_of(files, is_there)) throw;  // else another process was faster
+    if (!std::ranges::all_of(files, is_there)) throw;  // otherwise another process has written them
   }
 }
 

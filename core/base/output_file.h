@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that appear under their final name complete or not at all: written beside it, synced, then renamed.
+// Output files that appear under their final name complete or not at all: a temporary file is written, synced and
+// renamed.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +12,13 @@
 
 namespace meniscus {
 
-/// What to do when the target is already there.
+/// What happens if the target exists already.
 enum class Existing { refuse, replace };
 
-/// One output file. Bytes go to a temporary file in the target's folder; commit() makes it the target, and a file that
-/// is never committed vanishes. A symbolic link at the target is replaced, never followed.
-/// Throws OutputError: target exists (Existing::refuse), is an input (protect_input) or no regular file, folder missing
-/// or not writable, disk full.
+/// An output file. Its bytes go to a temporary file in the folder of the target, and commit() renames that to the
+/// target. A file that is never committed is deleted. A symbolic link at the target is replaced, never followed.
+/// Throws OutputError if the target exists (Existing::refuse), is an input (protect_input) or is no regular file, if
+/// its folder is missing or not writable, and if the disk is full.
 class OutputFile {
  public:
   OutputFile(std::filesystem::path target, Existing existing);
@@ -25,17 +26,19 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Appends bytes.
+  /// Appends bytes to the file.
   void write(std::string_view text);
   void write(std::span<const std::byte> bytes);
-  /// Replaces bytes at the beginning, of which so many must have been written: for what is known at the end only.
+  /// Overwrites the beginning of the file, for a header that is known at the end only. So many bytes must have been
+  /// written.
   void rewrite_beginning(std::span<const std::byte> bytes);
 
-  /// For programs that open files by name: write here instead of calling write(). Ends in the target's extension.
+  /// The path of the temporary file, for programs that write a file by name instead of by write(). It has the extension
+  /// of the target.
   const std::filesystem::path& temporary_path() const { return temporary_; }
   const std::filesystem::path& target() const { return target_; }
 
-  /// Brings the bytes to the disk and gives the file its final name. Call once, last.
+  /// Syncs the file and gives it its final name. It must be called once, after everything else.
   void commit();
 
  private:
@@ -48,21 +51,22 @@ class OutputFile {
   std::filesystem::path temporary_;
   Existing existing_;
   int descriptor_ = -1;
-  bool replaced_ = false;
+  bool has_replaced_ = false;
 };
 
-/// From now on no output of this process replaces this file, whatever name leads to it: hard and symbolic links too.
-/// Nothing happens if there is no such file.
+/// Protects a file from being replaced by any output of this process, by whatever name, including hard and symbolic
+/// links. A missing file is ignored.
 void protect_input(const std::filesystem::path& path);
 
-/// Makes the folders that a file lies in, if they are missing. Throws OutputError.
+/// Makes the missing folders on the path to a file. Throws OutputError.
 void make_folders_of(const std::filesystem::path& file);
 
-/// Before long work: throws what an OutputFile of this target would, which is made and vanishes again.
+/// Throws what an OutputFile of this target would throw, before long work begins. A temporary file is made and deleted
+/// again.
 void check_output(const std::filesystem::path& target, Existing existing);
 
-/// Several files that belong together, in one folder that is made when missing. No file appears before all are
-/// complete; if a step fails, the files that appeared newly are taken away again, and the folder if it was made here.
+/// Several output files that belong together, in one folder that is made if missing. No file appears before all are
+/// complete. If a step fails, new files are deleted, and so is the folder if it was made here.
 class OutputFolder {
  public:
   OutputFolder(std::filesystem::path folder, Existing existing);
@@ -70,11 +74,12 @@ class OutputFolder {
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
-  /// Begins a file of this plain name (no slash). The reference lives as long as the folder.
+  /// Begins a file with this plain name, which has no slash. The reference is valid as long as the folder.
   OutputFile& file(const std::string& name);
   const std::filesystem::path& path() const { return folder_; }
 
-  /// Syncs all files, then renames them in the order they were begun: begin the one that users open last.
+  /// Syncs all files, then renames them in the order in which they were begun. The file that users open should be begun
+  /// last.
   void commit();
 
  private:
@@ -84,21 +89,21 @@ class OutputFolder {
   Existing existing_;
   std::vector<std::filesystem::path> created_folders_;
   std::vector<std::unique_ptr<OutputFile>> files_;
-  bool committed_ = false;
+  bool is_committed_ = false;
 };
 
-/// Deletes the temporary files of all outputs that are not committed yet, and the empty folders made for them: for a
-/// program that ends otherwise than by its own will. Signal handlers may call it: it needs no memory, and waits for
-/// others a second at most.
+/// Deletes the temporary files of all outputs that are not committed yet, and the empty folders made for them. It is
+/// meant for programs that are ended from outside. Signal handlers may call it: it allocates no memory, and it waits
+/// for other threads for a second at most.
 void remove_unfinished_outputs() noexcept;
 
 struct SharedFile {
-  std::string name;  ///< plain, in the folder
+  std::string name;  ///< without a folder
   std::string text;
 };
 
-/// Files that are there with just this text stay; the others are written, all or none. Throws OutputError, with
-/// Existing::refuse also for a file of another text.
+/// Writes these files into a folder, all or none of them. A file that exists with the same text is left alone. Throws
+/// OutputError, with Existing::refuse also for an existing file with another text.
 void write_shared_files(const std::filesystem::path& folder, Existing existing, std::span<const SharedFile> files);
 
 }  // namespace meniscus

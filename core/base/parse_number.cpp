@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parses whole numbers and decimal numbers that fill their field, and says what is wrong with others.
+// Parses numbers that fill their field, and says what is wrong with others.
 #include "core/base/parse_number.h"
 
 #include <charconv>
@@ -67,7 +67,7 @@ double parse_coordinate(const TextFile& file, std::size_t line, char axis, std::
   return check_extent(file, line, axis, number);
 }
 
-bool parse_quickly(std::string_view field, double unit, double& coordinate) {
+bool try_parse_coordinate(std::string_view field, double unit, double& coordinate) {
   if (!parse_number(field, coordinate)) return false;
   coordinate *= unit;
   return std::abs(coordinate) <= kLargestCoordinate;

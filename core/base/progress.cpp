@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts progress at a limited rate, and shows it as a bar or as plain lines.
+// Counts progress at a limited rate of reports, and shows it as a bar or as plain lines.
 #include "core/base/progress.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void Progress::advance(std::uint64_t units) {
   if (last) {
     lock.lock();
   } else if (!lock.try_lock()) {
-    return;  // another thread is reporting: this report would come too soon after it
+    return;  // another thread is reporting now, so that this report would follow too soon
   }
   const auto now = std::chrono::steady_clock::now();
   if (!last && now - last_report_ < kReportInterval) return;
@@ -38,7 +38,7 @@ void Progress::advance(std::uint64_t units) {
 }
 
 ProgressText::ProgressText(bool terminal, std::function<void(std::string_view)> write)
-    : terminal_(terminal), write_(std::move(write)) {}
+    : is_terminal_(terminal), write_(std::move(write)) {}
 
 void ProgressText::report(const ProgressReport& report) {
   const double share = static_cast<double>(report.done) / static_cast<double>(report.total);
@@ -47,7 +47,7 @@ void ProgressText::report(const ProgressReport& report) {
     task_ = report.task;
     last_tenth_ = -1;
   }
-  if (terminal_) {
+  if (is_terminal_) {
     const int filled = static_cast<int>(kBarWidth * share);
     write_(fmt::format("\r\033[K{} [{:#<{}}{:.<{}}] {:3d} %{}", task_, "", filled, "", kBarWidth - filled, percent,
                        report.done == report.total ? "\n" : ""));

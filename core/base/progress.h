@@ -12,21 +12,24 @@
 
 namespace meniscus {
 
-/// `done` of `total` units of a task; total > 0, done <= total. The last report of a task has done == total.
+/// A report that `done` of `total` units of a task are finished, with total > 0 and done <= total. The last report of a
+/// task has done == total.
 struct ProgressReport {
   std::string_view task;
   std::uint64_t done = 0;
   std::uint64_t total = 1;
 };
 
-/// Receives reports. An empty sink is fine: nothing is reported.
+/// A function that receives reports. An empty one is allowed and receives none.
 using ProgressSink = std::function<void(const ProgressReport&)>;
 
-/// One task's counter. advance() may be called from any thread; the sink is called by one thread at a time, at most
-/// some 20 times a second, and always at the end.
+/// Counts the finished units of one task. Any thread may call advance(). The sink is called by one thread at a time, at
+/// most about 20 times a second, and always at the end.
 class Progress {
  public:
+  /// Reports the beginning of the task.
   Progress(ProgressSink sink, std::string task, std::uint64_t total);
+  /// Counts finished units, and reports if the last report is old enough.
   void advance(std::uint64_t units = 1);
 
  private:
@@ -38,15 +41,15 @@ class Progress {
   std::chrono::steady_clock::time_point last_report_;
 };
 
-/// Writes reports as text: on a terminal one bar that is redrawn, elsewhere a line at the start of each task and at
-/// every further tenth of it, so that logs stay short. `write` gets finished text with its line ends.
+/// Writes reports as text. A terminal gets one bar that is redrawn. A log gets a line at the start of each task and at
+/// every further tenth of it, so that it stays short. `write` receives complete text with its line ends.
 class ProgressText {
  public:
   ProgressText(bool terminal, std::function<void(std::string_view)> write);
   void report(const ProgressReport& report);
 
  private:
-  bool terminal_;
+  bool is_terminal_;
   std::function<void(std::string_view)> write_;
   std::string task_;
   int last_tenth_ = -1;

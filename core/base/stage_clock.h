@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long each named stage of some work takes by the clock on the wall.
+// A clock that measures the elapsed time of each named stage of a computation.
 #pragma once
 
 #include <algorithm>
@@ -12,27 +12,27 @@
 
 namespace meniscus {
 
-/// Name and duration of one stage.
+/// The name of a stage and its duration.
 struct StageTime {
   std::string name;
   double milliseconds = 0.0;
 };
 
-/// Which stage counts the time of work that another device does in parallel.
+/// How stages account for work that another device does in parallel.
 enum class StageTiming {
-  rough,  ///< no waiting: work of one stage may count for a later one that needs it; sums are right
-  exact   ///< that device is idle at both ends of each stage, which costs a round trip each
+  rough,  ///< does not wait: work of one stage may count for a later stage that needs it; sums are right
+  exact   ///< waits until the device is idle at both ends of each stage, which costs a round trip each
 };
 
-/// Adds up the times of stages by name, in the order in which they first ended.
+/// Adds up the times of stages by name. times() has them in the order in which they first ended.
 class StageClock {
  public:
-  /// A stage lasts as long as the returned object.
+  /// A running stage. It ends when this object is destroyed.
   class Stage {
    public:
     Stage(StageClock& clock, std::string name)
         : clock_(clock), time_{std::move(name), 0.0}, begin_(std::chrono::steady_clock::now()) {
-      clock_.keep_room();
+      clock_.reserve_entry();
     }
     ~Stage() {
       time_.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
@@ -47,28 +47,31 @@ class StageClock {
     std::chrono::steady_clock::time_point begin_;
   };
 
-  explicit StageClock(StageTiming timing = StageTiming::rough) : exact_(timing == StageTiming::exact) {}
+  explicit StageClock(StageTiming timing = StageTiming::rough) : is_exact_(timing == StageTiming::exact) {}
 
+  /// Begins a stage.
   [[nodiscard]] Stage stage(const std::string& name) {
-    if (look_) look_();
+    if (check_) check_();
     return Stage(*this, name);
   }
 
-  /// look: called before each stage; what it throws ends the work.
-  void before_stages(std::function<void()> look) { look_ = std::move(look); }
+  /// Sets a function that is called before each stage. An exception that it throws ends the work.
+  void before_stages(std::function<void()> check) { check_ = std::move(check); }
 
+  /// Adds time that was measured elsewhere.
   void add(std::string name, double milliseconds) {
-    keep_room();
+    reserve_entry();
     end({std::move(name), milliseconds});
   }
 
+  /// Forgets all times.
   void restart() { times_.clear(); }
-  bool is_exact() const { return exact_; }
+  bool is_exact() const { return is_exact_; }
   const std::vector<StageTime>& times() const { return times_; }
 
  private:
-  /// Also without memory a stage comes to its end, so the place of its time is there when it begins.
-  void keep_room() {
+  /// Reserves room for the time of a stage when it begins, so that the stage can end without allocating memory.
+  void reserve_entry() {
     times_.reserve(times_.size() + open_ + 1);
     ++open_;
   }
@@ -82,8 +85,8 @@ class StageClock {
       known->milliseconds += time.milliseconds;
   }
 
-  bool exact_;
-  std::function<void()> look_;
+  bool is_exact_;
+  std::function<void()> check_;
   std::vector<StageTime> times_;
   std::size_t open_ = 0;
 };

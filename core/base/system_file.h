@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files as the operating system has them: system_file_posix.cpp (Linux, macOS) and system_file_windows.cpp implement
-// it.
+// Files of the operating system. system_file_posix.cpp (Linux, macOS) and system_file_windows.cpp implement the
+// functions.
 #pragma once
 
 #include <cstddef>
@@ -13,58 +13,61 @@
 
 namespace meniscus {
 
-/// The path that a text in UTF-8 names, which texts are everywhere in Meniscus; and the text of a path.
+/// Convert between UTF-8, which all texts of Meniscus use, and paths of the operating system.
 std::filesystem::path path_of_text(std::string_view text);
 std::string text_of_path(const std::filesystem::path& path);
 
-/// Where a function below fails, `errno` says why.
+/// System calls on files. If one of these functions fails, `errno` has the reason.
 namespace system_file {
 
 struct State {
   enum class Kind { file, folder, link, other } kind = Kind::other;
-  std::uint64_t size = 0;                            ///< in bytes
-  std::int64_t modified = 0;                         ///< nanoseconds since 1970 (or 1601 on Windows), for comparing
-  std::pair<std::uint64_t, std::uint64_t> identity;  ///< the same for all names of a file
+  std::uint64_t size = 0;     ///< in bytes
+  std::int64_t modified = 0;  ///< in nanoseconds since 1970 (1601 on Windows), for comparing only
+  std::pair<std::uint64_t, std::uint64_t> identity;  ///< the same for all names of one file
 };
 
-/// Of what is there under this name, or of what a link there leads to. Nothing if that fails.
+/// Returns the state of the file at a path. A link is followed. Returns nothing if that fails.
 std::optional<State> state_of(const std::filesystem::path& path);
-/// The same, but of a link itself.
+/// Returns the state of the file or link at a path. A link is not followed. Returns nothing if that fails.
 std::optional<State> state_of_entry(const std::filesystem::path& path);
+/// Returns the state of an open file. Returns nothing if that fails.
 std::optional<State> state_of(int file);
 
-/// The number of an open file, -1 if that fails. No child process inherits it.
+/// Opens a file for reading and returns its descriptor, or -1. No child process inherits it.
 int open_to_read(const std::filesystem::path& path);
-/// Makes a file to write into; fails where there is something already, be it a link.
+/// Creates a file for writing and returns its descriptor, or -1. Fails if there is a file or link of this name already.
 int create(const std::filesystem::path& path);
-/// Closes it; false where that says that something was not written.
+/// Closes a file. False if the system reports that some bytes were not written.
 bool close(int file);
 
-/// Bytes read or written, which may be fewer; none at the end of the file, -1 if that fails.
+/// Each of these reads or writes at most `count` bytes and returns how many, 0 at the end of a file, and -1 for an
+/// error. The first and the third go on from the file's current position.
 std::ptrdiff_t read(int file, std::byte* bytes, std::size_t count);
 std::ptrdiff_t read_at(int file, std::byte* bytes, std::size_t count, std::uint64_t offset);
 std::ptrdiff_t write(int file, const std::byte* bytes, std::size_t count);
 std::ptrdiff_t write_at(int file, const std::byte* bytes, std::size_t count, std::uint64_t offset);
 
-/// Writes all bytes of the file to the disk, also those that another program wrote. True as well on file systems that
-/// have no such request.
+/// Writes all bytes of the file to the disk, including those that another program wrote. True if that succeeds, and on
+/// file systems that have no such request.
 bool sync(const std::filesystem::path& path);
-/// Makes a rename durable, as far as the file system can.
+/// Makes a rename in this folder durable, as far as the file system can.
 void sync_folder(const std::filesystem::path& folder);
 
-/// Gives a file another name, under which nothing may be, even if someone takes it at this moment.
+/// Renames a file. False if `to` exists, even if another process creates it at this moment.
 bool rename_to_free(const std::filesystem::path& from, const std::filesystem::path& to);
-/// Gives a file another name; what is there is replaced at once.
+/// Renames a file. A file at `to` is replaced atomically.
 bool rename_over(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Removes a file or link, or an empty folder. Needs no memory, so that a signal handler may call it.
+/// Removes a file, a link or an empty folder. It allocates no memory, so that a signal handler may call it.
 void remove(const std::filesystem::path& path) noexcept;
-/// Waits a moment, also in a signal handler.
+/// Waits for a millisecond. A signal handler may call it.
 void wait_a_millisecond() noexcept;
 
-/// The number of this process, and the file of its program, empty where the system does not tell.
-int process();
-std::filesystem::path program();
+/// The number of this process.
+int process_id();
+/// The path of the running program; empty if the system does not have it.
+std::filesystem::path program_path();
 
 }  // namespace system_file
 }  // namespace meniscus

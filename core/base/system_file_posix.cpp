@@ -42,7 +42,8 @@ State state_from(const struct stat& status) {
   return state;
 }
 
-// 0 if `to` was free, else -1 and EINVAL or ENOSYS where this file system knows no such request.
+// Renames a file and returns 0 if `to` did not exist. Otherwise returns -1, with EINVAL or ENOSYS where the file system
+// has no such request.
 int rename_exclusively(const char* from, const char* to) {
 #if defined(__APPLE__)
   const int result = ::renamex_np(from, to, RENAME_EXCL);
@@ -79,7 +80,7 @@ int create(const fs::path& path) {
       [&] { return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666); });
 }
 
-// A descriptor is closed even where that is interrupted.
+// The descriptor is closed even if the call is interrupted.
 bool close(int file) { return ::close(file) == 0 || errno == EINTR; }
 
 std::ptrdiff_t read(int file, std::byte* bytes, std::size_t count) {
@@ -117,7 +118,7 @@ void sync_folder(const fs::path& folder) {
 bool rename_to_free(const fs::path& from, const fs::path& to) {
   if (uninterrupted([&] { return rename_exclusively(from.c_str(), to.c_str()); }) == 0) return true;
   if (errno != EINVAL && errno != ENOSYS) return false;
-  // File systems without it, such as NFS, have links, which do not replace either.
+  // File systems without this request, such as NFS, have hard links, which never replace a file.
   if (uninterrupted([&] { return ::link(from.c_str(), to.c_str()); }) == 0) {
     ::unlink(from.c_str());
     return true;
@@ -139,9 +140,9 @@ void wait_a_millisecond() noexcept {
   ::nanosleep(&millisecond, nullptr);
 }
 
-int process() { return ::getpid(); }
+int process_id() { return ::getpid(); }
 
-fs::path program() {
+fs::path program_path() {
   std::error_code none;
 #if defined(__APPLE__)
   std::array<char, 4096> path{};

@@ -19,7 +19,7 @@ namespace meniscus {
 
 namespace fs = std::filesystem;
 
-// Texts would otherwise be taken for ones in the code page of the machine.
+// The text is converted from UTF-8 explicitly, because Windows would assume the code page of the machine.
 fs::path path_of_text(std::string_view text) { return {std::u8string(text.begin(), text.end())}; }
 
 std::string text_of_path(const fs::path& path) {
@@ -32,7 +32,7 @@ namespace {
 
 constexpr int kNotInherited = _O_BINARY | _O_NOINHERIT;
 
-// What the C library says of the same failure.
+// Returns the errno of the C library for an error of Windows.
 int errno_of(DWORD error) {
   switch (error) {
     case ERROR_FILE_NOT_FOUND:
@@ -117,7 +117,7 @@ int create(const fs::path& path) {
 bool close(int file) { return ::_close(file) == 0; }
 
 std::ptrdiff_t read(int file, std::byte* bytes, std::size_t count) {
-  ::_setmode(file, _O_BINARY);  // the standard input is text otherwise
+  ::_setmode(file, _O_BINARY);  // standard input is in text mode otherwise
   return ::_read(file, bytes, piece(count));
 }
 
@@ -153,7 +153,7 @@ bool sync(const fs::path& path) {
   return error == 0;
 }
 
-// Renames are written through.
+// Renames are written through to the disk already.
 void sync_folder(const fs::path&) {}
 
 bool rename_to_free(const fs::path& from, const fs::path& to) {
@@ -170,10 +170,10 @@ void remove(const fs::path& path) noexcept {
 
 void wait_a_millisecond() noexcept { ::Sleep(1); }
 
-int process() { return ::_getpid(); }
+int process_id() { return ::_getpid(); }
 
-fs::path program() {
-  std::array<wchar_t, 32768> path{};  // no path is longer
+fs::path program_path() {
+  std::array<wchar_t, 32768> path{};  // the longest path of Windows
   const DWORD length = ::GetModuleFileNameW(nullptr, path.data(), static_cast<DWORD>(path.size()));
   return fs::path(path.data(), path.data() + length);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Escapes, shortens and wraps texts, spells options, finds the known word nearest to a wrong one, and fills templates.
+// Escapes, shortens and wraps texts, spells options, finds the nearest known word, and fills templates.
 #include "core/base/text.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::string escaped(std::string_view text) {
 
 std::string shortened(std::string_view text, std::size_t bytes) {
   if (text.size() <= bytes) return escaped(text);
-  while (bytes > 0 && (text[bytes] & 0xc0) == 0x80) --bytes;  // no character is parted
+  while (bytes > 0 && (text[bytes] & 0xc0) == 0x80) --bytes;  // never splits a character
   return escaped(text.substr(0, bytes)) + "...";
 }
 
@@ -118,8 +118,9 @@ std::string base64(std::string_view bytes) {
 
 std::string pointed_at(std::string_view text, std::size_t position) {
   constexpr std::size_t kBefore = 50, kAfter = 30;
-  const auto continues = [&](std::size_t n) { return n < text.size() && (text[n] & 0xc0) == 0x80; };  // inside UTF-8
-  while (position > 0 && continues(position)) --position;  // a character is shown before the caret or above it
+  // True inside a UTF-8 character.
+  const auto continues = [&](std::size_t n) { return n < text.size() && (text[n] & 0xc0) == 0x80; };
+  while (position > 0 && continues(position)) --position;  // the caret is under a whole character
   std::size_t first = position > kBefore ? position - kBefore : 0;
   std::size_t last = std::min(text.size(), position + kAfter);
   while (first < position && continues(first)) ++first;
@@ -135,10 +136,10 @@ namespace {
 
 std::string on_command_line(std::string_view name) { return "--" + std::string(name); }
 
-OptionSpelling spelling_of_door = on_command_line;
+OptionSpelling current_spelling = on_command_line;
 
-/// Letters (bytes) to change, insert or drop to get from one word to the other (Levenshtein 1966).
-std::size_t letters_apart(std::string_view from, std::string_view to) {
+/// Returns the edit distance of two words: the number of bytes to change, insert or drop (V. I. Levenshtein 1966).
+std::size_t edit_distance(std::string_view from, std::string_view to) {
   std::vector<std::size_t> row(to.size() + 1);
   for (std::size_t j = 0; j <= to.size(); ++j) row[j] = j;
   for (std::size_t i = 1; i <= from.size(); ++i) {
@@ -155,9 +156,9 @@ std::size_t letters_apart(std::string_view from, std::string_view to) {
 
 }  // namespace
 
-std::string option_name(std::string_view name) { return spelling_of_door(name); }
+std::string option_name(std::string_view name) { return current_spelling(name); }
 
-void spell_options(OptionSpelling spelling) { spelling_of_door = spelling; }
+void spell_options(OptionSpelling spelling) { current_spelling = spelling; }
 
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known) {
   constexpr std::size_t kLongestWord = 40;
@@ -165,9 +166,9 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
   std::size_t fewest = std::min<std::size_t>(3, (word.size() + 1) / 2);
   std::string_view nearest;
   for (const std::string_view other : known) {
-    const std::size_t apart = letters_apart(word, other);
-    if (other.size() <= 2 || apart >= fewest) continue;
-    fewest = apart;
+    const std::size_t distance = edit_distance(word, other);
+    if (other.size() <= 2 || distance >= fewest) continue;
+    fewest = distance;
     nearest = other;
   }
   return nearest;

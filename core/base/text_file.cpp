@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads and vets text files, and splits them into lines, fields and comma-separated cells.
+// Reads and checks text files, and splits them into lines, fields and cells of CSV.
 #include "core/base/text_file.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The unit in which the times of a run are written.
+// The unit in which the times of a trajectory are written.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@ struct TimeUnit {
   double picoseconds;
 };
 
-/// ps for runs below 1 ns, ns below 1 µs, else µs. longest: time of the run, ps.
+/// Returns the unit for a trajectory whose longest time is `longest` ps: ps below 1 ns, ns below 1 µs, else µs.
 inline TimeUnit time_unit(double longest) {
   if (std::abs(longest) < 1e3) return {"ps", 1.0};
   return std::abs(longest) < 1e6 ? TimeUnit{"ns", 1e3} : TimeUnit{"µs", 1e6};

@@ -6,8 +6,9 @@
 
 namespace meniscus {
 
-/// The result of `call`, which returns a negative number and sets errno on failure; called again for as long as a
-/// signal interrupted it before it did anything (EINTR). Not for close(), which closes all the same.
+/// Returns the result of `call`, which returns a negative number and sets errno if it fails. It is called again as long
+/// as a signal interrupts it before it does anything (EINTR). close() must not be called this way, because it closes
+/// the file even if interrupted.
 template <typename Call>
 auto uninterrupted(const Call& call) {
   auto result = call();

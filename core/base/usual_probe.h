@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The radius of the probe where nobody names one.
+// The default radius of the probe.
 #pragma once
 
 namespace meniscus {
 
-inline constexpr double kUsualProbe = 1.4;  ///< Å, that of water
+inline constexpr double kUsualProbe = 1.4;  ///< Å, a water molecule
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decodes UTF-8 and tells controls from characters that are seen.
+// Decodes UTF-8 and recognizes control characters.
 #include "core/base/utf8.h"
 
 namespace meniscus {
@@ -15,7 +15,7 @@ Character first_character(std::string_view text) {
     if (byte(n) >> 6 != 2) return {};
     code = code << 6 | (byte(n) & 0x3fu);
   }
-  constexpr char32_t kLeast[] = {0x80, 0x800, 0x10000};  // of 2, 3 and 4 bytes; less has a shorter form
+  constexpr char32_t kLeast[] = {0x80, 0x800, 0x10000};  // with 2, 3 and 4 bytes; smaller codes have a shorter form
   const bool is_surrogate = code >= 0xd800 && code < 0xe000;
   if (code < kLeast[bytes - 2] || is_surrogate || code > 0x10ffff) return {};
   return {code, bytes};

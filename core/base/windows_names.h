@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Included before all else on Windows: removes macros of windows.h, which TBB includes, whose names geometry uses.
+// Removes macros of windows.h whose names geometry uses. TBB includes windows.h, so the compiler includes this file
+// first.
 #pragma once
 
 #define WIN32_LEAN_AND_MEAN

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refuses gzip data, in builds without zlib.
+// Refuses gzip data in builds without zlib.
 #include "core/base/error.h"
 #include "core/base/gzip.h"
 

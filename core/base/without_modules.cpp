@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replaces module_file.cpp where the library is built alone: modules belong to the program.
+// Replaces module_file.cpp in a build of the library alone, because modules belong to the program.
 #include <fmt/format.h>
 
 #include "core/base/error.h"

@@ -33,14 +33,14 @@ void validate_camera(const Camera& camera, const std::string& file) {
   if (!is_finite(camera.position) || !is_finite(camera.target) || !is_finite(camera.up)) fail("a number is not finite");
   const glm::dvec3 view = camera.target - camera.position;
   const double scale = std::max(glm::length(camera.position), glm::length(camera.target));
-  // Squares of smaller and larger numbers have no place in double precision.
+  // Squares of smaller and larger numbers exceed the range of double precision.
   constexpr double kSmallest = 1e-100, kLargest = 1e100;
   if (!(scale <= kLargest)) fail(fmt::format("position and target must lie within {:g} Å of the origin", kLargest));
   if (glm::length(view) <= 1e-12 * scale || glm::length(view) < kSmallest)
     fail("position and target are the same point, so there is no view direction");
   const double up_length = glm::length(camera.up);
   if (!(up_length >= kSmallest && up_length <= kLargest)) fail("\"up\" has no direction");
-  // The sine of their angle; below this the picture would turn with rounding errors.
+  // The sine of their angle; if it is smaller, rounding errors would turn the picture.
   if (glm::length(glm::cross(view / glm::length(view), camera.up / up_length)) < 1e-9)
     fail("\"up\" is parallel to the view direction");
   if (camera.projection == Projection::perspective) {
@@ -77,7 +77,8 @@ namespace {
 
 constexpr double kMargin = 1.06;  // share of the picture's edge length to the surface's
 
-/// Eigenvectors of a symmetric matrix as columns, largest eigenvalue first (cyclic Jacobi rotations; Jacobi 1846).
+/// Returns the eigenvectors of a symmetric matrix as columns, largest eigenvalue first (cyclic Jacobi rotations; Jacobi
+/// 1846).
 glm::dmat3 principal_axes(glm::dmat3 a) {
   glm::dmat3 axes(1.0);
   for (int sweep = 0; sweep < 32; ++sweep) {
@@ -100,10 +101,11 @@ glm::dmat3 principal_axes(glm::dmat3 a) {
   return {axes[order[0]], axes[order[1]], axes[order[2]]};
 }
 
-/// Of half the angle of a perspective camera, with the margin taken off.
+/// Returns the tangent of half the angle of a perspective camera, less the margin.
 double tangent_of(const Camera& camera) { return std::tan(camera.vertical_fov * (std::numbers::pi / 360.0)) / kMargin; }
 
-/// Where two planes that open at `half_angle` about +z touch all balls from outside: (sideways, depth) of their edge.
+/// Returns (sideways, depth) of the edge at which two planes that open at `half_angle` about +z touch all balls from
+/// outside.
 glm::dvec2 touch(std::span<const Ball> balls, const glm::dvec3& sideways, const glm::dvec3& forward, double tangent) {
   const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent), sine = tangent * cosine;
   double left = std::numeric_limits<double>::max(), right = left;
@@ -115,7 +117,7 @@ glm::dvec2 touch(std::span<const Ball> balls, const glm::dvec3& sideways, const 
   return {(left - right) / (2.0 * cosine), (left + right) / (2.0 * sine)};
 }
 
-/// Lowest and highest coordinate of the balls along a direction.
+/// Returns the lowest and highest coordinate of the balls along a direction.
 glm::dvec2 range_along(std::span<const Ball> balls, const glm::dvec3& direction) {
   glm::dvec2 range(std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest());
   for (const Ball& ball : balls) {
@@ -134,7 +136,7 @@ ViewBasis broad_side(std::span<const Ball> balls) {
   glm::dmat3 covariance(0.0);
   for (const Ball& ball : balls) covariance += glm::outerProduct(ball.center - mean, ball.center - mean);
   const glm::dmat3 axes = principal_axes(covariance);
-  // Of the four turns that show the same side, the one nearest to the usual view along -z with y up.
+  // Four turns show the same side; this is the one nearest to the usual view along -z with y up.
   const glm::dvec3 forward = axes[2].z > 0.0 ? -axes[2] : axes[2];
   const glm::dvec3 up = axes[1].y < 0.0 ? -axes[1] : axes[1];
   return {glm::cross(forward, up), up, forward};
@@ -204,7 +206,7 @@ Camera DecisiveBalls::frame() const { return frame_camera(farthest_, basis_, asp
 
 namespace {
 
-/// What is interpolated of a camera.
+/// The interpolated parameters of a camera.
 struct Pose {
   glm::dvec3 target;
   glm::dvec3 size;  ///< logarithms of distance, angle, height
@@ -224,8 +226,8 @@ Camera camera_of(const Pose& pose, Projection projection) {
   const glm::dmat3 axes = glm::mat3_cast(glm::normalize(pose.axes));
   camera.projection = projection;
   camera.target = pose.target;
-  // Between keys the curves may go beyond them, but not to where there is no camera: an angle of 180 degrees, or a
-  // distance that vanishes beside the target.
+  // Between keys the curves may overshoot, but not to invalid cameras: an angle of 180 degrees, or a distance that
+  // vanishes compared with the target.
   constexpr double kWidest = 179.9;
   const double nearest = 1e-9 * glm::length(pose.target);
   camera.position = pose.target + axes[2] * std::clamp(std::exp(pose.size.x), std::max(nearest, 1e-99), 1e99);
@@ -235,7 +237,7 @@ Camera camera_of(const Pose& pose, Projection projection) {
   return camera;
 }
 
-/// Cubic Hermite curve at share s of an interval of length h.
+/// Evaluates a cubic Hermite curve at share s of an interval of length h.
 glm::dvec3 hermite(const glm::dvec3& a, const glm::dvec3& slope_a, const glm::dvec3& b, const glm::dvec3& slope_b,
                    double h, double s) {
   const double s2 = s * s, s3 = s2 * s;
@@ -243,13 +245,13 @@ glm::dvec3 hermite(const glm::dvec3& a, const glm::dvec3& slope_a, const glm::dv
          (s3 - s2) * h * slope_b;
 }
 
-/// The Bézier curve of four turns (K. Shoemake, Animating rotation with quaternion curves, 1985).
+/// Evaluates the Bézier curve of four rotations (K. Shoemake, Animating rotation with quaternion curves, 1985).
 glm::dquat bezier(const glm::dquat& a, const glm::dquat& b, const glm::dquat& c, const glm::dquat& d, double s) {
   const glm::dquat ab = glm::slerp(a, b, s), bc = glm::slerp(b, c, s), cd = glm::slerp(c, d, s);
   return glm::slerp(glm::slerp(ab, bc, s), glm::slerp(bc, cd, s), s);
 }
 
-/// q or -q, which is the same turn: the one nearer to the other.
+/// Returns q or -q, which is the same rotation: the one nearer to the other quaternion.
 glm::dquat beside(const glm::dquat& q, const glm::dquat& other) { return glm::dot(q, other) < 0.0 ? -q : q; }
 
 }  // namespace
@@ -261,7 +263,7 @@ Camera CameraPath::at(double frame) const {
   if (behind == keys_.begin()) return keys_.front().camera;
   if (behind == keys_.end()) return keys_.back().camera;
   const std::size_t j = static_cast<std::size_t>(behind - keys_.begin()), i = j - 1;
-  if (frame == keys_[i].frame) return keys_[i].camera;  // to the last bit
+  if (frame == keys_[i].frame) return keys_[i].camera;  // exact to the last bit
   const std::size_t before = i == 0 ? i : i - 1, after = std::min(j + 1, keys_.size() - 1);
   Pose pose[4] = {pose_of(keys_[before].camera), pose_of(keys_[i].camera), pose_of(keys_[j].camera),
                   pose_of(keys_[after].camera)};
@@ -273,7 +275,7 @@ Camera CameraPath::at(double frame) const {
   const auto curve = [&](const glm::dvec3 Pose::*part) {
     return hermite(pose[1].*part, slope(part, 0, 2, before, j), pose[2].*part, slope(part, 1, 3, i, after), h, s);
   };
-  // The turn over a third of this interval at the pace at each of its ends.
+  // The rotation over a third of this interval at the rate at each of its ends.
   const auto third = [&](int from, int to, std::size_t key_from, std::size_t key_to) {
     return glm::pow(glm::inverse(pose[from].axes) * pose[to].axes,
                     h / (3.0 * (keys_[key_to].frame - keys_[key_from].frame)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The camera that ray caster and exporters share: its rays, a default one for a surface, and its path between keys.
+// The camera that ray caster and exporters share: its rays, a default camera for a surface, and paths between keys.
 #pragma once
 
 #include <span>
@@ -35,35 +35,36 @@ struct Ray {
   glm::dvec3 origin, direction;
 };
 
-/// Throws InputError naming `file` when the camera shows nothing sensible.
+/// Throws InputError naming `file` if the camera is not valid.
 void validate_camera(const Camera& camera, const std::string& file);
 
-/// Axes of a valid camera.
+/// Returns the axes of a valid camera.
 ViewBasis view_basis(const Camera& camera);
 
-/// Half the picture's width and height on the plane one Å in front of a perspective camera, or in Å if orthographic.
+/// Returns half the picture's width and height on the plane one Å in front of a perspective camera, or in Å if
+/// orthographic.
 glm::dvec2 half_extent(const Camera& camera, double aspect);
 
-/// The ray through `pixel` (column, row from the top; (0.5, 0.5) is the centre of the first pixel) of a picture of
-/// `size` pixels. A perspective ray starts at the position, an orthographic one on the plane through it.
+/// Returns the ray through `pixel` (column, row from the top; (0.5, 0.5) is the centre of the first pixel) of a picture
+/// of `size` pixels. A perspective ray starts at the position, an orthographic one on the plane through it.
 Ray pixel_ray(const Camera& camera, glm::dvec2 size, glm::dvec2 pixel);
 
-/// A camera that shows all of the balls with a small margin, their widest side across the picture (principal axes of
-/// the centres), from the side nearest to +z. aspect: width / height of the picture. There must be a ball.
+/// Returns a camera that shows all of the balls with a small margin, their widest side across the picture (principal
+/// axes of the centres), from the side nearest to +z. aspect: width / height of the picture. There must be a ball.
 Camera frame_camera(std::span<const Ball> balls, double aspect, Projection projection = Projection::perspective);
-/// The same, seen along the axes given. lens: its projection and, with perspective, its angle are taken.
+/// Returns such a camera along the given axes. lens: provides the projection and, with perspective, the angle.
 Camera frame_camera(std::span<const Ball> balls, const ViewBasis& basis, double aspect, const Camera& lens);
 
-/// The axes along which frame_camera looks by default. There must be a ball.
+/// Returns the axes along which frame_camera looks by default. There must be a ball.
 ViewBasis broad_side(std::span<const Ball> balls);
 
-/// Of any number of balls the few on which frame_camera with these axes depends: so it can frame all the moments of a
-/// trajectory without keeping them.
+/// Keeps, of any number of balls, the few that determine frame_camera with these axes, so that all frames of a
+/// trajectory can be framed without keeping them.
 class DecisiveBalls {
  public:
   DecisiveBalls(const ViewBasis& basis, double aspect, const Camera& lens);
   void add(std::span<const Ball> balls);
-  /// What frame_camera makes of all the balls that were added. There must be one.
+  /// Returns the camera that frame_camera would return for all balls that were added. There must be one.
   Camera frame() const;
 
  private:
@@ -71,21 +72,22 @@ class DecisiveBalls {
   double aspect_;
   Camera lens_;
   std::vector<glm::dvec3> directions_;
-  std::vector<Ball> farthest_;  ///< along each direction, by its outer side; empty before the first
+  std::vector<Ball>
+      farthest_;  ///< the farthest ball along each direction, by its outer side; empty before the first ball
 };
 
-/// A camera at a moment.
+/// A camera at a frame.
 struct CameraKey {
   double frame = 0.0;
   Camera camera;
 };
 
-/// Goes through its keys smoothly: the target and the logarithms of distance, angle and height along cubic Hermite
-/// curves with the slopes of Catmull and Rom (1974) for uneven steps, the axes of the view along the spherical
-/// quadrangles of Shoemake (1987). Still before the first key and after the last.
+/// A smooth path through keys: the target and the logarithms of distance, angle and height follow cubic Hermite curves
+/// with the slopes of Catmull and Rom (1974) for uneven steps, the axes of the view follow the spherical quadrangles of
+/// Shoemake (1987). The camera stays at the first key before it and at the last key after it.
 class CameraPath {
  public:
-  /// keys: at least one, frames rising, all of one projection.
+  /// keys: at least one, with ascending frames, all of one projection.
   explicit CameraPath(std::vector<CameraKey> keys);
   Camera at(double frame) const;
 
@@ -93,9 +95,10 @@ class CameraPath {
   std::vector<CameraKey> keys_;
 };
 
-/// The camera carried around the line through `pivot` along `axis` (of length 1) by `angle` (radians, right-handed).
+/// Returns the camera rotated about the line through `pivot` along `axis` (of length 1) by `angle` (radians,
+/// right-handed).
 Camera turned(const Camera& camera, const glm::dvec3& pivot, const glm::dvec3& axis, double angle);
-/// The camera carried along.
+/// Returns the camera translated by `shift`, Å.
 Camera shifted(const Camera& camera, const glm::dvec3& shift);
 
 }  // namespace meniscus

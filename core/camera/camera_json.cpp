@@ -24,13 +24,13 @@ constexpr double kLargestFrame = 1e9;
 
 using Json = nlohmann::ordered_json;
 
-/// A value as it may be in a message: short, and without control characters.
+/// Formats a value for messages: short, and without control characters.
 std::string shown(const Json& value) {
   constexpr std::size_t kLongest = 100;
   return shortened(value.dump(), kLongest);
 }
 
-/// Values of one camera file, with complaints that name the key.
+/// Reads the values of one camera file, with errors that name the key.
 class CameraReader {
  public:
   CameraReader(const Json& json, const std::string& file) : json_(json), file_(file) {}

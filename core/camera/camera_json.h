@@ -12,24 +12,24 @@
 
 namespace meniscus {
 
-/// Reads {"position":[x,y,z],"target":[..],"up":[..],"projection":"perspective","vertical_fov":degrees} or
+/// Parses {"position":[x,y,z],"target":[..],"up":[..],"projection":"perspective","vertical_fov":degrees} or
 /// {..,"projection":"orthographic","height":Å}. Throws InputError naming `file` for anything missing, unknown or
 /// impossible (position equal to target, up parallel to the view, angle not inside (0, 180), height not positive).
 Camera parse_camera(std::string_view json, const std::string& file);
 
-/// The inverse of parse_camera: every number survives exactly. Ends with a newline.
+/// Formats a camera as parse_camera reads it: every number is preserved exactly. Ends with a newline.
 std::string camera_json(const Camera& camera);
-/// The same as an object.
+/// Returns a camera as a JSON object.
 nlohmann::ordered_json camera_object(const Camera& camera);
 
-/// Reads {"keys":[{"frame":0,"camera":{...}},...]}, each camera as parse_camera has it. Throws InputError naming `file`
-/// and the key.
+/// Parses {"keys":[{"frame":0,"camera":{...}},...]}, with each camera as in parse_camera. Throws InputError naming
+/// `file` and the key.
 CameraPath parse_camera_path(std::string_view json, const std::string& file);
 CameraPath read_camera_path(const std::string& file);
 
-/// The inverse of parse_camera_path: every number survives exactly. Ends with a newline.
+/// Formats keys as parse_camera_path reads them: every number is preserved exactly. Ends with a newline.
 std::string camera_path_json(const std::vector<CameraKey>& keys);
-/// The same as an object.
+/// Returns keys as a JSON object.
 nlohmann::ordered_json camera_path_object(const std::vector<CameraKey>& keys);
 
 }  // namespace meniscus

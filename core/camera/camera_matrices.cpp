@@ -20,7 +20,7 @@ glm::dmat4 world_to_camera(const Camera& camera) {
 glm::dmat4 world_to_picture(const Camera& camera, double aspect) {
   const glm::dvec2 half = half_extent(camera, aspect);
   const bool is_perspective = camera.projection == Projection::perspective;
-  // The third row only makes it invertible.
+  // The third row only makes the matrix invertible.
   const glm::dvec4 divisor = is_perspective ? glm::dvec4(0, 0, 1, 0) : glm::dvec4(0, 0, 0, 1);
   const glm::dmat4 projection = glm::transpose(glm::dmat4(glm::dvec4(0.5 / half.x, 0, 0, 0) + 0.5 * divisor,
                                                           glm::dvec4(0, -0.5 / half.y, 0, 0) + 0.5 * divisor,

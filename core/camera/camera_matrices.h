@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A camera as matrices: from the world to its own space, and to the places of its picture.
+// A camera as matrices: from the world to its own space, and to positions in its picture.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -10,15 +10,17 @@ namespace meniscus {
 
 struct Camera;
 
-/// From the world, Å, to x right, y up and z along the view from the camera's position, Å: left-handed, as OpenEXR has
-/// it. For column vectors; in memory, column after column, it is what OpenEXR stores for row vectors.
+/// Returns the transform from the world, Å, to x right, y up and z along the view from the camera's position, Å:
+/// left-handed, as in OpenEXR. It is for column vectors; in memory, column after column, it is the matrix that OpenEXR
+/// stores for row vectors.
 glm::dmat4 world_to_camera(const Camera& camera);
 
-/// From the world to the picture, after the division by w: x to the right and y down, (0, 0) in its upper left corner
-/// and (1, 1) in its lower right one. aspect: width / height.
+/// Returns the transform from the world to the picture, after the division by w: x to the right and y down, (0, 0) in
+/// its upper left corner and (1, 1) in its lower right corner. aspect: width / height.
 glm::dmat4 world_to_picture(const Camera& camera, double aspect);
 
-/// The place of a point in a picture of `size` pixels, from its upper left corner. The point lies before the camera.
+/// Returns the position of a point in a picture of `size` pixels, from its upper left corner. The point must lie in
+/// front of the camera.
 glm::dvec2 place_in_picture(const Camera& camera, const glm::dvec2& size, const glm::dvec3& point);
 
 }  // namespace meniscus

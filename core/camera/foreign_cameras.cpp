@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a camera as JSON of this program, as the numbers of PyMOL's get_view, or as ChimeraX's `view matrix`.
+// Parses a camera from JSON of this program, from the numbers of PyMOL's get_view, or from ChimeraX's `view matrix`.
 #include "core/camera/foreign_cameras.h"
 
 #include <cctype>
@@ -27,7 +27,8 @@ namespace {
 
 constexpr std::size_t kViewNumbers = 18, kMatrixNumbers = 12;
 
-/// Cut at blanks and commas, and at the brackets and backslashes of PyMOL's notation. Comments (#) end at their line.
+/// Splits the text at blanks and commas, and at the brackets and backslashes of PyMOL's notation. Comments (#) end at
+/// their line.
 std::vector<std::string_view> words_of(std::string_view text, bool with_comments) {
   std::vector<std::string_view> words;
   const auto parts = [](char c) {
@@ -60,7 +61,7 @@ class ForeignReader {
     return value;
   }
 
-  /// The numbers from `words[first]` on as the three rows of rotation and translation.
+  /// Returns the numbers from `words[first]` on, as the three rows of rotation and translation.
   RigidMotion motion(const std::vector<std::string_view>& words, std::size_t first, const char* of) const {
     if (words.size() < first + kMatrixNumbers) fail(fmt::format("{} has fewer than 12 numbers", of));
     RigidMotion result;
@@ -72,7 +73,7 @@ class ForeignReader {
     return result;
   }
 
-  /// Rounded as it was written; anything else is not a rotation.
+  /// Returns the rotation nearest to rounded numbers; throws if they are not a rotation.
   glm::dmat3 rotation(const glm::dmat3& m, const char* of) const {
     constexpr double kRounding = 1e-3;
     const glm::dmat3 product = glm::transpose(m) * m;
@@ -98,16 +99,17 @@ class ForeignReader {
                       words.size()));
     double v[kViewNumbers];
     for (std::size_t n = 0; n < kViewNumbers; ++n) v[n] = number(words[n], kOf);
-    // Each column of the first nine, written by rows, is an axis of the camera.
+    // The first nine numbers are written by rows; each column is an axis of the camera.
     const glm::dmat3 axes = rotation({{v[0], v[3], v[6]}, {v[1], v[4], v[7]}, {v[2], v[5], v[8]}}, kOf);
-    const glm::dvec3 origin(v[12], v[13], v[14]);  // of rotation; v[9..11]: where the camera sees it
+    const glm::dvec3 origin(v[12], v[13], v[14]);  // of rotation; v[9..11] is its position seen from the camera
     Camera camera;
     camera.position = origin - axes * glm::dvec3(v[9], v[10], v[11]);
     const double distance = -v[11];
     if (!(distance > 0.0)) fail("PyMOL's get_view has the molecule behind the camera");
     camera.target = camera.position - axes[2] * distance;
     camera.up = axes[1];
-    // More than 1: the angle, negative in perspective. Else whether it is orthoscopic, and the usual angle.
+    // A flag above 1 is the angle, negative in perspective. Other flags say whether the camera is orthoscopic, with the
+    // usual angle.
     const double flag = v[17], angle = std::abs(flag) > 1.0 ? std::abs(flag) : 20.0;
     if (flag > 0.0) {
       camera.projection = Projection::orthographic;
@@ -138,7 +140,7 @@ class ForeignReader {
     }
     Camera result;
     result.position = camera.translation;
-    constexpr double kAhead = 100.0;  // Å; it tells a direction only
+    constexpr double kAhead = 100.0;  // Å; the text gives only a direction
     result.target = camera.translation - camera.rotation[2] * kAhead;
     result.up = camera.rotation[1];
     constexpr double kHalfAngle = std::numbers::pi / 12.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Casts rays from balls, all around or towards a viewer, and finds those that meet no other ball; and shadows of balls,
-// and finds their holes.
+// Casts rays from balls, all around or towards a viewer, and finds those that meet no other ball; finds holes in the
+// shadows of balls.
 #include "core/camera/open_side.h"
 
 #include <algorithm>
@@ -25,12 +25,12 @@
 namespace meniscus {
 namespace {
 
-/// Å: so much wider than its balls the surface is, which closes the gaps between them. Of 0 to 1.4 this showed most of
-/// the ligands of six complexes.
+/// Å: the growth of balls that closes the gaps between them as the surface does. Of values from 0 to 1.4 this one
+/// showed most of the ligands of six complexes.
 constexpr double kClosed = 0.4;
 constexpr std::size_t kTriedSides = 500, kPoints = 500, kPointsOfBall = 12;
 
-/// Atoms by their centres: radii depend on the kind of surface.
+/// A lookup of atoms by their centres, because radii depend on the kind of surface.
 class Centers {
  public:
   explicit Centers(std::span<const Ball> balls) {
@@ -45,7 +45,7 @@ class Centers {
   std::set<std::tuple<double, double, double>> keys_;
 };
 
-/// Those of `all` that are not of `seen`, as wide as their surface.
+/// Returns the balls of `all` that are not in `seen`, grown by kClosed.
 std::vector<Ball> others_of(std::span<const Ball> seen, std::span<const Ball> all) {
   const Centers own(seen);
   std::vector<Ball> others;
@@ -54,7 +54,7 @@ std::vector<Ball> others_of(std::span<const Ball> seen, std::span<const Ball> al
   return others;
 }
 
-/// Points on the balls that lie in none of them; of many balls a few are taken, evenly.
+/// Returns points on the balls that lie inside none of them; of many balls a few are taken, evenly.
 std::vector<glm::dvec3> points_on(std::span<const Ball> balls) {
   const std::size_t step = std::max<std::size_t>(1, balls.size() * kPointsOfBall / kPoints);
   std::vector<glm::dvec3> points;
@@ -70,13 +70,13 @@ std::vector<glm::dvec3> points_on(std::span<const Ball> balls) {
   return points;
 }
 
-/// What is seen along one direction.
+/// The result for one direction.
 struct Openness {
-  std::size_t free = 0;  ///< points
-  double cover = 0.0;    ///< Å, from each other point to where the ray leaves the last ball, summed
+  std::size_t free = 0;  ///< number of free points
+  double cover = 0.0;    ///< Å, from each covered point to where the ray leaves the last ball, summed
 };
 
-/// From the point on, where its ray leaves the ball; 0: it passes by.
+/// Returns the distance from the point to where its ray leaves the ball; 0 if the ray misses it.
 double exit_from(const Ball& ball, const glm::dvec3& point, const glm::dvec3& toward) {
   const glm::dvec3 from = ball.center - point;
   const double along = glm::dot(from, toward);
@@ -84,10 +84,10 @@ double exit_from(const Ball& ball, const glm::dvec3& point, const glm::dvec3& to
   return half > 0.0 ? std::max(along + std::sqrt(half), 0.0) : 0.0;
 }
 
-/// Nothing if fewer than `least` points are free.
+/// Returns nothing if fewer than `least` points are free.
 std::optional<Openness> openness(const glm::dvec3& toward, std::span<const glm::dvec3> points,
                                  std::span<const Ball> others, const Ball& around, std::size_t least) {
-  // Only what is before the points can hide them.
+  // Only balls in front of the points can hide them.
   std::vector<Ball> near;
   for (const Ball& ball : others) {
     const glm::dvec3 from = ball.center - around.center;
@@ -114,7 +114,7 @@ std::optional<Openness> openness(const glm::dvec3& toward, std::span<const glm::
   return open;
 }
 
-/// The direction across the view along which the balls extend farthest.
+/// Returns the direction across the view along which the balls extend farthest.
 glm::dvec3 longest_across(const glm::dvec3& toward, std::span<const Ball> balls) {
   const glm::dvec3 some = std::abs(toward.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(0.0, 1.0, 0.0);
   const glm::dvec3 u = glm::normalize(glm::cross(some, toward)), v = glm::cross(toward, u);
@@ -155,16 +155,16 @@ ViewBasis open_side(std::span<const Ball> seen, std::span<const Ball> all) {
 
 namespace {
 
-/// Squares on which the shadows lie.
+/// The resolution of the grid of squares for shadows.
 struct Grid {
   double square;  ///< Å; narrower gaps are not counted
-  int most;       ///< of a side; larger molecules have wider squares
+  int most;       ///< most squares along a side; larger molecules have larger squares
 };
 constexpr Grid kCoarse{0.75, 130}, kFine{0.3, 500};
-constexpr int kNear = 6;                  // directions about the best one, to each side,
-constexpr double kNearStep = 0.035;       // radians from one to the next
-constexpr double kLeastWidth = 2.0;       // Å, between balls that are wider by kClosed
-constexpr std::size_t kTriedAxes = 2000;  // over the sphere: 4.5 degrees from one to the next
+constexpr int kNear = 6;                  // directions around the best one, to each side
+constexpr double kNearStep = 0.035;       // radians between neighbours
+constexpr double kLeastWidth = 2.0;       // Å, between balls grown by kClosed
+constexpr std::size_t kTriedAxes = 2000;  // over the sphere: 4.5 degrees between neighbours
 
 /// Parallel shadows of balls on squares of a plane.
 class Shadows {
@@ -182,7 +182,7 @@ class Shadows {
     double width = 0.0, length = 0.0;  // Å
   };
 
-  /// The widest one through what is seen through along this direction, as long as atoms surround it.
+  /// Returns the widest cylinder through the hole along this direction, as long as atoms surround it.
   Cylinder channel(const glm::dvec3& toward) {
     const glm::dvec3 some = std::abs(toward.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(0.0, 1.0, 0.0);
     u_ = glm::normalize(glm::cross(some, toward));
@@ -191,7 +191,7 @@ class Shadows {
     cast(around_);
     flood();
     if (std::ranges::find(squares_, Square::hole) == squares_.end()) return {};
-    if (all_.size() > around_.size()) cast(all_);  // around_ is among them
+    if (all_.size() > around_.size()) cast(all_);  // it includes around_
     double widest = 0.0;
     glm::ivec2 middle(0);
     for (int row = 0; row < side_; ++row) {
@@ -214,7 +214,7 @@ class Shadows {
     return squares_[static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(column)];
   }
 
-  /// Marks the squares whose middle the shadows cover.
+  /// Marks the squares with a shadow on their middle.
   void cast(std::span<const Ball> balls) {
     for (const Ball& ball : balls) {
       const glm::dvec3 from = ball.center - middle_;
@@ -230,7 +230,7 @@ class Shadows {
     }
   }
 
-  /// From a corner, which no shadow covers.
+  /// Fills the outside from a corner, which no shadow covers.
   void flood() {
     std::vector<glm::ivec2> waiting{{0, 0}};
     at(0, 0) = Square::outside;
@@ -247,7 +247,8 @@ class Shadows {
     }
   }
 
-  /// Squares, from the middle of this one to that of the nearest which is not of a hole. Those at the rim never are.
+  /// Returns the distance, in squares, from the middle of this square to the nearest square outside the hole. Squares
+  /// at the rim never belong to a hole.
   double room(glm::ivec2 here) {
     double nearest = std::numeric_limits<double>::infinity();
     for (int ring = 1; ring < nearest; ++ring)
@@ -259,11 +260,11 @@ class Shadows {
     return nearest;
   }
 
-  /// Å; of slices across the line through this point those that have atoms on all its sides.
+  /// Returns the length, Å, of the slices across the line through this point that have atoms on all sides.
   double surrounded(const glm::dvec3& point, const glm::dvec3& along) const {
     constexpr double kSlice = 3.0;  // Å
     constexpr double kSides = 6.0;
-    std::map<int, unsigned> sides;  // of each slice, a bit for each side
+    std::map<int, unsigned> sides;  // per slice, one bit for each side
     for (const Ball& ball : around_) {
       const glm::dvec3 from = ball.center - point;
       const double turn = std::atan2(glm::dot(from, v_), glm::dot(from, u_)) / (2.0 * std::numbers::pi) + 0.5;
@@ -286,7 +287,7 @@ class Shadows {
 std::optional<ViewBasis> channel_end(std::span<const Ball> around, std::span<const Ball> all) {
   glm::dvec3 best(0.0);
   double most = 0.0;
-  // What is seen through is the same from both ends.
+  // A hole looks the same from both ends.
   Shadows coarse(around, all, kCoarse);
   for (std::size_t n = kTriedAxes / 2; n < kTriedAxes; ++n) {
     const glm::dvec3 toward = spiral_direction(n, kTriedAxes);
@@ -297,7 +298,7 @@ std::optional<ViewBasis> channel_end(std::span<const Ball> around, std::span<con
     best = toward;
   }
   if (most <= 0.0) return {};
-  // The middle of the directions along which one sees through it.
+  // The mean of the directions along which the hole is open.
   Shadows fine(around, all, kFine);
   const glm::dvec3 x = longest_across(best, around), y = glm::cross(best, x);
   glm::dvec3 sum(0.0);
@@ -317,12 +318,12 @@ std::optional<ViewBasis> channel_end(std::span<const Ball> around, std::span<con
 
 namespace {
 
-/// Of the ball's radius: what is drawn of atoms that are to be seen, sticks as a rule, is narrower than they are.
+/// The share of the ball's radius that is drawn: atoms to be seen are usually sticks, which are narrower.
 constexpr double kDrawn = 0.6;
 constexpr double kHiddenShare = 0.05;
 constexpr int kRaysAcross = 45;
 
-/// Where a ray enters and leaves a ball, Å from its origin; nothing: it does not meet it.
+/// Returns where a ray enters and leaves a ball, Å from its origin; nothing if it misses the ball.
 std::optional<std::array<double, 2>> crossing(const Ray& ray, const Ball& ball) {
   const glm::dvec3 from = ball.center - ray.origin;
   const double along = glm::dot(from, ray.direction);
@@ -346,7 +347,7 @@ class Window {
     }
   }
 
-  /// Whether rays() may meet it.
+  /// True if rays() may meet the ball.
   bool may_meet(const Ball& ball) const {
     if (glm::dot(ball.center - camera_.position, basis_.forward) < -ball.radius) return false;
     const std::optional<Square> square = square_around(ball);
@@ -376,14 +377,14 @@ class Window {
     double half;
   };
 
-  /// Which holds what the picture has of the ball; nothing: that has no end.
+  /// Returns a square that contains the ball's image; nothing if the image is unbounded.
   std::optional<Square> square_around(const Ball& ball) const {
     const glm::dvec3 from = ball.center - camera_.position;
     const glm::dvec2 across(glm::dot(from, basis_.right), glm::dot(from, basis_.up));
     if (camera_.projection == Projection::orthographic) return Square{across, ball.radius};
     const double depth = glm::dot(from, basis_.forward), front = depth - ball.radius;
     if (front <= 0.0) return {};
-    // As a box around the ball.
+    // The ball is replaced by a box around it.
     const double near_scale = distance_ / front, middle_scale = distance_ / depth;
     const double shift = (near_scale - middle_scale) * std::max(std::abs(across.x), std::abs(across.y));
     return Square{middle_scale * across, near_scale * ball.radius + shift};
@@ -411,7 +412,7 @@ OpenDepth open_depth(std::span<const Ball> seen, std::span<const Ball> all, cons
     nearest = std::min(nearest, front);
     if (own.has(ball)) limit = std::min(limit, front);
   }
-  // Of each ray that meets something to be seen, the depth to which what is before it has to go.
+  // For each ray that meets a ball to be seen: the depth to which the balls in front of it must be cut.
   std::vector<double> depths;
   for (const Ray& ray : window.rays()) {
     double hit = std::numeric_limits<double>::infinity();

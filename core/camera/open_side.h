@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sides from which one looks into a molecule or through it, and how much must be cut away for atoms to be seen.
+// Finds sides that look into a molecule or through it, and the depth of a cut that exposes atoms.
 #pragma once
 
 #include <optional>
@@ -10,29 +10,30 @@
 
 namespace meniscus {
 
-/// Axes of a picture from that side; the longest extent of `seen` across the view lies horizontally. seen: at least one
-/// ball. all: with those of `seen` among them or not. Of directions spread over the sphere the one along which most
-/// points on the balls of `seen` are free of the others, or, where several have as many, along which the covered points
-/// lie least deep. Points and directions are samples: about 500 of each.
+/// Returns the axes of a picture with the best view of `seen`; the longest extent of `seen` across the view lies
+/// horizontally. Among directions spread over the sphere it chooses the one along which most points on the balls of
+/// `seen` are free of the others; of several, the one along which the covered points lie least deep. Points and
+/// directions are samples: about 500 of each. seen: at least one ball. all: with or without the balls of `seen`.
 ViewBasis open_side(std::span<const Ball> seen, std::span<const Ball> all);
 
-/// Axes of a picture along a straight channel, from the end that lies nearest to +z; the longest extent of `around`
-/// across the view lies horizontally. Of directions spread over the sphere the one along which the largest cylinder
-/// goes through what `around` encloses: as wide as none of `all` is in its way, as long as `around` has atoms on all
-/// its sides. Of those near it the middle is taken, each weighted by what is seen along it. Nothing where there is no
-/// cylinder of 2 Å. around: at least one ball. all: with those of `around` among them. Directions are samples.
+/// Returns the axes of a picture along a straight channel, from the end nearest to +z; the longest extent of `around`
+/// across the view lies horizontally. Among directions spread over the sphere it chooses the one with the largest
+/// cylinder through the inside of `around`: no ball of `all` enters the cylinder, and it is as long as `around` has
+/// atoms on all its sides. The result is the mean of nearby directions, weighted by the visible area along each.
+/// Nothing if there is no cylinder of 2 Å. around: at least one ball. all: includes the balls of `around`. Directions
+/// are samples.
 std::optional<ViewBasis> channel_end(std::span<const Ball> around, std::span<const Ball> all);
 
-/// Where a plane that faces the viewer has to be.
+/// The position of a plane that faces the viewer.
 struct OpenDepth {
-  double depth = 0.0;       ///< Å, along the view's forward axis: what is before it is cut away
-  double seen = 1.0;        ///< share of what a picture of `seen` alone would show that is seen then
-  bool is_limited = false;  ///< by those of `seen` that are among `all`
+  double depth = 0.0;       ///< Å, along the view's forward axis: everything in front of it is cut away
+  double seen = 1.0;        ///< the visible share of a picture of `seen` alone
+  bool is_limited = false;  ///< true if balls of `seen` that are among `all` limit the depth
 };
 
-/// The plane nearest to the viewer behind which the others hide at most a twentieth of what a picture of `seen` alone
-/// would show. It cuts none of those of `seen` whose centres are among `all`; so it may be nearer, and more be hidden.
-/// seen: at least one ball. Rays are samples: about 2000.
+/// Returns the plane nearest to the viewer behind which the other balls hide at most a twentieth of a picture of `seen`
+/// alone. It cuts no ball of `seen` with its centre among `all`; so it may be nearer, and more may be hidden. Rays are
+/// samples: about 2000. seen: at least one ball.
 OpenDepth open_depth(std::span<const Ball> seen, std::span<const Ball> all, const Camera& camera);
 
 }  // namespace meniscus

@@ -29,7 +29,7 @@ using Frame = ViewDirection::Frame;
 struct NamedDirection {
   std::string_view name;
   ViewDirection direction;
-  bool has_opposite;  ///< may be behind a minus sign
+  bool has_opposite;  ///< true if it may follow a minus sign
 };
 
 constexpr std::array<NamedDirection, 16> kDirections{{
@@ -51,13 +51,13 @@ constexpr std::array<NamedDirection, 16> kDirections{{
     {"channel", {Frame::channel, 2, false}, true},
 }};
 
-/// Seen from where `toward` points, with `up` made perpendicular to it.
+/// Returns the axes seen from the direction `toward`, with `up` made perpendicular to it.
 ViewBasis facing(const glm::dvec3& toward, const glm::dvec3& up) {
   const glm::dvec3 right = glm::normalize(glm::cross(up, toward));
   return {right, glm::cross(toward, right), -toward};
 }
 
-/// A unit vector at a right angle to the axis: y of the file where that is one, else as near to it as can be, or z.
+/// Returns a unit vector at a right angle to the axis: as near as possible to y of the file, or to z.
 glm::dvec3 across(const glm::dvec3& axis) {
   const glm::dvec3 y(0.0, 1.0, 0.0), z(0.0, 0.0, 1.0);
   constexpr double kTooNear = 0.9;  // cosine
@@ -100,18 +100,18 @@ ViewBasis view_basis(const ViewDirection& direction, const ViewedBalls& balls) {
 
 namespace {
 
-/// An axis and how many rotations turn about it.
+/// An axis and the number of rotations about it.
 struct AxisCount {
   glm::dvec3 axis;
   std::size_t count = 0;
 };
 
-/// The axis of a rotation, upwards: towards +z, then +y, +x. Nothing if it does not turn.
+/// Returns the axis of a rotation, upwards: towards +z, then +y, +x. Nothing for the identity.
 std::optional<glm::dvec3> axis_of(const glm::dmat3& r) {
-  constexpr double kNoTurn = 1e-3;  // radians; motions of files are rounded
+  constexpr double kNoTurn = 1e-3;  // radians; motions in files are rounded
   const double cosine = std::clamp(0.5 * (r[0][0] + r[1][1] + r[2][2] - 1.0), -1.0, 1.0);
   if (std::acos(cosine) < kNoTurn) return {};
-  // (R + R^T)/2 - cos I is (1 - cos) times the axis' outer product: its longest column.
+  // (R + R^T)/2 - cos I is (1 - cos) times the outer product of the axis with itself: its longest column is the axis.
   const glm::dmat3 outer = 0.5 * (r + glm::transpose(r)) - cosine * glm::dmat3(1.0);
   glm::dvec3 axis = outer[0];
   for (int column = 1; column < 3; ++column)
@@ -146,7 +146,8 @@ std::vector<std::string> view_direction_words() {
 }
 
 std::optional<glm::dvec3> symmetry_axis(std::span<const RigidMotion> motions) {
-  // Relative to a few of the motions only: they are a group as a rule, and capsids have 60, filaments thousands.
+  // Rotations are relative to only a few of the motions: they are a group as a rule, and capsids have 60, filaments
+  // thousands.
   constexpr std::size_t kReferences = 4;
   constexpr double kSameAxis = 1e-2;  // sine
   std::vector<AxisCount> axes;
@@ -164,8 +165,8 @@ std::optional<glm::dvec3> symmetry_axis(std::span<const RigidMotion> motions) {
     }
   }
   if (axes.empty()) return {};
-  // Of axes that are alike the one nearest to z, then y, then -x: coordinates are compared as rounded, for motions of a
-  // file and those of its copies differ in their last digits.
+  // Among equal axes, the one nearest to z, then y, then -x. Coordinates are compared as rounded, because motions of a
+  // file and of its copies differ in their last digits.
   const auto rank = [](const AxisCount& axis) {
     const auto rounded = [](double x) { return std::lround(x * 1e4); };
     return std::tuple(axis.count, rounded(axis.axis.z), rounded(axis.axis.y), -rounded(axis.axis.x));
@@ -185,7 +186,7 @@ std::optional<Turn> parse_turn(std::string_view text) {
 ViewBasis turned(ViewBasis basis, std::span<const Turn> turns) {
   for (const Turn& turn : turns) {
     const double angle = turn.degrees * (std::numbers::pi / 180.0), c = std::cos(angle), s = std::sin(angle);
-    // The camera turns the other way round than what it sees.
+    // The camera turns in the opposite sense.
     const glm::dvec3 right = basis.right, up = basis.up, toward = -basis.forward;
     if (turn.axis == 0) basis = {right, c * up - s * toward, -(c * toward + s * up)};
     if (turn.axis == 1) basis = {c * right + s * toward, up, -(c * toward - s * right)};
@@ -202,7 +203,8 @@ glm::dvec3 middle_of(std::span<const Ball> balls) {
   return sum / static_cast<double>(balls.size());
 }
 
-/// The camera with these axes, as far from the pivot as it was and in the same place before it.
+/// Returns the camera with these axes, as far from the pivot as before, with the pivot at the same place in the
+/// picture.
 Camera swung(const Camera& camera, const ViewBasis& basis, const glm::dvec3& pivot) {
   const ViewBasis old = view_basis(camera);
   const auto carried = [&](const glm::dvec3& point) {
@@ -245,7 +247,7 @@ bool sees_nothing(const Camera& camera, double aspect, std::span<const Ball> bal
   const ViewBasis basis = view_basis(camera);
   const glm::dvec2 half = half_extent(camera, aspect);
   const bool perspective = camera.projection == Projection::perspective;
-  // Outside of one side of the picture, or behind the camera.
+  // True for a ball outside one side of the picture, or behind the camera.
   return std::ranges::all_of(balls, [&](const Ball& ball) {
     const glm::dvec3 from = ball.center - camera.position;
     const double x = std::abs(glm::dot(from, basis.right)), y = std::abs(glm::dot(from, basis.up)),

@@ -63,7 +63,7 @@ std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& 
   return colors;
 }
 
-/// Gives the atoms of an object what rules say of them.
+/// Applies the rules to the atoms of an object.
 void paint(const Structure& structure, std::span<const std::uint32_t> atom, const std::vector<ColorRule>& rules,
            Coloring& coloring) {
   for (const ColorRule& rule : rules) {
@@ -79,7 +79,7 @@ void paint(const Structure& structure, std::span<const std::uint32_t> atom, cons
   }
 }
 
-/// One an atom; empty without rules.
+/// Returns one opacity per atom; empty without rules.
 std::vector<float> opacities_of(const Structure& structure, const std::vector<OpacityRule>& rules) {
   std::vector<float> opacities;
   for (const OpacityRule& rule : rules) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists what the colours of the atoms drawn mean: scales, and classes by name.
+// Lists the meanings of the colours of drawn atoms: scales, and classes by name.
 #include "core/color/color_key.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ std::string class_title(By by) {
                                                     : "residue type";
 }
 
-/// "model 2", or its file where there are several.
+/// Returns "model 2", or its file if there are several.
 std::string model_name(const Structure& structure, std::int32_t model) {
   const std::string* file = structure.added.empty() ? nullptr : &structure.file;
   for (const AddedFile& added : structure.added)
@@ -67,8 +67,8 @@ void add_class(ColorKey& key, const std::string& name, const glm::vec3& color) {
 
 bool any_of(const std::vector<bool>& atoms) { return std::ranges::find(atoms, true) != atoms.end(); }
 
-/// Per painter the atoms drawn that have its colours: first those of the scheme itself, then of each rule. In a run
-/// several may have an atom.
+/// Returns the atoms that each painter colours: first the scheme itself, then each rule. In a run, an atom may have
+/// several painters.
 std::vector<std::vector<bool>> painted_atoms(const Structure& structure, const std::vector<ColorRule>& rules,
                                              const DrawnAtoms& drawn) {
   std::vector<std::vector<bool>> painted(rules.size() + 1);
@@ -78,7 +78,7 @@ std::vector<std::vector<bool>> painted_atoms(const Structure& structure, const s
     const Selection& atoms = rules[rule].atoms;
     const bool changes = drawn.in_a_run && atoms.uses_positions();
     std::vector<bool>& own = painted[rule + 1];
-    own = changes ? atoms.reach(structure.atoms).selected : atoms.evaluate(structure.atoms);
+    own = changes ? atoms.possible(structure.atoms).selected : atoms.evaluate(structure.atoms);
     for (std::size_t a = 0; a < own.size(); ++a) {
       own[a] = own[a] && left[a];
       if (!changes) left[a] = left[a] && !own[a];
@@ -87,7 +87,7 @@ std::vector<std::vector<bool>> painted_atoms(const Structure& structure, const s
   return painted;
 }
 
-/// Leaves the numbers of these atoms.
+/// Removes the numbers of all other atoms.
 void keep_numbers(ColorScale& scale, const std::vector<bool>& atoms) {
   std::vector<double> kept;
   for (std::size_t a = 0; a < scale.value.size(); ++a)
@@ -135,7 +135,7 @@ ColorKey ordered_key(const Structure& structure, const ColorScheme& scheme, cons
   return key;
 }
 
-/// Of a scheme without its rules, for these atoms.
+/// Returns the key of a scheme without its rules, for these atoms.
 ColorKey key_of_scheme(const Structure& structure, const ColorScheme& scheme, const std::vector<bool>& atoms,
                        std::span<const AtomGroup> objects) {
   if (scheme.has_scale()) return scale_key(structure, scheme, atoms);
@@ -159,13 +159,14 @@ ColorKey key_of_scheme(const Structure& structure, const ColorScheme& scheme, co
     if (!atoms[a]) continue;
     const Atom& atom = structure.atoms[a];
     const std::string name = class_name(structure, atom, scheme.by);
-    const auto file = static_cast<std::size_t>(scheme.by == By::model ? atom.model : 0);  // files may have one name
+    const auto file =
+        static_cast<std::size_t>(scheme.by == By::model ? atom.model : 0);  // several files may have one name
     if (seen.emplace(name, file).second) add_class(key, name, colors[a]);
   }
   return key;
 }
 
-/// Whether both can be told by one key: no name has two colours, and no numbers two scales.
+/// True if one key can explain both: no name has two colours, and no numbers two scales.
 bool agree(const ColorKey& one, const ColorKey& more) {
   if (one.scale || more.scale) return false;
   return std::ranges::none_of(more.classes, [&](const ColorClass& added) {
@@ -174,10 +175,10 @@ bool agree(const ColorKey& one, const ColorKey& more) {
   });
 }
 
-/// What is left over is no thing of its own.
+/// True if the entry names a thing: the remainder is not one.
 bool is_a_thing(const ColorClass& entry) { return entry.name != "other" && !entry.name.starts_with("none ("); }
 
-/// Adds a sentence for each difference in what both show under one title, or under none.
+/// Adds a sentence for each difference in the entries that both show under one title, or under none.
 void compare(const ColorKey& a, const ColorKey& b, const std::string& in_a, const std::string& in_b,
              std::vector<std::string>& found) {
   const auto has = [](const ColorKey& key, const ColorClass& entry) {
@@ -253,8 +254,8 @@ void add_other(ColorKey& key, const std::string& name, const glm::vec3& color) {
 
 ColorKey color_key(const Structure& structure, const ColorScheme& scheme, const DrawnAtoms& drawn) {
   std::vector<std::vector<bool>> painted = painted_atoms(structure, scheme.rules, drawn);
-  if (scheme.by == By::kind) return key_of_scheme(structure, scheme, painted[0], {});  // rules say nothing of patches
-  // Rules that colour by the same thing as others are told together with them.
+  if (scheme.by == By::kind) return key_of_scheme(structure, scheme, painted[0], {});  // rules do not apply to patches
+  // Rules that colour by the same thing as others are explained together with them.
   std::vector<const ColorScheme*> painters{&scheme};
   for (const ColorRule& rule : scheme.rules) painters.push_back(&rule.paint);
   for (std::size_t n = 0; n < painters.size(); ++n)

@@ -17,19 +17,20 @@
 
 namespace meniscus {
 
-/// What a legend says: a scale, or classes, or both where rules are beside a scale, or neither for one fixed colour.
+/// The content of a legend: a scale, or classes, or both if rules accompany a scale, or neither for one fixed colour.
 struct ColorKey {
   std::string title;  ///< "chain", "element", ...; the scale has its own
   std::optional<ColorScale> scale;
-  /// Those that occur, in order of first appearance or in an order of their own; then those of rules that paint atoms
-  /// in one colour, by their names or expressions; then, where rules leave some of one colour, "other".
+  /// The classes that occur, in order of first appearance or in an order of their own; then rules that paint atoms in
+  /// one colour, by name or expression; then, if rules leave some atoms of one colour, "other".
   std::vector<ColorClass> classes;
-  std::vector<ColorKey> others{};  ///< of rules and of objects that are coloured by something else; without others
+  std::vector<ColorKey>
+      others{};  ///< keys of rules and objects that are coloured by something else; these have no others
 
   bool empty() const { return !scale && classes.empty() && others.empty(); }
-  /// The title of the scale with its unit, or that of the classes.
+  /// Returns the title of the scale with its unit, or the title of the classes.
   std::string heading() const;
-  /// Itself and the others.
+  /// Returns this key and the others.
   std::vector<const ColorKey*> parts() const;
 };
 
@@ -37,25 +38,25 @@ struct ColorKey {
 struct DrawnAtoms {
   std::vector<bool> atoms{};         ///< one per Structure::atoms; empty: all
   std::vector<AtomGroup> objects{};  ///< for ColorScheme::By::component
-  bool in_a_run = false;             ///< rules by positions may mean other atoms in other frames
+  bool in_a_run = false;             ///< true if rules by position may select other atoms in other frames
 };
 
-/// Scales and classes of those colours that some atom drawn has. Throws as color_atoms does.
+/// Returns the scales and classes of the colours of drawn atoms. Throws like color_atoms.
 ColorKey color_key(const Structure& structure, const ColorScheme& scheme, const DrawnAtoms& drawn = {});
 
-/// Adds what further atoms of the picture mean by their colours; where its title has another meaning already, `whose`
-/// comes behind it.
+/// Adds the key of further atoms in the picture; if its title already has another meaning, `whose` is appended to the
+/// title.
 void add_key(ColorKey& key, ColorKey more, const std::string& whose);
 
-/// Whether a number has the same colour by both, and is of the same kind.
+/// True if both scales give each number the same colour, and numbers are of the same kind.
 bool is_same_scale(const std::optional<ColorScale>& one, const std::optional<ColorScale>& other);
 
-/// Where pictures side by side, or one after another, disagree: a thing that has two colours, a colour that is two
-/// things, a kind of number with two scales. The first of them as a sentence, and how many more there are; empty: none.
-/// picture: what one is called, "panel"; they count from 1.
+/// Returns the first conflict of pictures side by side, or one after another, as a sentence, with the number of further
+/// ones; empty if there is none. Conflicts are: a thing with two colours, a colour with two meanings, a kind of number
+/// with two scales. picture: the word for one of them, "panel"; they count from 1.
 std::string color_conflicts(std::span<const ColorKey> keys, std::string_view picture);
 
-/// Adds the one colour of some atoms, unless it is there by that name, if there is anything else to explain.
+/// Adds the single colour of some atoms, unless that name is already there, if the key explains anything else.
 void add_other(ColorKey& key, const std::string& name, const glm::vec3& color);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The meaning of colours as JSON.
+// Formats a colour key as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,7 +8,7 @@
 
 namespace meniscus {
 
-/// title, and unit, map, range, missing, missing_color or classes; others, each the same.
+/// Returns title, and unit, map, range, missing, missing_color or classes; and others, each in the same form.
 nlohmann::ordered_json color_key_json(const ColorKey& key);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds the built-in maps, and looks up the colour of a number on a map or on a scale.
+// Contains the built-in maps, and looks up the colour of a number on a map or on a scale.
 #include "core/color/color_maps.h"
 
 #include <algorithm>
@@ -42,8 +42,8 @@ constexpr Table kMagma{0x000004, 0x02020b, 0x050416, 0x090720, 0x0e0b2b, 0x140e3
 constexpr std::array<std::uint32_t, 3> kBlueWhiteRed{0x2a4fd7, 0xffffff, 0xd2322a};
 constexpr std::array<std::uint32_t, 3> kRedWhiteBlue{0xd2322a, 0xffffff, 0x2a4fd7};
 
-// Each from light to dark; the first of nine is left out, for on white it ends nowhere, and the last two, which hide
-// shade.
+// Each goes from light to dark. The first of nine is left out, because on white it has no visible edge, and so are the
+// last two, which hide shade.
 constexpr std::array<std::uint32_t, 6> kBlues{0xdeebf7, 0xc6dbef, 0x9ecae1, 0x6baed6, 0x4292c6, 0x2171b5};
 constexpr std::array<std::uint32_t, 6> kYlOrRd{0xffeda0, 0xfed976, 0xfeb24c, 0xfd8d3c, 0xfc4e2a, 0xe31a1c};
 

@@ -10,7 +10,7 @@ namespace meniscus {
 
 ColorRule named_color_rule(std::string_view text) {
   const auto parted = selection_and_text(text);
-  if (!parted) return parse_color_rule(text);  // it says what is wrong
+  if (!parted) return parse_color_rule(text);  // reports the error
   const std::size_t colon = parted->text.find(':');
   if (colon == std::string_view::npos) return parse_color_rule(text);
   ColorRule rule = parse_color_rule(text.substr(0, text.size() - parted->text.size() + colon));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rules of colour as users write them: atoms, what they get, and the name that a legend has for them.
+// Reads and writes rules of colour: an expression for atoms, their colour, and the name in a legend.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace meniscus {
 
-/// Reads "EXPR=red" or "EXPR=red:Name"; what is before the colon as parse_color_rule does. Throws RequestError,
+/// Parses "EXPR=red" or "EXPR=red:Name"; the part before the colon as parse_color_rule does. Throws RequestError,
 /// SelectionError.
 ColorRule named_color_rule(std::string_view text);
 
-/// The text that named_color_rule reads as this rule.
+/// Formats a rule as named_color_rule reads it.
 std::string color_rule_text(const ColorRule& rule);
 
 }  // namespace meniscus

@@ -26,7 +26,8 @@ namespace {
 using By = ColorScheme::By;
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array<double, 2> kPlaces{0.0, 1.0}, kGrades{1.0, 9.0};  // in a chain, or of what can be; of ConSurf
+constexpr std::array<double, 2> kPlaces{0.0, 1.0},
+    kGrades{1.0, 9.0};  // ranges of positions in a chain, and of ConSurf's grades
 
 [[noreturn]] void no_atom_named(const Structure& structure, const NumberFile& file, const char* what,
                                 std::size_t count) {
@@ -35,7 +36,7 @@ constexpr std::array<double, 2> kPlaces{0.0, 1.0}, kGrades{1.0, 9.0};  // in a c
                                structure.file));
 }
 
-/// The only chain of polymers, or of all atoms where there are none, for numbers of residues without chains.
+/// Returns the only chain of polymers, or of all atoms if there are none, for numbers of residues without chains.
 std::string only_chain(const Structure& structure, const NumberFile& file) {
   std::set<std::string> chains;
   const bool polymers =
@@ -75,8 +76,8 @@ std::vector<double> numbers_by_name(const Structure& structure, const NumberFile
   return numbers;
 }
 
-/// The numbers of a file for the atoms in use: by name, or given for each of these, or for each atom of the molecule's
-/// file.
+/// Returns the numbers of a file for the atoms in use: by name, or in the order of these atoms, or in the order of all
+/// atoms of the molecule's file.
 std::vector<double> numbers_of_file(const Structure& structure, const NumberFile& file) {
   if (file.numbers.empty() && !file.empty()) return numbers_by_name(structure, file);
   const auto other_models = structure.report.excluded.find(kExcludedModel);
@@ -103,7 +104,7 @@ std::vector<glm::dvec3> positions_of(const Structure& structure) {
   return positions;
 }
 
-/// Grades of conservation, which are from 1 to 9.
+/// Returns grades of conservation, from 1 to 9.
 std::vector<double> grades_of(const Structure& structure, const NumberFile& file) {
   std::vector<double> grades = numbers_of_file(structure, file);
   for (const double grade : grades)
@@ -115,13 +116,13 @@ std::vector<double> grades_of(const Structure& structure, const NumberFile& file
   return grades;
 }
 
-/// From 0, of the first residue of each chain of polymers, to 1, of its last; of atoms beside the surface, too, so that
-/// sticks and cartoons have the same. NaN: not of a polymer.
+/// Returns positions from 0, for the first residue of each chain of polymers, to 1, for its last; also for atoms drawn
+/// in addition to the surface, so that sticks and cartoons have the same positions. NaN: not part of a polymer.
 std::vector<double> places_in_chains(const Structure& structure) {
   using Chain = std::tuple<std::int32_t, std::uint32_t, std::string_view>;
   std::map<Chain, std::set<std::uint32_t>> residues;
   const auto chain_of = [](const Atom& atom) { return Chain(atom.model, atom.copy, atom.chain); };
-  for (const std::vector<Atom>* atoms : {&structure.atoms, &structure.beside})
+  for (const std::vector<Atom>* atoms : {&structure.atoms, &structure.extra_atoms})
     for (const Atom& atom : *atoms)
       if (atom.kind == AtomClass::polymer) residues[chain_of(atom)].insert(atom.residue);
   std::map<std::pair<Chain, std::uint32_t>, double> places;
@@ -136,7 +137,7 @@ std::vector<double> places_in_chains(const Structure& structure) {
   return numbers;
 }
 
-/// What the first and the last residue of these chains are called.
+/// Returns the names of the first and the last residue of these chains.
 std::array<std::string, 2> ends_of_chains(const Structure& structure) {
   const auto any = [&](auto is_of) { return std::ranges::any_of(structure.atoms, is_of); };
   const bool protein = any([](const Atom&atom) { return atom.kind == AtomClass::polymer && atom.name == "CA"; }),
@@ -147,7 +148,7 @@ std::array<std::string, 2> ends_of_chains(const Structure& structure) {
   return nucleic ? std::array<std::string, 2>{"5′", "3′"} : std::array<std::string, 2>{"N", "C"};
 }
 
-/// One number an atom, NaN where there is none.
+/// Returns one number per atom, NaN if there is none.
 std::vector<double> numbers_of(const Structure& structure, const ColorScheme& scheme) {
   if (scheme.by == By::file) return numbers_of_file(structure, scheme.file.of_frame(structure.frame));
   if (scheme.by == By::conservation) return grades_of(structure, scheme.file.of_frame(structure.frame));

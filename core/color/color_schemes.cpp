@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads colour schemes from the words of users.
+// Parses colour schemes from the words of users.
 #include "core/color/color_schemes.h"
 
 #include <algorithm>
@@ -110,7 +110,7 @@ void ColorScheme::set_numbers(const NumberFile& numbers) {
     throw RequestError(
         message("@map categorical@ gives each number of a picture its own colour, which would change from frame to "
                 "frame; choose another @map@"));
-  if (by != By::rmsf) file = numbers;  // its own were measured
+  if (by != By::rmsf) file = numbers;  // the numbers of rmsf were measured
   if (takes_file()) frames_range = numbers.range_of_frames();
   for (ColorRule& rule : rules) {
     if (!rule.paint.takes_file()) continue;
@@ -172,9 +172,9 @@ std::vector<std::string> rules_without_atoms(const Structure& structure, const C
   const auto means_some = [](const Selection& atoms, std::span<const Atom> among) {
     return std::ranges::any_of(atoms.evaluate(among), std::identity());
   };
-  // Opacity is of the surface alone; sticks and the like beside it have colours, too.
+  // Opacity applies only to the surface; sticks and other shapes have colours, too.
   for (const ColorRule& rule : scheme.rules)
-    if (!means_some(rule.atoms, structure.atoms) && !means_some(rule.atoms, structure.beside))
+    if (!means_some(rule.atoms, structure.atoms) && !means_some(rule.atoms, structure.extra_atoms))
       texts.push_back(rule.atoms.text());
   for (const OpacityRule& rule : scheme.opacities)
     if (rule.atoms && !means_some(*rule.atoms, structure.atoms)) texts.push_back(rule.atoms->text());

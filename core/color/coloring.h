@@ -16,34 +16,35 @@ namespace meniscus {
 
 struct VolumePaint;
 
-/// Colours in sRGB, each channel in [0, 1].
-/// A point on a toroidal or concave patch takes the colour of the touched atom a whose contact direction
-/// (c_a - s)/|c_a - s|, seen from the probe centre s, is nearest to (x - s)/p: borders of colour are planes through s.
+/// Colours in sRGB, each channel in [0, 1]. A point on a toroidal or concave patch takes the colour of the touched atom
+/// a whose contact direction (c_a - s)/|c_a - s|, seen from the probe centre s, is nearest to (x - s)/p: borders of
+/// colour are planes through s.
 struct Coloring {
-  std::vector<glm::vec3> atom{};                   ///< one per Surface::atoms
-  std::optional<std::array<glm::vec3, 3>> kind{};  ///< if set, this by PatchKind (convex, toroidal, concave) instead
-  /// If set, points take their colours from this map instead, but those of atoms with own_color.
+  std::vector<glm::vec3> atom{};  ///< one per Surface::atoms
+  std::optional<std::array<glm::vec3, 3>>
+      kind{};  ///< if set, colours by PatchKind (convex, toroidal, concave) replace colours by atom
+  /// If set, points take their colours from this map, except points of atoms with own_color.
   std::shared_ptr<const VolumePaint> volume{};
   std::vector<bool> own_color{};  ///< empty: none; else one per Surface::atoms
 
-  /// Empty: everything is drawn. Else one per Surface::atoms: points that take the colour of an atom marked here are
-  /// not drawn, in pictures and in exports, whatever colours are by.
+  /// Empty: everything is drawn. Else one per Surface::atoms: points that take the colour of a marked atom are not
+  /// drawn, in pictures and in exports, for any scheme of colours.
   std::vector<bool> hidden{};
 
-  /// Empty: everything is opaque. Else one per Surface::atoms, in [0, 1]: how much of what lies behind the points of
-  /// this atom they cover. 0 is the same as hidden.
+  /// Empty: everything is opaque. Else one per Surface::atoms, in [0, 1]: the share of the background that the points
+  /// of this atom cover. 0 is the same as hidden.
   std::vector<float> opacity{};
 
-  /// Empty, or the part of each of Surface::atoms, such as its chain: pictures with silhouettes have lines where parts
-  /// meet.
+  /// Empty, or the part of each of Surface::atoms, such as its chain: pictures with silhouettes have lines between
+  /// parts.
   std::vector<std::uint32_t> part{};
 
-  /// Empty, or whether each of Surface::atoms has a patch that is outlined: pictures have lines on the surface where
-  /// the points of atoms marked here meet those of others.
+  /// Empty, or true for each of Surface::atoms with an outlined patch: pictures have lines on the surface where points
+  /// of marked atoms meet points of others.
   std::vector<bool> in_patch{};
 
-  /// What lines tell atoms apart by: kMarksOfPart times the part, and what finish.glsl takes for in and out of patches;
-  /// empty if there are neither parts nor patches.
+  /// Returns the marks by which lines separate atoms: kMarksOfPart times the part, plus the marks of finish.glsl for
+  /// inside and outside patches; empty if there are neither parts nor patches.
   std::vector<std::uint32_t> line_marks() const {
     std::vector<std::uint32_t> marks(part.empty() && in_patch.empty() ? 0 : atom.size(), 0);
     for (std::size_t a = 0; a < part.size(); ++a) marks[a] = kMarksOfPart * part[a];
@@ -52,11 +53,11 @@ struct Coloring {
   }
   static constexpr std::uint32_t kMarksOfPart = 4;
 
-  /// Whether the map colours the points of this atom.
+  /// True if the map colours the points of this atom.
   bool by_volume(std::uint32_t a) const { return volume && (own_color.empty() || !own_color[a]); }
   bool shows(std::uint32_t a) const { return (hidden.empty() || !hidden[a]) && opacity_of(a) > 0.0f; }
   float opacity_of(std::uint32_t a) const { return opacity.empty() ? 1.0f : opacity[a]; }
-  /// Whether points of some atom are not drawn, or let through what lies behind them.
+  /// True if points of some atom are hidden or transparent.
   bool hides_some() const {
     return std::ranges::find(hidden, true) != hidden.end() || std::ranges::find(opacity, 0.0f) != opacity.end();
   }

@@ -28,10 +28,11 @@ namespace meniscus {
 namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array<double, 2> kUsualRange{-0.3, 0.3};  // holds 90 % of the surfaces of proteins that we looked at
-constexpr double kReach = 8.0;                           // Å
-constexpr double kStep = 0.5;                            // Å
-constexpr double kMargin = 4.0;                          // Å beyond the centres of atoms
+constexpr std::array<double, 2> kUsualRange{-0.3,
+                                            0.3};  // contains 90 % of the surfaces of the proteins that were tested
+constexpr double kReach = 8.0;                     // Å
+constexpr double kStep = 0.5;                      // Å
+constexpr double kMargin = 4.0;                    // Å beyond the centres of atoms
 constexpr double kMostPoints = 1 << 26;
 
 /// Atoms of the same type, with their hydrogens.
@@ -41,7 +42,8 @@ struct AtomType {
 };
 
 constexpr AtomType kTypes[] = {
-    // Charge states whose other atoms are those of the residue; of imidazolium -0.1097 and -0.9048, in halves.
+    // Charge states with the other atoms of their residue; the contributions of imidazolium, -0.1097 and -0.9048, are
+    // halved.
     {-0.50725, " HIP:ND1 HIP:NE2 HSP:ND1 HSP:NE2 "},
     {-0.0024, " CYM:SG "},
     {-0.3187, " PRO:N "},
@@ -51,7 +53,7 @@ constexpr AtomType kTypes[] = {
     {-0.2783, " :C "},
     {-0.1526, " :O "},
     {0.0087, " :OXT ASH:OD2 GLH:OE2 "},
-    // CH3, CH2 and CH of alkanes; CH2 and CH beside N, O or S; CH3 beside S; CH2 beside a ring.
+    // CH3, CH2 and CH of alkanes; CH2 and CH next to N, O or S; CH3 next to S; CH2 next to a ring.
     {0.5131, " ALA:CB VAL:CG1 VAL:CG2 LEU:CD1 LEU:CD2 ILE:CG2 ILE:CD1 THR:CG2 "},
     {0.3901,
      " ARG:CB ARG:CG ASN:CB ASP:CB ASH:CB GLN:CB GLN:CG GLU:CB GLU:CG GLH:CB GLH:CG LEU:CB LYS:CB LYS:CG LYS:CD LYN:CB "
@@ -68,7 +70,8 @@ constexpr AtomType kTypes[] = {
      "TRP:CZ3 TRP:CH2 "},
     {0.2955, " TRP:CD2 TRP:CE2 "},
     {0.5437, " TYR:CZ "},
-    // Groups with N, O and S; of carboxylates -0.1526 and -1.326, of guanidinium -1.5216 and -0.5906, in halves.
+    // Groups with N, O and S; the contributions of carboxylates, -0.1526 and -1.326, and of guanidinium, -1.5216 and
+    // -0.5906, are halved.
     {-0.2783, " ASN:CG ASP:CG ASH:CG GLN:CD GLU:CD GLH:CD ARG:CZ "},
     {-0.1526, " ASN:OD1 GLN:OE1 ASH:OD1 GLH:OE1 "},
     {-0.7393, " ASP:OD1 ASP:OD2 GLU:OE1 GLU:OE2 "},
@@ -82,7 +85,7 @@ constexpr AtomType kTypes[] = {
     {0.3805, " CYS:SG "},
     {0.6482, " MET:SD "}};
 
-/// Names of force fields for states of a residue, which go with it, and those that have atoms of their own.
+/// Force-field names for states of a residue, and the states with atoms of their own.
 struct Residue {
   std::string_view name, as;
 };
@@ -96,9 +99,9 @@ constexpr Residue kResidues[] = {
 constexpr double kAmmonium = -1.3074, kAmmoniumOfProline = -1.5216, kCarboxylateOxygen = -0.7393,
                  kSulphurWithoutHydrogen = 0.6482;
 
-/// How many atoms an atom is bonded to.
+/// The numbers of neighbours of an atom.
 struct Neighbours {
-  std::uint8_t heavy = 0, hydrogens = 0, oxygens = 0;  ///< oxygens: that have no other neighbour
+  std::uint8_t heavy = 0, hydrogens = 0, oxygens = 0;  ///< oxygens: those without another neighbour
   bool of_other_residue = false;                       ///< at least one
 };
 
@@ -119,7 +122,7 @@ bool is_hydrogen(std::string_view name) {
   return letter != std::string_view::npos && (name[letter] == 'H' || name[letter] == 'D');
 }
 
-/// exp(-d) by the square of d, linear between places: within 2e-6 where d is at least 1 Å.
+/// Computes exp(-d) from the square of d by linear interpolation: within 2e-6 where d is at least 1 Å.
 class Decay {
  public:
   Decay() {
@@ -133,11 +136,11 @@ class Decay {
   }
 
  private:
-  static constexpr std::size_t kPlaces = 128;  // an Å²
+  static constexpr std::size_t kPlaces = 128;  // per Å²
   std::array<double, static_cast<std::size_t>(kReach* kReach) * kPlaces + 2> values_{};
 };
 
-/// What the potential is made of.
+/// A contribution to the potential.
 struct Source {
   glm::dvec3 position;
   double value;
@@ -158,7 +161,7 @@ VolumeFrame frame_around(const Structure& structure) {
   return frame;
 }
 
-/// The potential in one plane of the grid, across the first axis.
+/// Computes the potential in one plane of the grid, across the first axis.
 void add_plane(const VolumeFrame& frame, std::size_t i, const std::vector<Source>& sources, const Decay& decay,
                float* plane) {
   const double step = frame.step[0][0], x = frame.origin.x + static_cast<double>(i) * step;
@@ -207,7 +210,8 @@ std::vector<double> lipophilicities(const Structure& structure) {
       atoms, structure.topology ? std::span<const Bond>(structure.topology->bonds) : std::span<const Bond>());
   for (std::size_t n = bonds.size(); n-- > 0;) bonds.push_back({bonds[n][1], bonds[n][0]});
   const std::vector<Neighbours> near = neighbours_of(atoms, bonds);
-  std::map<std::tuple<std::int32_t, std::uint32_t, std::string_view>, std::uint32_t> first;  // residue of each chain
+  std::map<std::tuple<std::int32_t, std::uint32_t, std::string_view>, std::uint32_t>
+      first;  // first residue of each chain
   std::vector<double> values;
   for (std::size_t a = 0; a < atoms.size(); ++a) {
     const Atom& atom = atoms[a];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds the tables of colours by element, residue type, class and CSS name, and looks colours up in them.
+// Contains the tables of colours by element, residue type, class and CSS name, and looks up colours.
 #include "core/color/named_colors.h"
 
 #include <algorithm>
@@ -16,14 +16,14 @@ namespace {
 constexpr std::uint32_t kOkabeIto[] = {0x56b4e9, 0xe69f00, 0x009e73, 0xcc79a7, 0xf0e442, 0x0072b2, 0xd55e00};
 static_assert(3 * std::size(kOkabeIto) == kCategoricalCount);
 
-// H white, C grey, N blue, O red, S yellow, P orange; halogens green to violet; metals a tone each where they are
-// common in proteins. Tones are ours, muted so that shading stays visible.
+// H white, C grey, N blue, O red, S yellow, P orange; halogens green to violet; metals that are common in proteins have
+// a tone each. The tones are our own, muted so that shading stays visible.
 const std::map<std::uint8_t, std::uint32_t> kElements{
     {1, 0xf2f2f2},  {6, 0x9a9a9a},  {7, 0x4666d8},  {8, 0xdd4437},  {9, 0x9fd356},  {11, 0x8e5bd1}, {12, 0x5d9c3a},
     {15, 0xf08a24}, {16, 0xe8c93a}, {17, 0x3fae49}, {19, 0x7d3fb0}, {20, 0x6fa35f}, {25, 0x9c7ac7}, {26, 0xc86a2f},
     {27, 0xdb8aa0}, {28, 0x5fb08c}, {29, 0xc58032}, {30, 0x7d80b0}, {34, 0xd99a1e}, {35, 0x9b3b2a}, {53, 0x7a2a8c}};
 constexpr std::uint32_t kOtherElement = 0xd070b0;
-constexpr std::uint32_t kUnknownElement = 0xc4c4c4;  // XYZR, which names none
+constexpr std::uint32_t kUnknownElement = 0xc4c4c4;  // for XYZR, which has no elements
 
 // By chemistry, in Okabe and Ito's colours.
 constexpr ResidueGroup kResidueGroups[] = {{0xd55e00, "acidic", " ASP GLU ASH GLH "},
@@ -60,7 +60,7 @@ glm::vec3 cpk_color(std::uint8_t element) {
 }
 
 glm::vec3 element_color(std::uint8_t element) {
-  constexpr float kWhite = 0.456f;  // makes #c8c8c8 of carbon's #9a9a9a
+  constexpr float kWhite = 0.456f;  // turns carbon's #9a9a9a into #c8c8c8
   return (1.0f - kWhite) * cpk_color(element) + glm::vec3(kWhite);
 }
 
@@ -78,7 +78,7 @@ struct CssColor {
   std::uint32_t hex;
 };
 
-// By name, for the search.
+// Sorted by name, for binary search.
 constexpr CssColor kCssColors[] = {{"aliceblue", 0xf0f8ff},
                                    {"antiquewhite", 0xfaebd7},
                                    {"aqua", 0x00ffff},

@@ -88,7 +88,7 @@ ClassedAtoms confidence_classes(const Structure& structure) {
 
 namespace {
 
-/// Classes in the order in which they are asked for.
+/// Collects classes in the order of their first use.
 class OccurringClasses {
  public:
   std::uint8_t place(std::string_view name, std::uint32_t color) {

@@ -24,7 +24,7 @@ struct ColorClass {
   bool operator==(const ColorClass&) const = default;
 };
 
-/// The classes in their order, and of each atom which one it is in.
+/// The classes in their order, and the class of each atom.
 struct ClassedAtoms {
   std::vector<ColorClass> classes;
   std::vector<std::uint8_t> of_atom;  ///< one per Structure::atoms
@@ -34,29 +34,32 @@ struct ClassedAtoms {
 
 inline constexpr std::string_view kWithoutConfidence = "none";
 
-/// Helix, strand, coil, as secondary_structure() has them, and "other" for all that is no amino acid; those that occur.
+/// Returns helix, strand and coil, as in secondary_structure(), and "other" for atoms outside amino acids; only classes
+/// that occur.
 ClassedAtoms secondary_classes(const Structure& structure);
 
-/// The four classes of the AlphaFold database, all of them, by pLDDT above 90, 70 and 50; a number on a limit is in
-/// the class below. After them kWithoutConfidence, if some atoms have no number. Throws InputError where none has one.
+/// Returns the four classes of the AlphaFold database, all of them, by pLDDT above 90, 70 and 50; a number on a limit
+/// is in the class below. kWithoutConfidence follows if some atoms have no number. Throws InputError if no atom has
+/// one.
 ClassedAtoms confidence_classes(const Structure& structure);
 
-/// Each sugar that occurs by its symbol (core/structure/sugars.h). Of sugars whose symbol is half white, what is not in
-/// the ring is in the class "white half"; what is no sugar in "other".
+/// Returns each sugar that occurs, by its symbol (core/structure/sugars.h). For sugars with a half white symbol, atoms
+/// outside the ring are in the class "white half"; atoms outside sugars are in "other".
 ClassedAtoms sugar_classes(const Structure& structure);
 
-/// The classes of Martini's beads that occur: "charged", "polar", "intermediate", "apolar", "water"; "backbone" of
-/// Martini 2, where it depends on the fold; "other" for what is no bead.
+/// Returns the classes of Martini's beads that occur: "charged", "polar", "intermediate", "apolar", "water"; "backbone"
+/// of Martini 2, where it depends on the fold; "other" for atoms that are not beads.
 ClassedAtoms bead_classes(const Structure& structure);
 
-/// Is this scheme one of these?
+/// True if this scheme has one of these lists of classes.
 bool has_ordered_classes(ColorScheme::By by);
 ClassedAtoms ordered_classes(const Structure& structure, ColorScheme::By by);
 
-/// From where these have their numbers: "_ma_qa_metric_local" if any atom has an Atom::confidence, else "B-factors".
+/// Returns the source of pLDDT: "_ma_qa_metric_local" if any atom has an Atom::confidence, else "B-factors".
 std::string_view source_of_confidence(const Structure& structure);
 
-/// Why they may not be pLDDT, in one sentence: B-factors outside of 0 to 100, of an experiment, or from 0 to 1.
+/// Returns a sentence that says why the numbers may not be pLDDT: B-factors outside of 0 to 100, of an experiment, or
+/// from 0 to 1. Nothing if there is no doubt.
 std::optional<std::string> doubt_of_confidence(const Structure& structure);
 
 }  // namespace meniscus

@@ -19,7 +19,8 @@
 namespace meniscus {
 namespace {
 
-/// An empty buffer still gets memory, so that it can be bound; whole 16-byte rows suit fill() and vec4 arrays.
+/// Rounds up to whole 16-byte rows, for fill() and vec4 arrays. An empty buffer also gets memory, so that it can be
+/// bound.
 std::size_t in_rows(std::size_t byte_count) { return byte_count < 16 ? 16 : (byte_count + 15) / 16 * 16; }
 
 std::atomic<std::uint64_t> allocations = 0;
@@ -76,7 +77,7 @@ void Buffer::write(std::size_t byte_offset, const void* bytes, std::size_t byte_
 void Buffer::read(std::size_t byte_offset, void* bytes, std::size_t byte_count) const {
   assert(byte_offset + byte_count <= byte_count_);
   if (byte_count == 0) return;
-  std::array<std::uint32_t, 16> words;  // so few come along with the proof that they are right
+  std::array<std::uint32_t, 16> words;  // reads of at most this many words come along with the proof
   if (byte_offset % 4 == 0 && byte_count % 4 == 0 && byte_count <= sizeof words) {
     const WorkProof::Piece piece{name_, byte_offset, std::span(words).first(byte_count / 4)};
     WorkProof::current().verify({&piece, 1});
@@ -103,7 +104,7 @@ void Buffer::fill(std::uint32_t word) {
 }
 
 void Buffer::bind(std::uint32_t binding) const {
-  // The limit is that of kernels; a buffer that is fetched as texels may be larger.
+  // The limit is that of kernels; a buffer fetched as texels may be larger.
   GLint64 limit = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
   if (byte_count_ > static_cast<std::size_t>(limit))
@@ -123,7 +124,7 @@ void TexelBuffer::upload_bytes(std::span<const std::byte> bytes) {
 
 void TexelBuffer::view(const Buffer& storage) {
   attach(storage);
-  // Kernels wrote it as storage and now fetch it as texels.
+  // Kernels wrote the buffer as storage and now fetch it as texels.
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
@@ -133,7 +134,7 @@ void TexelBuffer::attach(const Buffer& storage) {
   const std::size_t texels = storage.byte_count() / (format_ == TexelFormat::uint1 ? 4 : 16);
   if (texels > static_cast<std::size_t>(limit))
     throw CapacityError(fmt::format("{} texels are needed; this driver's limit is {}", texels, limit));
-  // It shows all of the buffer's memory, so nothing changes as long as that stays.
+  // The view covers all of the buffer's memory, so nothing changes while the memory stays the same.
   if (shown_ == storage.memory()) return;
   if (!texture_) glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);
   glTextureBuffer(texture_, format_ == TexelFormat::uint1 ? GL_R32UI : GL_RGBA32UI, storage.gl_name());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Asks a GL context for its renderer, its versions and its limits.
+// Queries a GL context for its renderer, its versions and its limits.
 #include "core/gpu/context_description.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a GL context says about itself: its renderer and version, and the limits that decide whether a job fits.
+// Describes a GL context: its renderer and version, and the limits that decide whether a job fits.
 #pragma once
 
 #include <cstddef>
@@ -8,19 +8,19 @@
 
 namespace meniscus {
 
-/// Names for people, and whether the CPU draws.
+/// Names for people, and a flag for software rendering.
 struct ContextDescription {
   std::string vendor, renderer, version;
   bool software = false;
 };
 
-/// Whether a renderer of this name (GL_RENDERER) draws on the CPU: llvmpipe, softpipe, SwiftShader, zink on lavapipe...
+/// True if a renderer of this name (GL_RENDERER) draws on the CPU: llvmpipe, softpipe, SwiftShader, zink on lavapipe...
 bool is_software_renderer(std::string renderer);
 
-/// Of the context current on this thread; there must be one.
+/// Describes the context that is current on this thread; there must be one.
 ContextDescription describe_current_context();
 
-/// Throws GpuError if the driver has reset the context current on this thread: all it held is lost.
+/// Throws GpuError if the driver has reset the context current on this thread: its contents are lost.
 void require_living_context();
 
 struct GpuLimits {
@@ -31,7 +31,7 @@ struct GpuLimits {
   std::uint32_t group_size = 0;         ///< invocations per group
 };
 
-/// Asks the driver; needs a current context.
+/// Queries the limits of the driver; a context must be current.
 GpuLimits query_gpu_limits();
 
 /// Throws GpuError naming `what` if GL has an error pending, CapacityError if it is out of memory.

@@ -12,7 +12,7 @@ namespace meniscus {
 namespace {
 
 constexpr std::string_view kUuidPrefix = "gpu-";
-constexpr std::size_t kShortestUuid = 8;  // digits
+constexpr std::size_t kShortestUuid = 8;  // in digits
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -27,7 +27,7 @@ std::optional<int> parse_index(std::string_view text) {
   return index;
 }
 
-/// UUID or PCI address: hexadecimal digits and what is between them.
+/// True for a UUID or PCI address: hexadecimal digits and separators.
 bool looks_like_a_name(std::string_view text) {
   if (lower(text).starts_with(kUuidPrefix)) text.remove_prefix(kUuidPrefix.size());
   const auto fits = [](unsigned char c) { return std::isxdigit(c) || c == '-' || c == ':' || c == '.'; };
@@ -45,10 +45,10 @@ std::string_view trimmed(std::string_view text) {
   return first == text.npos ? std::string_view{} : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// Whether CUDA's list is about this device at all.
+/// True if CUDA's list applies to this device.
 bool known_to_cuda(const GlDevice& device) { return device.cuda_index.has_value(); }
 
-/// Those that the list names, in its order.
+/// Returns the devices that the list names, in its order.
 std::vector<GlDevice> cuda_listed(std::string_view list, const std::vector<GlDevice>& devices) {
   std::vector<GlDevice> listed;
   while (!list.empty()) {

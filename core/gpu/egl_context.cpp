@@ -31,11 +31,11 @@ std::vector<EGLDeviceEXT> query_devices() {
   return devices;
 }
 
-// Of EGL_EXT_device_persistent_id, younger than the headers at hand.
+// A constant of EGL_EXT_device_persistent_id, which Debian's headers do not have yet.
 constexpr EGLint kDeviceUuid = 0x335C;  // EGL_DEVICE_UUID_EXT
 using QueryDeviceBinary = EGLBoolean (*)(EGLDeviceEXT device, EGLint name, EGLint max_size, void* value, EGLint* size);
 
-/// As CUDA and nvidia-smi write it; empty if the device has none.
+/// Returns the UUID as CUDA and nvidia-smi write it; empty if the device has none.
 std::string uuid_of(EGLDeviceEXT device) {
   const auto query = reinterpret_cast<QueryDeviceBinary>(eglGetProcAddress("eglQueryDeviceBinaryEXT"));
   std::array<unsigned char, 16> bytes{};
@@ -48,7 +48,7 @@ std::string uuid_of(EGLDeviceEXT device) {
   return text;
 }
 
-/// The PCI address behind a file such as /dev/dri/card0; empty if there is none.
+/// Returns the PCI address of a file such as /dev/dri/card0; empty if there is none.
 std::string pci_of(const std::string& drm_file) {
   std::error_code none;
   const auto name = std::filesystem::path(drm_file).filename();
@@ -75,7 +75,7 @@ GlDevice describe(EGLDeviceEXT device, int egl_index) {
   return result;
 }
 
-/// GL 4.5 core, or EGL_NO_CONTEXT. Contexts that share agree about whether they are told of resets.
+/// Creates a GL 4.5 core context; EGL_NO_CONTEXT on failure. Contexts that share must agree on reset notification.
 EGLContext create_context(EGLDisplay display, EGLConfig config, EGLContext sibling, bool told_of_resets) {
   std::vector<EGLint> wish{EGL_CONTEXT_MAJOR_VERSION,       4,
                            EGL_CONTEXT_MINOR_VERSION,       5,
@@ -146,9 +146,9 @@ bool EglContext::try_device(const DeviceAttempt& attempt, const std::string& ker
   const std::array<EGLint, 3> config_wish{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint config_count = 0;
-  // Surfaceless: any config with OpenGL does, and none is needed where EGL_KHR_no_config_context is offered.
+  // Surfaceless: any config with OpenGL is suitable, and none is needed if EGL_KHR_no_config_context is offered.
   if (!eglChooseConfig(display, config_wish.data(), &config, 1, &config_count) || config_count == 0) config = nullptr;
-  // Where the driver tells of resets, work that a reset took away is known to be lost.
+  // If the driver notifies of resets, work that a reset destroyed is known to be lost.
   EGLContext context = create_context(display, config, EGL_NO_CONTEXT, true);
   if (context == EGL_NO_CONTEXT) context = create_context(display, config, EGL_NO_CONTEXT, false);
   if (context == EGL_NO_CONTEXT)

@@ -13,26 +13,26 @@
 
 namespace meniscus {
 
-/// All devices that EGL_EXT_device_enumeration offers. Throws GpuError when EGL cannot enumerate devices.
+/// Lists all devices that EGL_EXT_device_enumeration offers. Throws GpuError if EGL cannot enumerate devices.
 std::vector<GlDevice> list_gl_devices();
 
-/// A context that others made through EGL, such as a window's.
+/// A context that other code made through EGL, such as a window's.
 struct ForeignContext {
   void* display = nullptr;
   void* context = nullptr;
   bool tells_resets = false;    ///< GL_LOSE_CONTEXT_ON_RESET
-  std::string kernel_folder{};  ///< as DeviceChoice has it; for what is made beside it
+  std::string kernel_folder{};  ///< as in DeviceChoice; for contexts that share with it
 };
 
-/// The context current on this thread; nothing if there is none, or not through EGL.
+/// Returns the context current on this thread; nothing if there is none, or if it was not made through EGL.
 std::optional<ForeignContext> current_egl_context();
 
 /// Owns one GL 4.5 core context, current on the thread that made it. All GL calls of the library need one current.
 class EglContext {
  public:
-  /// On the first device that fits `choice`, has GL 4.5 and, where hardware is asked for, does not draw on the
-  /// CPU: its renderer is asked, as EGL's list may take Mesa's software for a GPU. Throws GpuError that names what was
-  /// tried.
+  /// Creates a context on the first device that fits `choice`, has GL 4.5 and, where hardware is required, does not
+  /// draw on the CPU: its renderer is checked, because EGL's list may take Mesa's software for a GPU. Throws GpuError
+  /// that names the devices that were tried.
   explicit EglContext(const DeviceChoice& choice = {});
   /// Shares textures and buffers with `sibling`, which outlives it and is current on another thread. Throws GpuError.
   explicit EglContext(const ForeignContext& sibling);

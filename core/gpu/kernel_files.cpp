@@ -19,7 +19,7 @@ namespace {
 
 thread_local KernelFiles* current_files = nullptr;
 
-/// Fowler, Noll and Vo's FNV-1a, 64 bits: finds names and damage; what must not be mistaken is compared as a whole.
+/// Computes the 64-bit hash FNV-1a of Fowler, Noll and Vo. It finds names and damage; texts are compared as a whole.
 std::uint64_t hash(std::string_view bytes) {
   std::uint64_t h = 0xcbf29ce484222325u;
   for (const char c : bytes) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
@@ -40,7 +40,7 @@ std::string bytes_of(Number number) {
   return {reinterpret_cast<const char*>(&number), sizeof number};
 }
 
-/// What is in front of the binary: whatever it was made of.
+/// Returns the file's head before the binary: the driver and the text that it was compiled from.
 std::string head_of(const std::string& driver, std::string_view text) {
   return fmt::format("meniscus kernel 1\n{}{}\n{}", driver, text.size(), text);
 }
@@ -115,7 +115,7 @@ void KernelFiles::save(std::uint32_t program, const std::string& name, std::stri
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
     if (!file.flush()) failed = std::make_error_code(std::errc::io_error);
   }
-  // Not synced: what a crash of the machine leaves is told by its checksum.
+  // Not synced: damage by a crash of the machine is found by the checksum.
   if (!failed) std::filesystem::rename(beside, path, failed);
   if (failed) std::filesystem::remove(beside, ignored);
 }

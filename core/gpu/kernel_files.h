@@ -9,27 +9,28 @@
 
 namespace meniscus {
 
-/// The folder of one GL context. Whatever is missing, damaged, of another driver or of other sources is compiled; what
-/// cannot be written is not kept; neither is an error. Files appear complete or not at all, and any number of processes
-/// may share a folder. A folder holds one file for each kernel and driver: newer sources replace older ones.
+/// The folder of kernels of one GL context. Kernels that are missing, damaged, of another driver or of other sources
+/// are compiled; kernels that cannot be written are not kept; neither is an error. Files appear complete or not at all,
+/// and any number of processes may share a folder. A folder has one file per kernel and driver: newer sources replace
+/// older ones.
 class KernelFiles {
  public:
-  /// For the context current on this thread; made when something is to be kept. Nothing is kept where the driver gives
-  /// no binaries.
+  /// For the context current on this thread. The folder is made with its first file. Nothing is kept if the driver
+  /// provides no binaries.
   explicit KernelFiles(std::filesystem::path folder);
   ~KernelFiles();
   KernelFiles(const KernelFiles&) = delete;
   KernelFiles& operator=(const KernelFiles&) = delete;
 
-  /// That of the EglContext current on this thread; nullptr if it keeps none.
+  /// Returns the folder of the EglContext current on this thread; nullptr if it has none.
   static KernelFiles* current();
-  /// To be called when its context has been made current on this thread; nullptr: a context that keeps none.
+  /// Must be called when its context has been made current on this thread; nullptr: the context has no folder.
   static void make_current(KernelFiles* files);
 
-  /// Gives the GL program what was kept under this name for this very text; false if there is nothing that the driver
-  /// takes.
+  /// Loads into the GL program the binary kept under this name for exactly this text; false if there is none that the
+  /// driver accepts.
   bool load(std::uint32_t program, const std::string& name, std::string_view text) const;
-  /// Keeps a linked program.
+  /// Saves a linked program.
   void save(std::uint32_t program, const std::string& name, std::string_view text) const;
 
  private:

@@ -50,7 +50,7 @@ void append_all(std::initializer_list<AppendList*> lists, Buffer& counters, std:
     auto count = counted.begin();
     for (AppendList* list : lists) all_fit &= list->fits(*count++);
   }
-  // Not before all fit: what a list already has is not appended again.
+  // Counts are set only when all lists fit, so that records of a list are not appended twice.
   auto count = counted.begin();
   for (AppendList* list : lists) list->settle(*count++);
 }
@@ -86,7 +86,7 @@ void PrefixSum::operator()(const Buffer& words, std::uint32_t count, std::uint32
   if (!kind_) kind_ = describe_current_context().software ? ScanKind::serial : ScanKind::parallel;
   const bool serial = kind_ == ScanKind::serial;
   const char* const path = serial ? "gpu_shaders/parallel/scan.comp" : "gpu_shaders/parallel/block_scan.comp";
-  const std::uint32_t chunk_length = serial ? 512 : 1024;  // words of an invocation, or of a group of 256
+  const std::uint32_t chunk_length = serial ? 512 : 1024;  // words per invocation, or per group of 256
   const std::uint32_t chunks = (count + chunk_length - 1) / chunk_length;
   totals_.resize(std::max(1u, chunks) * sizeof(std::uint32_t));
   for (int pass = 0; pass < 3; ++pass) {

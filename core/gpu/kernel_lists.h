@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists that kernels append to and the loop that lets them grow, and prefix sums over such lists.
+// Lists that kernels append to, the loop that lets them grow, and prefix sums over such lists.
 #pragma once
 
 #include <cstddef>
@@ -15,32 +15,33 @@
 
 namespace meniscus {
 
-/// Records in a buffer with room for some more. A kernel counts every record that it would append, by an atomic counter
-/// that starts at count(), and writes those whose place is below capacity(). Needs a current GL context.
+/// Records in a buffer with room for more. A kernel counts every record to append, by an atomic counter that starts at
+/// count(), and writes those with a place below capacity(). A GL context must be current.
 class AppendList {
  public:
-  /// header_bytes: in front of the records, the kernel's own.
+  /// header_bytes: the kernel's own data before the records.
   AppendList(std::size_t record_bytes, std::uint32_t first_capacity, std::size_t header_bytes = 0)
       : record_bytes_(record_bytes), header_bytes_(header_bytes), capacity_(first_capacity) {}
 
-  std::uint32_t count() const { return count_; }  ///< records; while their number is open, as it was before
-  /// No more records than that are here: their count, or, while that is open, the capacity.
+  std::uint32_t count() const { return count_; }  ///< number of records; while it is open, the previous number
+  /// Returns an upper limit of the number of records: their count, or, while that is open, the capacity.
   std::uint32_t most() const { return open_ ? capacity_ : count_; }
   std::uint32_t capacity() const { return capacity_; }  ///< records that the buffer has room for, once make_room() ran
-  /// Forgets all records.
+  /// Removes all records.
   void clear() { count_ = 0, open_ = false; }
   /// Makes the buffer as large as the capacity, and keeps the records. Throws CapacityError.
   void make_room();
-  /// Whether so many records, which a kernel counted, all have a place. If not the capacity grows.
+  /// True if all records that a kernel counted have a place. If not, the capacity grows.
   bool fits(std::uint32_t counted);
-  /// Takes the kernel's count, which fits.
+  /// Sets the count that a kernel reported; it must fit.
   void settle(std::uint32_t counted) { last_ = count_ = counted, open_ = false; }
-  /// A kernel appends whose count the host learns later, no more records than it last had and some room.
+  /// Marks the count as open: a kernel appends, and the host reads the count later; it may be as last time and somewhat
+  /// more.
   void leave_open() {
     capacity_ = last_ + last_ / 8 + 64;
     open_ = true;
   }
-  /// Replaces all records by those that the host has; there is room for no others.
+  /// Replaces all records by records of the host; there is no room for more.
   template <typename Record>
   void upload(const std::vector<Record>& records) {
     clear();
@@ -48,7 +49,7 @@ class AppendList {
     make_room();
     append(std::span<const Record>(records));
   }
-  /// Appends records that the host has.
+  /// Appends records of the host.
   template <typename Record>
   void append(std::span<const Record> records) {
     append_bytes(std::as_bytes(records), static_cast<std::uint32_t>(records.size()));
@@ -62,38 +63,38 @@ class AppendList {
   std::size_t record_bytes_, header_bytes_;
   std::uint32_t count_ = 0;
   std::uint32_t capacity_;
-  std::uint32_t last_ = 0;  ///< count when it was settled last
+  std::uint32_t last_ = 0;  ///< the count when it was last settled
   bool open_ = false;
 };
 
 /// Runs kernels that append to `lists`, again and again until every record has its place. Before each run the lists
-/// make room, and `counters` gets a word for each of `counted`: first what each list holds, then zeros. After the last
-/// one `counted` holds what the kernels made of them. Throws CapacityError, GpuError.
+/// make room, and `counters` gets a word for each of `counted`: first the count of each list, then zeros. After the
+/// last run `counted` has the values that the kernels left. Throws CapacityError, GpuError.
 void append_all(std::initializer_list<AppendList*> lists, Buffer& counters, std::span<std::uint32_t> counted,
                 const std::function<void()>& run);
 
-/// Runs them once, on empty lists that have the room that they needed last time and some more. The counts are open
+/// Runs the kernels once, on empty lists with the room that they needed last time and some more. The counts are open
 /// until settle_all(). Throws CapacityError, GpuError.
 void append_later(std::initializer_list<AppendList*> lists, Buffer& counters, std::span<std::uint32_t> counted,
                   const std::function<void()>& run);
 
-/// Takes the words of `counters` once they have been read back; false if some record had no place.
+/// Sets the counts from the words of `counters` that were read back; false if some record had no place.
 bool settle_all(std::initializer_list<AppendList*> lists, std::span<const std::uint32_t> counted);
 
 /// How invocations share a sum; the result is the same.
 enum class ScanKind {
-  serial,   ///< kernel "parallel/scan": each adds up a chunk by itself, as suits software GL
-  parallel  ///< kernel "parallel/block_scan": groups add up together, as suits a GPU
+  serial,   ///< kernel "parallel/scan": each invocation adds up a chunk, faster on software GL
+  parallel  ///< kernel "parallel/block_scan": groups add up together, faster on a GPU
 };
 
-/// Both kernels and their scratch memory. Needs a current GL context.
+/// Both kernels and their scratch memory. A GL context must be current.
 class PrefixSum {
  public:
-  /// kind: that which suits the device, if not set.
+  /// kind: the faster one for the device, if not set.
   explicit PrefixSum(ProgramCache& programs, std::optional<ScanKind> kind = {}) : programs_(programs), kind_(kind) {}
 
-  /// Replaces each of the first `count` words by the sum of those before it; words[count] becomes the sum of all.
-  /// `words` holds count + 1 words. No sum gets larger than `limit`: places in a list that has no more room.
+  /// Replaces each of the first `count` words by the sum of the words before it; words[count] becomes the sum of all.
+  /// `words` has count + 1 words. No sum exceeds `limit`, the room of a list.
   void operator()(const Buffer& words, std::uint32_t count, std::uint32_t limit = ~0u);
 
  private:

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the host and its kernels hand to each other, as C++: parameters, records, and numbers that both must say alike.
+// The data that host and kernels exchange, as C++: parameters, records, and constants that both share.
 //
-// Each stage of gpu_shaders/ declares them once, in its parameters.glsl; a kernel has them as `layout(std140, binding =
-// ...) uniform Parameters { ... params; }`, and Program::set() hands one over whole. So a name that is wrong does not
-// compile, and a block that was forgotten is an error. (With single uniforms both went unnoticed; and zink, which makes
-// variants of kernels for their values, started variants for earlier ones: Mesa 22.3.) Their members are where std140
-// (OpenGL 4.5, section 7.6.2.2) wants them by order alone: vectors of doubles first, of three floats followed by one
-// more, then of two, then single ones. Tests ask the driver for their places.
+// Each stage of gpu_shaders/ declares them once, in its parameters.glsl. A kernel has them as `layout(std140, binding =
+// ...) uniform Parameters { ... params; }`, and Program::set() passes one as a whole. So a wrong name does not compile,
+// and a forgotten block is an error. (With single uniforms neither was noticed; and zink, which makes variants of
+// kernels for their values, started variants for earlier values: Mesa 22.3.) The order alone puts the members where
+// std140 (OpenGL 4.5, section 7.6.2.2) requires them: vectors of doubles first, then of three floats followed by one
+// more, then of two, then single ones. Tests query the driver for their offsets.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compiles, keeps and starts compute kernels, and names their stages for the clock and for GL debuggers.
+// Compiles, caches and starts compute kernels, and names their stages for the clock and for GL debuggers.
 #include "core/gpu/program.h"
 
 #include <algorithm>
@@ -32,10 +32,10 @@ std::string program_log(GLuint program) {
   return log.substr(0, log.find('\0'));
 }
 
-/// Uniform blocks are whole rows of 16 bytes, and some drivers count the last one whole.
+/// Rounds up to whole rows of 16 bytes, of which uniform blocks consist; some drivers count the last row as whole.
 std::size_t in_vectors(std::size_t byte_count) { return (byte_count + 15) / 16 * 16; }
 
-/// Names a kernel in one of its forms.
+/// Returns the name of a kernel with its defines.
 std::string form_of(std::string_view path, const ShaderDefines& defines) {
   std::string name(path);
   for (const auto& [word, value] : defines) name += fmt::format(" {}={}", word, value);
@@ -60,7 +60,7 @@ Program::Program(std::string_view path, const ShaderSource& source) : path_(path
   find_blocks();
 }
 
-// Leaves nothing behind where it throws: a constructor's object has no destructor then.
+// Deletes its GL objects if it throws, because the destructor does not run then.
 void Program::compile(const ShaderSource& source) {
   const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
   const char* text = source.text.c_str();
@@ -126,7 +126,7 @@ void Program::dispatch(std::size_t group_count, std::uint32_t longest_row) const
   GLint limit = 0;
   glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &limit);
   const std::size_t row = longest_row ? longest_row : static_cast<std::size_t>(limit);
-  // The rectangle closest to the count: as many rows as needed, all of one width.
+  // The rectangle closest to the count has as many rows as needed, all of one width.
   const std::size_t height = (group_count + row - 1) / row;
   const std::size_t width = (group_count + height - 1) / height;
   glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 1, &limit);
@@ -146,7 +146,7 @@ void Program::dispatch_indirect(const Buffer& counts, std::size_t byte_offset) c
   start();
   glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, counts.gl_name());
-  // Before: the account may be settled to make room, and must not find groups that it was not told of.
+  // This comes first, because it may settle the counts to make room, which must not find unregistered groups.
   WorkProof::current().started_indirect(counts.gl_name(), byte_offset);
   glDispatchComputeIndirect(static_cast<GLintptr>(byte_offset));
   finish();

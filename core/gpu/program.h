@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compute kernels: compiled from the embedded shaders, kept for reuse, started with any number of groups, timed in
-// stages.
+// Compute kernels: compiled from the embedded shaders, cached, started with any number of groups, and timed in stages.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +18,8 @@
 
 namespace meniscus {
 
-/// One linked compute kernel. Needs a current EglContext, which hears of all that is started (work_proof.h). Its
-/// parameters are uniform blocks; it cannot be started before all of them are set.
+/// One linked compute kernel. An EglContext must be current; its WorkProof counts all groups (work_proof.h). The
+/// parameters are uniform blocks; all of them must be set before a dispatch.
 class Program {
  public:
   /// path: "gpu_shaders/<stage>/<name>.comp". Throws GpuError with the compiler's log, in terms of our files.
@@ -30,7 +29,7 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// Sets a uniform block, given as one of the structs of kernel_parameters.h; it stays until it is set again. Throws
+  /// Sets a uniform block from one of the structs of kernel_parameters.h; it stays set until the next call. Throws
   /// GpuError if the kernel has no block at this binding, or one of another size.
   template <typename T>
   void set(const T& parameters, int binding = 0) const {
@@ -38,22 +37,22 @@ class Program {
     set_block(binding, &parameters, sizeof parameters);
   }
 
-  /// Starts `group_count` groups; more than the driver takes along x are folded into a rectangle, so that kernels must
-  /// use linear_group_index() of gpu_shaders/shared/linear_index.glsl and ignore what is past the end.
-  /// A full barrier for storage follows. `longest_row` is for tests: 0 means the driver's limit.
-  /// Throws GpuError if a block was never set.
+  /// Starts `group_count` groups. Counts above the driver's limit along x are folded into a rectangle, so kernels must
+  /// use linear_group_index() of gpu_shaders/shared/linear_index.glsl and ignore indices past the end. A full barrier
+  /// for storage follows. `longest_row` is for tests: 0 means the driver's limit. Throws GpuError if a block was never
+  /// set.
   void dispatch(std::size_t group_count, std::uint32_t longest_row = 0) const;
-  /// Groups in a plane, without folding.
+  /// Starts groups in a plane, without folding.
   void dispatch_2d(std::uint32_t x, std::uint32_t y) const;
-  /// Group counts {x, y, z} as three uint32 in `counts` at `byte_offset`, written by an earlier kernel.
+  /// Starts groups {x, y, z}, read as three uint32 in `counts` at `byte_offset` that an earlier kernel wrote.
   void dispatch_indirect(const Buffer& counts, std::size_t byte_offset = 0) const;
 
  private:
-  /// What the host knows of a uniform block.
+  /// The host's copy of a uniform block.
   struct Block {
     std::uint32_t binding = 0;
-    std::uint32_t buffer = 0;        ///< GL name; 0: never set
-    std::vector<std::byte> content;  ///< as many bytes as the kernel sees
+    std::uint32_t buffer = 0;        ///< GL name; 0 if it was never set
+    std::vector<std::byte> content;  ///< as long as the kernel's block
   };
 
   void compile(const ShaderSource& source);
@@ -67,7 +66,7 @@ class Program {
   mutable std::vector<Block> blocks_;
 };
 
-/// Groups of 64 invocations, the usual local size of a kernel.
+/// Returns the number of groups of 64 invocations, the usual local size of a kernel.
 constexpr std::size_t group_count(std::size_t invocations) { return (invocations + 63) / 64; }
 
 /// Compiles each pair of path and defines once.
@@ -79,8 +78,9 @@ class ProgramCache {
   std::map<std::pair<std::string, ShaderDefines>, std::unique_ptr<Program>> programs_;
 };
 
-/// Lasts as long as the stage. If the clock asks for exact times the GPU is idle at both ends, so that the host's clock
-/// is right: GL's own timer queries stay at zero for compute work on llvmpipe (Mesa 22.3). Needs a current context.
+/// A stage on the GPU, which lasts as long as this object. If the clock requires exact times, the GPU is idle at both
+/// ends, so that the host's clock is right: GL's own timer queries stay at zero for compute work on llvmpipe (Mesa
+/// 22.3). A GL context must be current.
 class GpuStage {
  public:
   GpuStage(StageClock& clock, const std::string& name);

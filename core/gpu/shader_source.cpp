@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts included shader files into one text, and translates the places of a compiler's log back.
+// Expands included shader files into one text, and translates the positions in a compiler's log back.
 #include "core/gpu/shader_source.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace meniscus {
 namespace {
 
-/// The first word and the rest of a preprocessor line; both empty for any other line.
+/// Returns the first word and the rest of a preprocessor line; both are empty for any other line.
 std::pair<std::string_view, std::string_view> split_directive(std::string_view line) {
   constexpr std::string_view kSpace = " \t\r";
   const auto skip_space = [&](std::string_view s) {
@@ -30,7 +30,7 @@ class Expander {
  public:
   Expander(const ShaderFinder& find, const ShaderDefines& defines) : find_(find), defines_(defines) {}
 
-  /// epilogue: a file to put after the last line, or nothing.
+  /// epilogue: a file to append after the last line, or nothing.
   ShaderSource expand(std::string_view path, std::string_view epilogue) {
     const auto text = find_(path);
     if (!text) throw GpuError(fmt::format("{}: no such shader", path));

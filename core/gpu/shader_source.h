@@ -15,22 +15,22 @@ namespace meniscus {
 /// Name and value of a preprocessor symbol.
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
-/// Gives the text of a path such as "gpu_shaders/geometry/ray_torus.glsl"; nothing if there is no such file.
+/// Returns the text of a path such as "gpu_shaders/geometry/ray_torus.glsl"; nothing if there is no such file.
 using ShaderFinder = std::function<std::optional<std::string_view>(std::string_view path)>;
 
-/// A shader with its includes put in place.
+/// A shader with its includes expanded.
 struct ShaderSource {
   std::string text;
-  std::vector<std::string> files;  ///< file of each source number that the #line directives in `text` use
+  std::vector<std::string> files;  ///< the file of each source number that the #line directives in `text` use
 };
 
-/// Replaces each line `#include "gpu_shaders/..."` by the file it names (each file once), and puts `defines` after the
-/// `#version` line, which only the entry file has. Block comments are not looked at.
-/// Throws GpuError with "file:line:" when a file is missing, includes itself, or the entry has no #version.
+/// Replaces each line `#include "gpu_shaders/..."` by the file (each file once), and puts `defines` after the
+/// `#version` line, which only the entry file has. Block comments are not parsed. Throws GpuError with "file:line:" if
+/// a file is missing or includes itself, or if the entry has no #version.
 ShaderSource expand_shader(std::string_view path, const ShaderFinder& find, const ShaderDefines& defines = {});
 
-/// The same for a kernel compiled into the library, with gpu_shaders/shared/finished_groups.glsl behind it: its own
-/// main() is called from there.
+/// Expands a kernel compiled into the library and appends gpu_shaders/shared/finished_groups.glsl, which calls the
+/// kernel's own main().
 ShaderSource expand_embedded_shader(std::string_view path, const ShaderDefines& defines = {});
 
 /// Rewrites the positions in a compiler's log ("0:12(5):" of Mesa, "0(12) :" of NVIDIA, "ERROR: 0:12:" of the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refuses GL contexts, in builds without epoxy.
+// Reports that there are no GL contexts, in builds without epoxy.
 #include "core/base/error.h"
 #include "core/gpu/egl_context.h"
 

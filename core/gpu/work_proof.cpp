@@ -15,9 +15,9 @@
 namespace meniscus {
 namespace {
 
-constexpr std::uint32_t kMostIndirect = 64;  // dispatches between two proofs; a frame of one sample makes two
+constexpr std::uint32_t kMostIndirect = 64;  // limit of dispatches between two proofs; a frame of one sample makes two
 
-/// The GL buffer as the host reads it.
+/// The contents of the GL buffer, as the host reads them.
 struct Account {
   std::uint32_t finished = 0;
   std::array<std::uint32_t, 3 * kMostIndirect + WorkProof::kMostPieceWords> indirect_and_pieces{};
@@ -70,7 +70,7 @@ void WorkProof::verify(std::span<const Piece> pieces) {
 WorkProof::Groups WorkProof::settle(std::span<const Piece> pieces) {
   Account account{proven_, {}};
   auto& words = account.indirect_and_pieces;
-  words.fill(~0u);  // with the line above: a read that does nothing proves nothing
+  words.fill(~0u);  // together with the line above: a read that has no effect proves nothing
   glMemoryBarrier(GL_ATOMIC_COUNTER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   const std::size_t first_piece = 3 * std::size_t{indirect_};
   std::size_t end = first_piece;

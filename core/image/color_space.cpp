@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Converts between sRGB and linear light, maps gathered light to colours of a screen, and writes the ICC profile.
+// Converts between sRGB and linear light, computes display colours, and writes the ICC profile.
 #include "core/image/color_space.h"
 
 #include <algorithm>
@@ -31,8 +31,8 @@ const std::array<float, 8>& chromaticities(Primaries primaries) {
 }
 
 glm::vec3 from_rec709(const glm::vec3& color, Primaries primaries) {
-  // By the chromaticities above and Lam & Rigg's "Bradford" adaptation from D65; OpenColorIO's configurations for ACES
-  // have the same numbers. Columns are red, green and blue.
+  // Computed from the chromaticities above and Lam & Rigg's "Bradford" adaptation from D65; OpenColorIO's
+  // configurations for ACES have the same numbers. Columns are red, green and blue.
   static const glm::mat3 kAp1(0.6130974024f, 0.0701937225f, 0.0206155929f, 0.3395231462f, 0.9163538791f, 0.1095697729f,
                               0.0473794514f, 0.0134523985f, 0.8698146342f);
   return primaries == Primaries::ap1 ? kAp1 * color : color;
@@ -40,7 +40,7 @@ glm::vec3 from_rec709(const glm::vec3& color, Primaries primaries) {
 
 namespace {
 
-/// Which linear values are shown as which byte.
+/// A table of the linear values at which the displayed byte changes.
 class ByteSteps {
  public:
   ByteSteps() {
@@ -51,7 +51,7 @@ class ByteSteps {
     }
   }
 
-  /// display_byte(srgb_from_linear(value)).
+  /// Returns display_byte(srgb_from_linear(value)).
   std::uint8_t byte_of(float value) const {
     if (!(value > 0.0f)) return 0;
     if (value >= 1.0f) return 255;
@@ -61,13 +61,14 @@ class ByteSteps {
   }
 
  private:
-  static constexpr int kSkipped = 16;  // bits of a float; the others leave two steps at most to be looked at
+  static constexpr int kSkipped =
+      16;  // bits of a float without influence on the table; at most two steps remain to be compared
 
   static float value_at(std::size_t place) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(place << kSkipped));
   }
 
-  /// By halving; floats above zero are ordered as their bits are.
+  /// Returns the smallest value shown as this byte, by bisection; floats above zero are ordered like their bits.
   static float least_shown_as(std::size_t byte) {
     std::uint32_t below = 0, at = std::bit_cast<std::uint32_t>(1.0f);
     while (at - below > 1) {
@@ -78,7 +79,7 @@ class ByteSteps {
   }
 
   std::array<float, 256> least_{};
-  std::array<std::uint8_t, (0x3f800000u >> kSkipped) + 1> first_{};  // of the values up to 1 with these leading bits
+  std::array<std::uint8_t, (0x3f800000u >> kSkipped) + 1> first_{};  // per leading bits of values up to 1
 };
 
 }  // namespace
@@ -97,7 +98,8 @@ glm::vec4 layout_color(const glm::vec4& pixel) {
   if (pixel.w <= 0.0f || pixel.w >= 1.0f) return display_color(pixel, {});
   const glm::vec3 on_white = srgb_from_linear(glm::vec3(pixel) + (1.0f - pixel.w));
   const glm::vec3 on_black = srgb_from_linear(glm::vec3(pixel));
-  // Of the backgrounds' difference this is left; where channels disagree, the least, which keeps colours in range.
+  // The remaining share of the backgrounds' difference; where channels disagree, the smallest share keeps colours in
+  // range.
   const glm::vec3 left = on_white - on_black;
   const float alpha = std::clamp(1.0f - std::min({left.x, left.y, left.z}), 0.0f, 1.0f);
   return {alpha > 0.0f ? (on_white - (1.0f - alpha)) / alpha : glm::vec3(0.0f), alpha};
@@ -124,7 +126,7 @@ void layout_bytes(std::span<const glm::vec4> pixels, std::uint8_t* bytes) {
   const auto is_partly_covered = [](const glm::vec4& pixel) { return !(pixel.w <= 0.0f || pixel.w >= 1.0f); };
   for (auto pixel = pixels.begin(); pixel != pixels.end();) {
     const auto end = std::find_if(pixel, pixels.end(), is_partly_covered);
-    display_bytes({pixel, end}, {}, 4, bytes);  // most are alike
+    display_bytes({pixel, end}, {}, 4, bytes);  // for most pixels both are alike
     bytes += 4 * (end - pixel);
     for (pixel = end; pixel != pixels.end() && is_partly_covered(*pixel); ++pixel) {
       const glm::vec4 color = layout_color(*pixel);
@@ -145,7 +147,7 @@ void add_text(Bytes& bytes, std::string_view text) {
   for (const char letter : text) bytes.push_back(static_cast<std::uint8_t>(letter));
 }
 
-/// A type and four bytes that are zero.
+/// Returns a type and four zero bytes.
 Bytes tag(std::string_view type) {
   Bytes bytes;
   add_text(bytes, type);
@@ -153,7 +155,7 @@ Bytes tag(std::string_view type) {
   return bytes;
 }
 
-/// s15Fixed16Number, section 4.6.
+/// Appends numbers as s15Fixed16Number (section 4.6).
 void add_fixed(Bytes& bytes, std::initializer_list<double> values) {
   for (const double value : values)
     add_word(bytes, static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(value * 65536.0))));
@@ -165,14 +167,14 @@ Bytes numbers(std::string_view type, std::initializer_list<double> values) {
   return bytes;
 }
 
-/// Text in one language (section 10.15).
+/// Returns text in one language (section 10.15).
 Bytes text(std::string_view letters) {
   Bytes bytes = tag("mluc");
   add_word(bytes, 1);
-  add_word(bytes, 12);  // bytes of a record
+  add_word(bytes, 12);  // size of a record in bytes
   add_text(bytes, "enUS");
   add_word(bytes, static_cast<std::uint32_t>(2 * letters.size()));
-  add_word(bytes, 28);  // where the text begins
+  add_word(bytes, 28);  // offset of the text
   for (const char letter : letters) {
     bytes.push_back(0);
     bytes.push_back(static_cast<std::uint8_t>(letter));
@@ -180,7 +182,7 @@ Bytes text(std::string_view letters) {
   return bytes;
 }
 
-/// Y = (a X + b)^g from d on, c X below (function type 3, section 10.18).
+/// Returns Y = (a X + b)^g from d on, c X below (function type 3, section 10.18).
 Bytes curve() {
   Bytes bytes = tag("para");
   bytes.insert(bytes.end(), {0, 3, 0, 0});
@@ -204,7 +206,7 @@ Bytes header(std::size_t size) {
 
 Bytes made() {
   const Bytes transfer = curve();
-  // Matrices after IEC 61966-2-1 and Lam & Rigg's "Bradford" adaptation from D65 to D50, as sRGB profiles have them.
+  // Matrices from IEC 61966-2-1 and Lam & Rigg's "Bradford" adaptation from D65 to D50, as in other sRGB profiles.
   const std::pair<std::string_view, Bytes> tags[] = {
       {"desc", text("sRGB IEC61966-2.1")},
       {"cprt", text("No copyright, use freely")},
@@ -221,7 +223,7 @@ Bytes made() {
   Bytes table, content;
   add_word(table, static_cast<std::uint32_t>(std::size(tags)));
   const std::size_t first = 128 + 4 + 12 * std::size(tags);
-  std::size_t shared = 0;  // where the curve lies
+  std::size_t shared = 0;  // offset of the curve
   for (const auto& [name, bytes] : tags) {
     const bool is_curve = name.substr(1) == "TRC";
     const std::size_t place = is_curve && shared != 0 ? shared : first + content.size();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// sRGB (IEC 61966-2-1): conversion from and to linear light, screen colours of gathered light, and the profile that
-// pictures carry; and linear light by other primaries.
+// sRGB (IEC 61966-2-1): conversion to and from linear light, display colours of linear pixels, and the profile in
+// pictures; and linear light with other primaries.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace meniscus {
 
-/// One channel in [0, 1] each way.
+/// Converts one channel in [0, 1] from sRGB to linear light; the next function converts back.
 float linear_from_srgb(float value);
 float srgb_from_linear(float value);
 
@@ -26,40 +26,42 @@ inline glm::vec3 srgb_from_linear(const glm::vec3& c) {
   return {srgb_from_linear(c.x), srgb_from_linear(c.y), srgb_from_linear(c.z)};
 }
 
-/// Primaries and white of linear light.
+/// Primaries and white point of linear light.
 enum class Primaries {
-  rec709,  ///< ITU-R BT.709, those of sRGB
+  rec709,  ///< ITU-R BT.709, as in sRGB
   ap1      ///< ACEScg (Academy S-2014-004)
 };
 
-/// x and y of red, green, blue and white.
+/// Returns x and y of red, green, blue and white.
 const std::array<float, 8>& chromaticities(Primaries primaries);
 
-/// A linear colour of Rec. 709, perhaps premultiplied, by other primaries.
+/// Converts a linear colour of Rec. 709, possibly premultiplied, to other primaries.
 glm::vec3 from_rec709(const glm::vec3& color, Primaries primaries);
 
-/// A linear pixel with its alpha multiplied in, before an sRGB background if there is one (alpha 1 then).
+/// Composes a linear, premultiplied pixel over an sRGB background, if there is one (then alpha is 1).
 glm::vec4 over(const glm::vec4& front, const std::optional<glm::vec3>& background);
 
-/// The same in sRGB, alpha not multiplied in, as PNG has it.
+/// Returns the composed pixel in sRGB, not premultiplied, as in PNG.
 glm::vec4 display_color(const glm::vec4& pixel, const std::optional<glm::vec3>& background);
 
-/// What a transparent pixel is stored as so that programs that blend in sRGB, as nearly all do that lay out pages, get
-/// of it what display_color() has over white, and over black too if it is grey; on other backgrounds something between.
+/// Returns the stored value of a transparent pixel for programs that blend in sRGB, as nearly all layout programs do.
+/// Over white they show display_color(), and over black too if the colour is grey; over other backgrounds a colour in
+/// between.
 glm::vec4 layout_color(const glm::vec4& pixel);
 
-/// A channel in [0, 1] as PNG files have it: 0 to 255, to the nearest.
+/// Converts a channel in [0, 1] to the nearest byte, 0 to 255, as in PNG files.
 std::uint8_t display_byte(float channel);
 
-/// The bytes of display_color() of pixels, with or without the alpha: 3 or 4 channels. By a table instead of powers.
+/// Writes the bytes of display_color() of pixels, with or without alpha: 4 or 3 channels. Uses a table instead of
+/// powers.
 void display_bytes(std::span<const glm::vec4> pixels, const std::optional<glm::vec3>& background, std::size_t channels,
                    std::uint8_t* bytes);
 
-/// The four bytes of layout_color() of each pixel.
+/// Writes the four bytes of layout_color() of each pixel.
 void layout_bytes(std::span<const glm::vec4> pixels, std::uint8_t* bytes);
 
-/// A display profile of version 4.3 (ISO 15076-1:2010): the primaries of IEC 61966-2-1 adapted to D50 (Bradford) and
-/// its transfer function as a parametric curve. The same bytes each time.
+/// Returns a display profile of version 4.3 (ISO 15076-1:2010): the primaries of IEC 61966-2-1 adapted to D50
+/// (Bradford) and its transfer function as a parametric curve. The bytes are the same each time.
 const std::vector<std::uint8_t>& srgb_profile();
 
 }  // namespace meniscus

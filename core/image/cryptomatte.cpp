@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hashes the names of mattes, and ranks what the rays of a pixel met.
+// Hashes the names of mattes, and ranks the ids that the rays of a pixel met.
 #include "core/image/cryptomatte.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ void write_mattes(std::span<std::uint32_t> ids, float* channels) {
     std::ptrdiff_t count;
     std::uint32_t id;
   };
-  // One place more than there is room for: whatever is not among the largest goes there, and out again.
+  // One more rank than the pixel keeps: the id with the smallest coverage is put there and dropped.
   std::array<Rank, kMatteRanks + 1> ranks{};
   std::ranges::sort(ids);
   for (auto first = ids.begin(); first != ids.end();) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Encodes and decodes pictures with OpenImageIO, which is loaded when the first picture is made.
 //
-// OpenImageIO brings two hundred libraries, a quarter of a second and a hundred megabytes before main(); most commands
-// make no picture. So what needs it is a module of its own (openimageio_codec.cpp), found beside the program.
+// OpenImageIO loads two hundred libraries, a quarter of a second and a hundred megabytes before main(), and most
+// commands make no picture. So the code that needs it is a module of its own (openimageio_codec.cpp), found near the
+// program.
 #pragma once
 
 #include <array>
@@ -17,35 +18,37 @@ namespace meniscus {
 
 enum class SampleType : std::uint8_t { uint8, uint16, float32 };
 
-/// A picture as a file will hold it, but for its pixels. Rows from the top, channels of a pixel together.
+/// The description of a picture file without its pixels. Rows are ordered from the top, channels of a pixel are
+/// adjacent.
 struct ImageToEncode {
   std::string format;  ///< "png", "jpeg", "webp", "tiff" or "exr"
-  std::string file;    ///< TIFF: written under this name, for OpenImageIO 2.4 cannot write it to memory
+  std::string file;    ///< TIFF: the file's path, because OpenImageIO 2.4 cannot write TIFF to memory
   int width = 0;
   int height = 0;
   std::vector<std::string> channels;
   SampleType sample = SampleType::uint8;
   int alpha_channel = -1;                       ///< -1: none
-  int depth_channel = -1;                       ///< likewise
+  int depth_channel = -1;                       ///< -1: none
   std::string color_space;                      ///< "sRGB" or "Linear"
-  bool unassociated_alpha = false;              ///< colours are not multiplied by alpha
-  std::string compression;                      ///< "" for the format's own
-  int png_level = -1;                           ///< of 9; -1 for the usual
-  std::string software;                         ///< written into the file; "" for nothing
-  std::string command;                          ///< how it was made, likewise
-  std::string scene;                            ///< what it was made of (JSON), likewise
-  std::string made_of;                          ///< PNG: kMadeOfNote, likewise
+  bool unassociated_alpha = false;              ///< true if colours are not premultiplied
+  std::string compression;                      ///< "" for the format's default
+  int png_level = -1;                           ///< up to 9; -1 for the default
+  std::string software;                         ///< text in the file; "" for none
+  std::string command;                          ///< the command that made the picture; "" for none
+  std::string scene;                            ///< the scene of the picture (JSON); "" for none
+  std::string made_of;                          ///< PNG: kMadeOfNote; "" for none
   std::string date;                             ///< "YYYY:MM:DD HH:MM:SS", in EXR and TIFF; "" for none
-  double dots_per_inch = 0.0;                   ///< likewise; 0 for nothing
+  double dots_per_inch = 0.0;                   ///< in EXR and TIFF; 0 for none
   std::span<const std::uint8_t> color_profile;  ///< ICC; empty for none
 
   // Further attributes of the header of EXR files.
-  std::vector<std::pair<std::string, std::string>> header;          ///< names of more attributes, and their texts
-  std::vector<std::pair<std::string, std::array<float, 16>>> maps;  ///< of points, row after row, for row vectors
-  std::array<float, 8> chromaticities{};  ///< x and y of red, green, blue and white; zeros: not said
+  std::vector<std::pair<std::string, std::string>> header;  ///< names of more attributes, and their texts
+  std::vector<std::pair<std::string, std::array<float, 16>>>
+      maps;                               ///< transforms of points, row after row, for row vectors
+  std::array<float, 8> chromaticities{};  ///< x and y of red, green, blue and white; zeros: not set
 };
 
-/// A picture read from a file: floats in [0, 1], colours multiplied by their alpha.
+/// A picture read from a file: floats in [0, 1], premultiplied.
 struct DecodedImage {
   int width = 0;
   int height = 0;
@@ -53,31 +56,31 @@ struct DecodedImage {
   std::vector<float> values;
 };
 
-/// The size in bytes of the pixels alone, not compressed.
+/// Returns the size of the uncompressed pixels in bytes.
 std::size_t pixel_bytes(const ImageToEncode& image);
 
-/// Encodes a picture row after row. Of WebP it keeps them all.
+/// Encodes a picture row after row. For WebP it keeps all rows.
 class RowEncoder {
  public:
   virtual ~RowEncoder() = default;
-  /// The next rows, any whole number of them: floats in [0, 1] (EXR: any).
+  /// Adds the next rows, any whole number of them: floats in [0, 1] (EXR: any).
   virtual void add(std::span<const float> rows) = 0;
-  /// Behind the last row: the bytes of the file; of TIFF none, they are in ImageToEncode::file.
+  /// Must be called after the last row. Returns the bytes of the file; none for TIFF, which is in ImageToEncode::file.
   virtual std::vector<std::uint8_t> finish() = 0;
 };
 
-/// What the module gives. Reading and writing throw std::runtime_error with OpenImageIO's words.
+/// The functions of the module. Reading and writing throw std::runtime_error with OpenImageIO's message.
 class ImageCodec {
  public:
   virtual ~ImageCodec() = default;
   virtual std::unique_ptr<RowEncoder> begin(const ImageToEncode& image) const = 0;
   virtual DecodedImage decode(const std::string& path) const = 0;
-  /// "OpenImageIO 2.4.7", as it is loaded.
+  /// Returns the loaded version: "OpenImageIO 2.4.7".
   virtual std::string library() const = 0;
 };
 
-/// Loads the module at the first call; from any thread. Throws Error where it is missing or of another build,
-/// CapacityError where the system cannot load it.
+/// Returns the codec, and loads the module at the first call; from any thread. Throws Error if it is missing or of
+/// another build, CapacityError if the system cannot load it.
 const ImageCodec& image_codec();
 
 }  // namespace meniscus

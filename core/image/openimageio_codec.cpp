@@ -28,7 +28,7 @@ OIIO::ImageSpec spec_of(const ImageToEncode& image) {
   if (image.format == "jpeg") spec.attribute("jpeg:subsampling", "4:4:4");
   if (image.png_level >= 0) spec.attribute("png:compressionLevel", image.png_level);
   if (!image.software.empty()) spec.attribute("Software", image.software);
-  // Where there is none OpenImageIO takes the present time; what is no text is left out.
+  // Without a date OpenImageIO would write the present time; other empty texts are omitted.
   if (image.date.empty())
     spec.attribute("DateTime", 0);
   else
@@ -52,7 +52,7 @@ OIIO::ImageSpec spec_of(const ImageToEncode& image) {
   return spec;
 }
 
-/// To the file that the picture names, or to memory.
+/// Writes rows to the file that the picture names, or to memory.
 class OpenImageIORows final : public RowEncoder {
  public:
   explicit OpenImageIORows(const ImageToEncode& image)
@@ -95,7 +95,7 @@ class OpenImageIOCodec final : public ImageCodec {
   }
 
   DecodedImage decode(const std::string& path) const override {
-    // Not an ImageBuf: that has a cache, which takes a file for unchanged that was written again within a second.
+    // ImageBuf is not used, because its cache misses changes of a file within a second.
     const auto picture = OIIO::ImageInput::open(path);
     if (!picture) throw std::runtime_error(OIIO::geterror());
     const OIIO::ImageSpec& spec = picture->spec();
@@ -116,11 +116,11 @@ class OpenImageIOCodec final : public ImageCodec {
 }  // namespace
 }  // namespace meniscus
 
-// Nothing for a program that was built with another idea of what passes between them.
+// Returns null to a program that was built with other definitions of the exchanged types.
 extern "C" __attribute__((visibility("default"))) const meniscus::ImageCodec* meniscus_image_codec(
     const char* version, std::size_t image_size) {
   static const meniscus::OpenImageIOCodec codec;
-  OIIO::attribute("debug", 0);  // else it says on stderr what it leaves out
+  OIIO::attribute("debug", 0);  // otherwise it prints on stderr what it omits
   return version == std::string_view(MENISCUS_VERSION) && image_size == sizeof(meniscus::ImageToEncode) ? &codec
                                                                                                         : nullptr;
 }

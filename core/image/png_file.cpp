@@ -33,7 +33,7 @@ void add_note(Bytes& file, std::string_view key, std::string_view text) {
   add_chunk(file, "tEXt", content);
 }
 
-/// Text of any letters (iTXt, section 11.3.4.5), not compressed, in no language.
+/// Appends Unicode text (iTXt, section 11.3.4.5), uncompressed, without a language.
 void add_unicode_note(Bytes& file, std::string_view key, std::string_view text) {
   Bytes content;
   add_text(content, key);
@@ -42,7 +42,7 @@ void add_unicode_note(Bytes& file, std::string_view key, std::string_view text) 
   add_chunk(file, "iTXt", content);
 }
 
-/// How large a pixel is printed.
+/// Appends the printed size of a pixel.
 void add_resolution(Bytes& file, double dots_per_inch) {
   constexpr double kMetersPerInch = 0.0254;
   const auto per_meter = static_cast<std::uint32_t>(std::lround(dots_per_inch / kMetersPerInch));
@@ -53,9 +53,9 @@ void add_resolution(Bytes& file, double dots_per_inch) {
   add_chunk(file, "pHYs", content);
 }
 
-/// Sizes, then what sRGB means: its gamma, its primaries.
+/// Appends the sizes, then the meaning of sRGB: its gamma and primaries.
 void add_header(Bytes& file, const ImageToEncode& image) {
-  constexpr std::array<std::uint8_t, 5> kColorType{0, 0, 4, 2, 6};  // by channels
+  constexpr std::array<std::uint8_t, 5> kColorType{0, 0, 4, 2, 6};  // by number of channels
   Bytes header;
   add_word(header, static_cast<std::uint32_t>(image.width));
   add_word(header, static_cast<std::uint32_t>(image.height));
@@ -73,8 +73,8 @@ void add_header(Bytes& file, const ImageToEncode& image) {
   add_chunk(file, "oFFs", Bytes(9, 0));
 }
 
-/// What a filter predicts of a byte by those at the left, above, and above at the left (section 9.2).
-/// In 16 bits and without branches, so that compilers make loops over vectors of it.
+/// Returns a filter's prediction of a byte from the bytes at the left, above, and above at the left (section 9.2). It
+/// uses 16 bits and no branches, so that compilers vectorize the loop.
 template <int filter>
 std::int16_t predicted(std::int16_t left, std::int16_t above, std::int16_t corner) {
   if constexpr (filter == 0) return 0;
@@ -88,9 +88,9 @@ std::int16_t predicted(std::int16_t left, std::int16_t above, std::int16_t corne
   return ((to_left <= to_above) & (to_left <= to_corner)) ? left : other;
 }
 
-/// Of bytes that stand for -128 to 127, without their signs.
+/// Returns the sum of the absolute values of bytes that encode -128 to 127.
 std::size_t sum_of_differences(const Bytes& bytes) {
-  constexpr std::size_t kTogether = 1 << 16;  // a sum of so many has 32 bits
+  constexpr std::size_t kTogether = 1 << 16;  // a sum of this many fits into 32 bits
   std::size_t sum = 0;
   for (std::size_t first = 0; first < bytes.size(); first += kTogether) {
     std::uint32_t part = 0;
@@ -102,14 +102,14 @@ std::size_t sum_of_differences(const Bytes& bytes) {
   return sum;
 }
 
-/// One row of a picture and the one above it.
+/// One row of a picture and the row above it.
 struct Row {
   const std::uint8_t* bytes;
   const std::uint8_t* above;
-  std::size_t size, pixel;  // bytes
+  std::size_t size, pixel;  // in bytes
 };
 
-/// Takes the row by its value: bytes that are written could be any others.
+/// Takes the row by value, because written bytes might otherwise alias it.
 template <int filter>
 void write_filtered(const Row row, std::uint8_t* out) {
   for (std::size_t n = 0; n < row.pixel; ++n)
@@ -136,7 +136,7 @@ void write_filtered(const Row& row, int filter, std::uint8_t* out) {
   }
 }
 
-/// Behind its number the filter that leaves the smallest sum of absolute differences (section 12.8).
+/// Writes the number and the output of the filter with the smallest sum of absolute differences (section 12.8).
 void write_best(const Row& row, std::uint8_t* out, Bytes& trial, bool averages) {
   constexpr int kFilters = 5;
   std::size_t least = std::numeric_limits<std::size_t>::max();
@@ -169,7 +169,7 @@ PngEncoder::PngEncoder(const ImageToEncode& image, Write write, std::size_t toge
     : write_(std::move(write)),
       pixel_(image.channels.size()),
       row_size_(pixel_ * static_cast<std::size_t>(image.width)),
-      averages_(image.width > 1 && image.height > 1),  // libpng takes none of single rows and columns
+      averages_(image.width > 1 && image.height > 1),  // like libpng, which does not use it for single rows and columns
       last_row_(row_size_) {
   write_(header(image));
   const std::size_t size = (row_size_ + 1) * static_cast<std::size_t>(image.height);
@@ -243,13 +243,13 @@ std::optional<std::string> png_note(const std::filesystem::path& path, std::stri
   std::ifstream file(path, std::ios::binary);
   std::array<char, 8> head{};
   if (!file.read(head.data(), head.size()) || std::string_view(head.data(), head.size()) != kSignature) return {};
-  // Key, its end, compression, its method, ends of language and translated key.
+  // Returns key, its end, compression, its method, and the ends of language and translated key.
   std::string start(key);
   start.append(5, '\0');
   while (file.read(head.data(), head.size())) {
     const std::uint32_t length = word_at(head.data());
     const std::string_view kind(head.data() + 4, 4);
-    if (kind == "IDAT" || kind == "IEND") return {};  // ours are before the pixels
+    if (kind == "IDAT" || kind == "IEND") return {};  // our texts come before the pixels
     if (kind == "iTXt" && length <= kLongestNote) {
       std::string content(length, '\0');
       if (!file.read(content.data(), length)) return {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PNG files without a library of many formats, whose loading takes longer than a small picture, and the texts in them.
+// Writes PNG files without a library of many formats, which would take longer to load than a small picture to write;
+// reads and adds texts in them.
 #pragma once
 
 #include <cstddef>
@@ -19,46 +20,47 @@ namespace meniscus {
 
 class PngStream;
 
-/// Writes a file (W3C, Portable Network Graphics, 2nd edition: 8 bits a channel) as its rows come, with the pixels and
-/// the notes that OpenImageIO would write. Throws CapacityError where there is no memory to compress.
+/// Writes a file (W3C, Portable Network Graphics, 2nd edition: 8 bits per channel) as its rows come, with the same
+/// pixels and notes as OpenImageIO. Throws CapacityError if there is not enough memory to compress.
 class PngEncoder {
  public:
-  /// Rows of at most so many bytes are compressed as one; those of larger pictures in pieces, which takes longer.
+  /// The size in bytes up to which rows are compressed as one stream; larger pictures are compressed in pieces, which
+  /// takes longer.
   static constexpr std::size_t kTogether = std::size_t{64} << 20;
 
-  /// write: is given the bytes of the file, in their order.
+  /// A function that receives the bytes of the file in order.
   using Write = std::function<void(std::span<const std::uint8_t> bytes)>;
   PngEncoder(const ImageToEncode& image, Write write, std::size_t together = kTogether);
   ~PngEncoder();
 
-  /// The next rows, any whole number of them, with `byte_stride` from pixel to pixel.
+  /// Adds the next rows, any whole number of them, with `byte_stride` from pixel to pixel.
   void add(std::span<const std::uint8_t> rows, int byte_stride);
-  /// Behind the last row.
+  /// Must be called after the last row.
   void finish();
 
  private:
   void filter(std::span<const std::uint8_t> rows);
 
   Write write_;
-  std::size_t pixel_, row_size_;  // bytes
+  std::size_t pixel_, row_size_;  // in bytes
   bool averages_;
-  std::vector<std::uint8_t> last_row_;  // nothing above the first
+  std::vector<std::uint8_t> last_row_;  // zeros above the first row
   std::unique_ptr<PngStream> stream_;
 };
 
-/// The bytes of a file of these pixels.
+/// Returns the bytes of a file with these pixels.
 std::vector<std::uint8_t> encode_png(const ImageToEncode& image, std::span<const std::uint8_t> pixels, int byte_stride);
 
-/// Under which key a picture has the scene that it was made of.
+/// The key of the text with the scene of a picture.
 inline constexpr std::string_view kSceneNote = "Meniscus scene";
-/// And a picture of a run that can be resumed, of what the run was made.
+/// The key of the text in a picture of a resumable run that identifies the run.
 inline constexpr std::string_view kMadeOfNote = "Meniscus run";
 
-/// Whether a file begins as PNG files do.
+/// True if a file begins like a PNG file.
 bool is_png(const std::filesystem::path& path);
 
-/// The uncompressed text that a PNG file has under this key (iTXt; Portable Network Graphics, W3C 2003, section
-/// 11.3.4.5); nothing if it has none or is not a PNG file.
+/// Returns the uncompressed text under this key in a PNG file (iTXt; Portable Network Graphics, W3C 2003, section
+/// 11.3.4.5); nothing if there is none or the file is not PNG.
 std::optional<std::string> png_note(const std::filesystem::path& path, std::string_view key);
 
 /// True if a file ends as whole PNG files do.

@@ -21,9 +21,9 @@ struct CompressorDeleter {
   void operator()(libdeflate_compressor* compressor) const { ::libdeflate_free_compressor(compressor); }
 };
 
-constexpr int kUsualLevel = 4;  // in half the time of 6, three per cent larger
+constexpr int kUsualLevel = 4;  // takes half the time of 6, with files three per cent larger
 
-/// A whole stream of zlib's format (RFC 1950).
+/// Returns a whole stream in zlib's format (RFC 1950).
 Bytes compressed(const Bytes& rows, int level) {
   const std::unique_ptr<libdeflate_compressor, CompressorDeleter> compressor(::libdeflate_alloc_compressor(level));
   if (!compressor) throw CapacityError("not enough memory to compress a picture");
@@ -32,8 +32,8 @@ Bytes compressed(const Bytes& rows, int level) {
   return result;
 }
 
-/// A part of such a stream, which ends at a whole byte; matches may lie in `before`, too. libdeflate makes whole
-/// streams only.
+/// Returns a part of such a stream that ends at a whole byte; matches may refer to `before`, too. It uses zlib, because
+/// libdeflate makes only whole streams.
 Bytes compressed_part(std::span<const std::uint8_t> part, std::span<const std::uint8_t> before, bool is_last,
                       int level) {
   constexpr int kNoHeader = -15, kMostMemory = 9;
@@ -42,7 +42,7 @@ Bytes compressed_part(std::span<const std::uint8_t> part, std::span<const std::u
     throw CapacityError("not enough memory to compress a picture");
   const std::unique_ptr<z_stream, decltype(&::deflateEnd)> end(&stream, &::deflateEnd);
   if (!before.empty()) ::deflateSetDictionary(&stream, before.data(), static_cast<uInt>(before.size()));
-  constexpr std::size_t kMarker = 16;  // of the part's end
+  constexpr std::size_t kMarker = 16;  // marker at the end of the part
   Bytes result(::deflateBound(&stream, static_cast<uLong>(part.size())) + kMarker);
   stream.next_in = const_cast<std::uint8_t*>(part.data());  // zlib only reads it
   stream.avail_in = static_cast<uInt>(part.size());
@@ -71,7 +71,7 @@ void add_chunk(Bytes& file, std::string_view type, std::span<const std::uint8_t>
 PngStream::PngStream(const Write& write, std::size_t size, std::size_t together, int level)
     : write_(write), in_pieces_(size > together), level_(level < 0 ? kUsualLevel : level) {
   rows_.reserve(in_pieces_ ? kPiece : size);
-  // A window of 32 KiB, and how hard was tried.
+  // The header: a window of 32 KiB, and the level.
   if (in_pieces_) add_chunks(Bytes{0x78, 0x9c});
 }
 

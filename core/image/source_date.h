@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time that files bear.
+// The time that is written into files.
 #pragma once
 
 #include <ctime>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A ball: what an atom is to a surface.
+// The ball that represents an atom in the computation of a surface.
 #pragma once
 
 #include <glm/vec3.hpp>
 
 namespace meniscus {
 
-/// A van der Waals ball: centre and radius r_i, Å.
+/// A van der Waals ball. Its centre and its radius r_i are in Å.
 struct Ball {
   glm::dvec3 center{0.0};
   double radius = 0.0;

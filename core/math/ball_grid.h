@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A uniform grid over ball centres that lists the balls near a point, and how wide its cells are.
+// A uniform grid over the centres of balls, which lists the balls near a point.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 
 namespace meniscus {
 
-/// The wanted edge of a cell, or a larger one where the extent would need more cells than a few per point: some atoms
-/// far apart must not cost memory. All in Å.
+/// Returns the edge of a grid's cells: `wanted`, or a larger one where the extent would need more than a few cells per
+/// point. So a few atoms far apart do not cost memory. All lengths are in Å.
 inline double grid_spacing(const glm::dvec3& extent, std::size_t point_count, double wanted) {
   const double limit = 4.0 * static_cast<double>(point_count) + 64.0;
   double spacing = wanted;
@@ -30,7 +30,7 @@ inline double grid_spacing(const glm::dvec3& extent, std::size_t point_count, do
   return spacing;
 }
 
-/// Cells are sized by grid_spacing().
+/// A uniform grid over the centres of balls. The edge of its cells is grid_spacing(), in Å.
 class BallGrid {
  public:
   BallGrid(std::span<const Ball> balls, double spacing) {
@@ -40,7 +40,8 @@ class BallGrid {
     build(centers.size(), spacing, [&](std::size_t n) { return centers[n]; });
   }
 
-  /// Calls visit(index) for every ball whose centre is within `reach` of `point`, boundary cases included.
+  /// Calls visit(index) for every ball whose centre is within `reach` (Å) of `point`. A centre at exactly this distance
+  /// counts.
   template <typename Visit>
   void for_each_near(const glm::dvec3& point, double reach, Visit&& visit) const {
     any_near(point, reach, [&](std::uint32_t ball) {
@@ -49,7 +50,7 @@ class BallGrid {
     });
   }
 
-  /// Calls visit(index) for the same balls until it returns true; returns whether it did.
+  /// Calls visit(index) for the balls of for_each_near() until it returns true. True if a call returned true.
   template <typename Visit>
   bool any_near(const glm::dvec3& point, double reach, Visit&& visit) const {
     const double reach_squared = reach * reach * (1.0 + 1e-12);
@@ -63,8 +64,8 @@ class BallGrid {
     return found;
   }
 
-  /// Calls visit(first, last) for the rows of cells around a point: among the balls that are in order() from `first`
-  /// to before `last`, taken together, are all whose centres are within `reach`.
+  /// Calls visit(first, last) for each row of cells around a point. The balls from order()[first] to before
+  /// order()[last], over all rows together, include all whose centres are within `reach` (Å).
   template <typename Visit>
   void for_each_row_near(const glm::dvec3& point, double reach, Visit&& visit) const {
     const glm::ivec3 low = cell_of(point - reach);
@@ -76,7 +77,8 @@ class BallGrid {
       }
   }
 
-  /// Ball indices, cell by cell: neighbours in this order are near each other in space and in the cache.
+  /// The indices of the balls, cell by cell. Neighbours in this order are close to each other in space and in the
+  /// cache.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
  private:
@@ -111,7 +113,7 @@ class BallGrid {
   }
 
   glm::ivec3 cell_of(const glm::dvec3& point) const {
-    // Clamped before it is cut off: what is left is positive, and needs no floor().
+    // The clamped coordinate is not negative, so that the conversion to an integer rounds it down like floor().
     const glm::dvec3 scaled = (point - low_) * inverse_spacing_;
     return glm::ivec3(glm::clamp(scaled, glm::dvec3(0.0), glm::dvec3(size_ - 1)));
   }
@@ -119,9 +121,10 @@ class BallGrid {
   glm::dvec3 low_{0.0};
   double inverse_spacing_ = 1.0;
   glm::ivec3 size_{1};
-  std::vector<std::uint32_t> first_;  // cell -> first slot; one past the last cell closes the list
-  std::vector<std::uint32_t> order_;  // slot -> ball
-  std::vector<glm::dvec3> centers_;   // slot -> centre
+  std::vector<std::uint32_t>
+      first_;  // index: cell; value: its first slot; one entry after the last cell closes the list
+  std::vector<std::uint32_t> order_;  // index: slot; value: ball
+  std::vector<glm::dvec3> centers_;   // index: slot; value: centre, Å
 };
 
 }  // namespace meniscus

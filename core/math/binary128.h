@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Quadruple precision in integers, for processors whose compilers have none: macOS, for one.
+// Quadruple precision by integer arithmetic, for processors whose compilers have no such type, for example on macOS.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace meniscus {
 
 /// A number of IEEE 754 binary128. Sums, differences, products and quotients are rounded to nearest, ties to even, so
-/// each has the bits that __float128 gives (tests/unit/math/binary128_test.cpp). Only the range is wider: exponents
-/// have 32 bits, so that nothing overflows or is subnormal.
+/// that they have the same bits as with __float128 (tests/unit/math/binary128_test.cpp). Only the range is wider:
+/// exponents have 32 bits, so that nothing overflows and nothing is subnormal.
 class Binary128 {
  public:
   Binary128() = default;
@@ -20,58 +20,58 @@ class Binary128 {
     const auto bits = std::bit_cast<std::uint64_t>(value);
     const auto exponent = static_cast<int>(bits >> 52 & 0x7ff);
     const std::uint64_t fraction = bits & 0xfffffffffffff;
-    negative_ = bits >> 63 != 0;
+    is_negative_ = bits >> 63 != 0;
     if (exponent == 0x7ff)
-      *this = fraction == 0 ? infinity(negative_) : not_a_number();
+      *this = fraction == 0 ? infinity(is_negative_) : not_a_number();
     else if (exponent != 0 || fraction != 0)
-      *this = rounded(negative_, Wide{exponent != 0 ? fraction | std::uint64_t{1} << 52 : fraction},
+      *this = rounded(is_negative_, Wide{exponent != 0 ? fraction | std::uint64_t{1} << 52 : fraction},
                       std::max(exponent, 1) - 1075, false);
   }
   constexpr Binary128(int value) : Binary128(static_cast<double>(value)) {}
 
   explicit operator double() const {
     if (is_nan()) return std::numeric_limits<double>::quiet_NaN();
-    if (fraction_ == 0) return negative_ ? -0.0 : 0.0;
-    if (is_infinite()) return negative_ ? -HUGE_VAL : HUGE_VAL;
-    // Doubles that are subnormal keep fewer bits.
+    if (fraction_ == 0) return is_negative_ ? -0.0 : 0.0;
+    if (is_infinite()) return is_negative_ ? -HUGE_VAL : HUGE_VAL;
+    // A subnormal double has fewer bits.
     const int kept = std::min(53, exponent_ + kBits - 1 + 1075);
-    if (kept < 0) return negative_ ? -0.0 : 0.0;
+    if (kept < 0) return is_negative_ ? -0.0 : 0.0;
     const Rounded r = round_to(fraction_, exponent_, kept, false);
     const double size = std::ldexp(static_cast<double>(static_cast<std::uint64_t>(r.fraction)), r.exponent);
-    return negative_ ? -size : size;
+    return is_negative_ ? -size : size;
   }
 
   friend constexpr Binary128 operator-(Binary128 a) {
-    a.negative_ = !a.negative_;
+    a.is_negative_ = !a.is_negative_;
     return a;
   }
 
   friend Binary128 operator+(Binary128 a, Binary128 b) {
     if (a.is_nan() || b.is_nan()) return not_a_number();
     if (a.is_infinite() || b.is_infinite()) {
-      if (a.is_infinite() && b.is_infinite() && a.negative_ != b.negative_) return not_a_number();
+      if (a.is_infinite() && b.is_infinite() && a.is_negative_ != b.is_negative_) return not_a_number();
       return a.is_infinite() ? a : b;
     }
-    if (b.fraction_ == 0) return a.fraction_ == 0 && !b.negative_ ? b : a;
+    if (b.fraction_ == 0) return a.fraction_ == 0 && !b.is_negative_ ? b : a;
     if (a.fraction_ == 0) return b;
     if (a.exponent_ < b.exponent_) std::swap(a, b);
-    // Both numbers by 14 bits to the left: with what falls off at the right noted in `more`, that decides all
-    // roundings.
+    // Both fractions are shifted to the left by 14 bits. Together with `more`, which notes bits lost at the right, that
+    // suffices for every rounding.
     constexpr int kGuard = 14;
     const Wide large = a.fraction_ << kGuard;
     Wide small = b.fraction_ << kGuard;
     const int shift = a.exponent_ - b.exponent_;
     const bool more = shift >= 128 || (shift > 0 && (small & ((Wide{1} << shift) - 1)) != 0);
     small = shift >= 128 ? 0 : small >> shift;
-    if (a.negative_ == b.negative_) return rounded(a.negative_, large + small, a.exponent_ - kGuard, more);
+    if (a.is_negative_ == b.is_negative_) return rounded(a.is_negative_, large + small, a.exponent_ - kGuard, more);
     if (large == small && !more) return 0.0;
-    if (small > large) return rounded(b.negative_, small - large, a.exponent_ - kGuard, false);
-    return rounded(a.negative_, large - small - (more ? 1 : 0), a.exponent_ - kGuard, more);
+    if (small > large) return rounded(b.is_negative_, small - large, a.exponent_ - kGuard, false);
+    return rounded(a.is_negative_, large - small - (more ? 1 : 0), a.exponent_ - kGuard, more);
   }
   friend Binary128 operator-(Binary128 a, Binary128 b) { return a + -b; }
 
   friend Binary128 operator*(Binary128 a, Binary128 b) {
-    const bool negative = a.negative_ != b.negative_, zero = a.fraction_ == 0 || b.fraction_ == 0;
+    const bool negative = a.is_negative_ != b.is_negative_, zero = a.fraction_ == 0 || b.fraction_ == 0;
     const bool infinite = a.is_infinite() || b.is_infinite();
     if (a.is_nan() || b.is_nan() || (infinite && zero)) return not_a_number();
     if (infinite) return infinity(negative);
@@ -79,15 +79,15 @@ class Binary128 {
     const Wide low_mask = ~std::uint64_t{0};
     const Wide a0 = a.fraction_ & low_mask, a1 = a.fraction_ >> 64, b0 = b.fraction_ & low_mask, b1 = b.fraction_ >> 64;
     const Wide low = a0 * b0, middle = a1 * b0 + (low >> 64), other = a0 * b1 + (middle & low_mask);
-    const Wide high = a1 * b1 + (middle >> 64) + (other >> 64);  // times 2^128, at most 98 bits
+    const Wide high = a1 * b1 + (middle >> 64) + (other >> 64);  // in units of 2^128; it has at most 98 bits
     const Wide rest = other << 64 | (low & low_mask);
-    constexpr int kUp = 29;  // of the 128 bits there are 127 used then
+    constexpr int kUp = 29;  // after the shift 127 of the 128 bits are used
     return rounded(negative, high << kUp | rest >> (128 - kUp), a.exponent_ + b.exponent_ + 128 - kUp,
                    rest << kUp != 0);
   }
 
   friend Binary128 operator/(Binary128 a, Binary128 b) {
-    const bool negative = a.negative_ != b.negative_;
+    const bool negative = a.is_negative_ != b.is_negative_;
     const bool both = (a.fraction_ == 0 && b.fraction_ == 0) || (a.is_infinite() && b.is_infinite());
     if (a.is_nan() || b.is_nan() || both) return not_a_number();
     if (a.is_infinite() || b.fraction_ == 0) return infinity(negative);
@@ -112,15 +112,15 @@ class Binary128 {
   friend bool operator==(Binary128 a, Binary128 b) {
     if (a.is_nan() || b.is_nan()) return false;
     if (a.fraction_ == 0 || b.fraction_ == 0) return a.fraction_ == b.fraction_;
-    return a.negative_ == b.negative_ && a.exponent_ == b.exponent_ && a.fraction_ == b.fraction_;
+    return a.is_negative_ == b.is_negative_ && a.exponent_ == b.exponent_ && a.fraction_ == b.fraction_;
   }
   friend bool operator<(Binary128 a, Binary128 b) {
     if (a.is_nan() || b.is_nan()) return false;
-    if (a.fraction_ == 0) return b.fraction_ != 0 && !b.negative_;
-    if (b.fraction_ == 0) return a.negative_;
-    if (a.negative_ != b.negative_) return a.negative_;
-    if (a.exponent_ != b.exponent_) return (a.exponent_ < b.exponent_) != a.negative_;
-    return a.negative_ ? a.fraction_ > b.fraction_ : a.fraction_ < b.fraction_;
+    if (a.fraction_ == 0) return b.fraction_ != 0 && !b.is_negative_;
+    if (b.fraction_ == 0) return a.is_negative_;
+    if (a.is_negative_ != b.is_negative_) return a.is_negative_;
+    if (a.exponent_ != b.exponent_) return (a.exponent_ < b.exponent_) != a.is_negative_;
+    return a.is_negative_ ? a.fraction_ > b.fraction_ : a.fraction_ < b.fraction_;
   }
   friend bool operator>(Binary128 a, Binary128 b) { return b < a; }
   friend bool operator<=(Binary128 a, Binary128 b) { return a < b || a == b; }
@@ -129,8 +129,8 @@ class Binary128 {
  private:
   __extension__ typedef unsigned __int128 Wide;
 
-  static constexpr int kBits = 113;                                                            // of a fraction
-  static constexpr int kInfinite = std::numeric_limits<int>::max() - 1, kNan = kInfinite + 1;  // as exponents
+  static constexpr int kBits = 113;                                                            // bits of a fraction
+  static constexpr int kInfinite = std::numeric_limits<int>::max() - 1, kNan = kInfinite + 1;  // exponents
 
   struct Rounded {
     Wide fraction;
@@ -142,7 +142,8 @@ class Binary128 {
     return high != 0 ? 128 - std::countl_zero(high) : 64 - std::countl_zero(static_cast<std::uint64_t>(a));
   }
 
-  // fraction * 2^exponent, and something less than one unit more if `more`, with so many bits.
+  // Rounds fraction * 2^exponent to so many bits. With `more` the number is larger than that by less than one unit of
+  // the fraction.
   static constexpr Rounded round_to(Wide fraction, int exponent, int bits, bool more) {
     const int drop = width(fraction) - bits;
     if (drop <= 0) return {fraction << -drop, exponent + drop};
@@ -156,18 +157,18 @@ class Binary128 {
     Rounded r = round_to(fraction, exponent, kBits, more);
     if (width(r.fraction) > kBits) r = {r.fraction >> 1, r.exponent + 1};
     Binary128 number;
-    number.negative_ = negative;
+    number.is_negative_ = negative;
     number.fraction_ = r.fraction;
     number.exponent_ = r.exponent;
     return number;
   }
 
-  // An infinity is the largest number of all, so that comparing needs no rule for it.
+  // Makes an infinity, or NaN. An infinity is the largest of all numbers, so that comparisons need no special case.
   static constexpr Binary128 with_exponent(int exponent, bool negative) {
     Binary128 number;
     number.fraction_ = Wide{1} << (kBits - 1);
     number.exponent_ = exponent;
-    number.negative_ = negative;
+    number.is_negative_ = negative;
     return number;
   }
   static constexpr Binary128 infinity(bool negative) { return with_exponent(kInfinite, negative); }
@@ -175,9 +176,9 @@ class Binary128 {
   bool is_infinite() const { return exponent_ == kInfinite; }
   bool is_nan() const { return exponent_ == kNan; }
 
-  Wide fraction_ = 0;  // 2^112 or more, or zero
+  Wide fraction_ = 0;  // zero, or at least 2^112
   int exponent_ = 0;   // the number is fraction_ * 2^exponent_
-  bool negative_ = false;
+  bool is_negative_ = false;
 };
 
 }  // namespace meniscus

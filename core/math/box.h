@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Axis-aligned boxes, and a tree of them that is searched in the order of their nearness to a point.
+// Axis-aligned boxes, and a tree of boxes that is searched from the nearest to the farthest.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace meniscus {
 
-/// Axis-parallel, both corners included, in Å; initially empty.
+/// An axis-aligned box that includes both corners, in Å. It is empty at first.
 struct Box {
   glm::dvec3 low{std::numeric_limits<double>::infinity()};
   glm::dvec3 high{-std::numeric_limits<double>::infinity()};
@@ -25,14 +25,14 @@ struct Box {
     low = glm::min(low, point);
     high = glm::max(high, point);
   }
-  /// 0 inside.
+  /// Returns the squared distance (Å²) from a point to the box. It is 0 inside.
   double squared_distance(const glm::dvec3& x) const {
-    const glm::dvec3 beside = glm::max(glm::max(low - x, x - high), glm::dvec3(0.0));
-    return glm::dot(beside, beside);
+    const glm::dvec3 outside = glm::max(glm::max(low - x, x - high), glm::dvec3(0.0));
+    return glm::dot(outside, outside);
   }
 };
 
-/// Boxes around objects, which are then visited in the order of their nearness to a point.
+/// A tree of boxes around objects, which are visited roughly in the order of their distance from a point.
 class BoxTree {
  public:
   explicit BoxTree(std::span<const Box> boxes) : order_(boxes.size()) {
@@ -42,8 +42,8 @@ class BoxTree {
     build(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
   }
 
-  /// visit(index, limit): asks the thing in that box, and returns how near something must be to count from now on: the
-  /// old limit, or less. Left out is what cannot be nearer than the limit.
+  /// Calls visit(index, limit) for the objects whose boxes are nearer to x than `limit` (Å). The call looks at the
+  /// object and returns the limit for all further objects: the old one, or less.
   template <typename Visit>
   void nearest(const glm::dvec3& x, double limit, Visit&& visit) const {
     if (nodes_.empty()) return;
@@ -71,13 +71,14 @@ class BoxTree {
   }
 
  private:
-  static constexpr std::uint32_t kLeaf = 4;     // things in a leaf, at most
-  static constexpr std::size_t kDeepest = 128;  // halves of 2^32 things, and one that waits on each level
+  static constexpr std::uint32_t kLeaf = 4;  // greatest number of boxes in a leaf
+  static constexpr std::size_t kDeepest =
+      128;  // greatest depth: 2^32 boxes halved, with one waiting node on each level
 
   struct Node {
     Box box;
-    std::uint32_t first = 0, last = 0;  // into order_
-    std::uint32_t second_child = 0;     // 0: a leaf; the first child is behind its parent
+    std::uint32_t first = 0, last = 0;  // range in order_
+    std::uint32_t second_child = 0;     // 0 for a leaf; the first child follows its parent in nodes_
   };
 
   void build(std::span<const Box> boxes, std::uint32_t first, std::uint32_t last) {

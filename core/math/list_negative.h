@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists which of many numbers are negative, eight at a time and without a branch: what is listed would not be foreseen.
+// Lists which numbers of an array are negative, eight at a time and without a branch, which processors would not
+// predict.
 #pragma once
 
 #include <array>
@@ -15,7 +16,8 @@ namespace meniscus {
 namespace detail {
 
 struct SetBits {
-  std::array<std::array<std::uint8_t, 8>, 256> place{};  // of the bits that are set, those of low value first
+  std::array<std::array<std::uint8_t, 8>, 256>
+      place{};  // for each byte the places of its bits that are set, in ascending order
   std::array<std::uint8_t, 256> count{};
 };
 
@@ -29,7 +31,7 @@ constexpr SetBits list_set_bits() {
 
 inline constexpr SetBits kSetBits = list_set_bits();
 
-// Compilers make no vectors here: bytes might be parts of the list.
+// Writes at + place[k] for k < 8. Compilers do not vectorize the plain loop, because bytes might alias the list.
 inline void write_eight(std::uint32_t at, const std::array<std::uint8_t, 8>& place, std::uint32_t* list) {
 #if defined(__SSE2__)
   const __m128i none = _mm_setzero_si128(), base = _mm_set1_epi32(static_cast<int>(at));
@@ -45,7 +47,7 @@ inline void write_eight(std::uint32_t at, const std::array<std::uint8_t, 8>& pla
 
 }  // namespace detail
 
-/// Bit n is set if the n-th of these eight is negative.
+/// Returns a byte of which bit n is set if the n-th of these eight numbers is negative.
 inline unsigned negative_of_eight(const std::int32_t* numbers) {
 #if defined(__SSE2__)
   const auto four = [&](std::size_t n) {
@@ -73,8 +75,8 @@ inline unsigned negative_of_eight(const std::int64_t* numbers) {
 #endif
 }
 
-/// Writes first + n for each of `count` numbers, the n-th, that is negative, and returns the end of the list. Numbers
-/// can be read, and the list can be written, up to a multiple of eight: anything may be behind their ends.
+/// Appends first + n to the list for each negative number n of `count`, and returns the new end of the list. Both
+/// arrays must have room up to a multiple of eight entries. The entries after their ends may be read and overwritten.
 template <typename Number>
 std::uint32_t* list_negative(const Number* numbers, std::size_t count, std::uint32_t first, std::uint32_t* list) {
   for (std::size_t n = 0; n < count; n += 8) {

@@ -16,7 +16,7 @@ namespace meniscus::quad_geometry {
 
 using uint = std::uint32_t;
 
-// IEEE 754 binary128 under the name that the compiler has for it, or in integers: all give the same bits.
+// IEEE 754 binary128 by the compiler's type for it, or else by integers. All give the same bits.
 #if defined(MENISCUS_BINARY128)
 using real = Binary128;
 #elif defined(__SIZEOF_FLOAT128__)
@@ -54,7 +54,8 @@ inline real abs(real a) { return a < 0 ? -a : a; }
 inline real min(real a, real b) { return b < a ? b : a; }
 inline real max(real a, real b) { return a < b ? b : a; }
 
-// Two Newton steps from the double root: 53 bits become more than the 113 there are.
+// Returns the square root by two Newton steps from the root in double precision. They turn 53 correct bits into more
+// than the 113 that a real has.
 inline real sqrt(real a) {
   if (!(a > 0)) return 0;
   real x = std::sqrt(static_cast<double>(a));

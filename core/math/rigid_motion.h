@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A rotation and a translation: the position of a copy of a molecule.
+// A rigid motion, which places a copy of a molecule, and a superposition of two molecules.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,8 @@
 
 namespace meniscus {
 
-/// x -> rotation * x + translation. The rotation is orthonormal with determinant +1: mirrors are none.
+/// The motion x -> rotation * x + translation. The rotation is orthonormal with determinant +1: a mirror image is no
+/// rigid motion.
 struct RigidMotion {
   glm::dmat3 rotation{1.0};
   glm::dvec3 translation{0.0};  ///< Å
@@ -17,11 +18,11 @@ struct RigidMotion {
   glm::dvec3 operator()(const glm::dvec3& x) const { return rotation * x + translation; }
 };
 
-/// A motion that brings pairs of points together.
+/// A rigid motion that superposes pairs of points.
 struct Superposition {
   RigidMotion motion;
-  std::size_t atoms = 0;  ///< pairs
-  double rmsd = 0.0;      ///< Å, of the pairs after the motion
+  std::size_t atoms = 0;  ///< number of pairs
+  double rmsd = 0.0;      ///< root mean square distance of the pairs after the motion, Å
 };
 
 }  // namespace meniscus

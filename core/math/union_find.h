@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Disjoint sets of indices; the representative is always the smallest index.
+// Disjoint sets of indices. The representative of a set is its smallest index.
 #pragma once
 
 #include <atomic>
@@ -12,15 +12,18 @@
 
 namespace meniscus {
 
+/// Disjoint sets of the indices from 0 to count - 1. At first each index is a set of its own.
 class UnionFind {
  public:
   explicit UnionFind(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
 
+  /// Returns the representative of the set that contains n.
   std::uint32_t find(std::uint32_t n) {
     while (parent_[n] != n) n = parent_[n] = parent_[parent_[n]];
     return n;
   }
 
+  /// Unites the sets that contain a and b.
   void unite(std::uint32_t a, std::uint32_t b) {
     a = find(a);
     b = find(b);
@@ -33,8 +36,8 @@ class UnionFind {
   std::vector<std::uint32_t> parent_;
 };
 
-/// The same for threads that unite at once: the sets do not depend on who comes first (Anderson & Woll 1991). A
-/// representative is what it says once all have united.
+/// A UnionFind whose sets several threads may unite at the same time. The sets do not depend on the order of the calls
+/// (R. J. Anderson and H. Woll 1991). A representative is final once all threads have united their sets.
 class SharedUnionFind {
  public:
   explicit SharedUnionFind(std::size_t count)
@@ -47,7 +50,7 @@ class SharedUnionFind {
       std::uint32_t parent = parent_[n].load(std::memory_order_relaxed);
       if (parent == n) return n;
       const std::uint32_t above = parent_[parent].load(std::memory_order_relaxed);
-      // Parents only ever become smaller, so a path that another thread shortens meanwhile stays a path.
+      // Parents only become smaller, so that a path stays a path when another thread shortens it at the same time.
       if (above != parent) parent_[n].compare_exchange_weak(parent, above, std::memory_order_relaxed);
       n = above;
     }

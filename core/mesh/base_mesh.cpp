@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the base meshes of even ones, and contracts a fine mesh to few triangles.
+// Builds base meshes of each kind, and contracts contact faces of the coarsest mesh to points.
 #include "core/mesh/base_mesh.h"
 
 #include <algorithm>
@@ -19,12 +19,14 @@
 namespace meniscus {
 namespace {
 
-/// Patch-aligned meshes are a scaffold: their tolerance follows that of the result between these (Å).
+/// The range of the tolerance (Å) of patch-aligned meshes, which are a scaffold: within it, it follows that of the
+/// result.
 constexpr double kFinest = 1e-4, kCoarsest = 0.4;
 constexpr int kTries = 4;
-/// Arcs (radian) that are one edge where contact faces become points.
+/// The angle (radian) of arcs that become one edge where contact faces become points.
 constexpr double kWideAngle = 1.6;
 
+/// Tessellates the surface, and tries again with a quarter of the tolerance where that fails, kTries times in all.
 TriangleMesh patches(const Surface& surface, double tolerance) {
   tolerance = std::clamp(tolerance, kFinest, kCoarsest);
   for (int n = 1;; ++n, tolerance *= 0.25) {
@@ -38,24 +40,25 @@ TriangleMesh patches(const Surface& surface, double tolerance) {
 
 }  // namespace
 
-BaseMesh base_mesh(const Surface& surface, const SurfaceWalk& walk, Beginning beginning, double tolerance) {
-  if (beginning == Beginning::contracted) return contracted_mesh(surface, walk, coarse_mesh(surface, walk, kWideAngle));
+BaseMesh base_mesh(const Surface& surface, const SurfaceWalk& walk, BaseMeshKind kind, double tolerance) {
+  if (kind == BaseMeshKind::contracted) return contracted_mesh(surface, walk, coarse_mesh(surface, walk, kWideAngle));
   BaseMesh base;
-  base.mesh = beginning == Beginning::coarse ? coarse_mesh(surface, walk) : patches(surface, tolerance);
+  base.mesh = kind == BaseMeshKind::coarse ? coarse_mesh(surface, walk) : patches(surface, tolerance);
   base.vertex_face = vertex_faces(base.mesh);
   return base;
 }
 
-// Where the rest would be no manifold, faces stay as they were.
+// Contraction: where the result would not be a manifold, faces stay as they were.
 
 namespace {
 
-/// Cosine of the angle at a ball's centre between the middle of a contact face and its farthest point: no wider one is
-/// drawn together.
+/// The smallest cosine of the angle at a ball's centre between the middle of a contact face and its farthest point:
+/// wider faces are not contracted.
 constexpr double kWidest = -0.2;
 
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// Contracts contact faces to points, and takes contractions back until the mesh is a manifold of the right topology.
 class Contraction {
  public:
   Contraction(const Surface& surface, const SurfaceWalk& walk, const TriangleMesh& coarse)
@@ -63,14 +66,14 @@ class Contraction {
 
   BaseMesh run() {
     find_discs();
-    do put_triangles();
+    do build_triangles();
     while (repair());
-    if (!sound_) throw OpenSurfaceError("the contracted mesh has another topology");
+    if (!is_sound_) throw OpenSurfaceError("the contracted mesh has another topology");
     return std::move(made_);
   }
 
  private:
-  /// Marks the vertices of contact faces that can be drawn together, and finds where to.
+  /// Finds contact faces that can be contracted and the points that they become, and marks their vertices.
   void find_discs() {
     middle_.resize(surface_.faces.size());
     std::vector<std::uint32_t> first(surface_.faces.size() + 1, 0);  // triangles of a face are together
@@ -82,16 +85,16 @@ class Contraction {
     for (std::uint32_t f = 0; f < middle_.size(); ++f) {
       if (!middle_[f]) continue;
       const std::span<const Triangle> own(coarse_.triangles.data() + first[f], first[f + 1] - first[f]);
-      const bool free = std::all_of(own.begin(), own.end(), [&](const Triangle& t) {
+      const bool is_free = std::all_of(own.begin(), own.end(), [&](const Triangle& t) {
         return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return disc_of_[v] == kNone; });
       });
-      if (!free) continue;
+      if (!is_free) continue;
       for (const Triangle& t : own)
         for (const std::uint32_t v : t) disc_of_[v] = f;
     }
   }
 
-  /// Of a contact face that is a disc seen from its middle: that point.
+  /// Returns the middle of a contact face that is a disc seen from there; nothing for other faces.
   std::optional<glm::dvec3> middle_of(std::uint32_t f, std::uint32_t begin, std::uint32_t end) const {
     const Face& face = surface_.faces[f];
     if (face.kind != PatchKind::convex || face.loop_count != 1) return std::nullopt;
@@ -112,8 +115,8 @@ class Contraction {
     return at->position;
   }
 
-  /// Triangles with two corners in one disc vanish.
-  void put_triangles() {
+  /// Builds the contracted mesh, in which triangles with two corners in one disc vanish.
+  void build_triangles() {
     made_ = {};
     disc_.clear();
     std::vector<std::uint32_t> number(disc_of_.size(), kNone), number_of_disc(surface_.faces.size(), kNone);
@@ -139,33 +142,34 @@ class Contraction {
     }
   }
 
-  /// Takes back discs where triangles do not go around a vertex once, or, where there is none of that, all discs of
-  /// components of another topology. Were there any?
+  /// Restores discs where triangles do not form a single closed fan around a vertex or, if they do everywhere, all
+  /// discs of components that have another topology. Returns true if any disc was restored.
   bool repair() {
-    sound_ = true;
+    is_sound_ = true;
     std::vector<std::uint8_t> restored(surface_.faces.size(), 0);
     std::vector<std::uint8_t> broken(surface_.components.size(), 0);
     const CornerLists corners(made_.mesh.triangles, static_cast<std::uint32_t>(disc_.size()));
-    std::vector<std::uint8_t> is_sound(disc_.size());
+    std::vector<std::uint8_t> has_fan(disc_.size());
     tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(disc_.size()),
-                      [&](std::uint32_t v) { is_sound[v] = go_around_once(made_.mesh.triangles, corners.at(v)); });
+                      [&](std::uint32_t v) { has_fan[v] = is_closed_fan(made_.mesh.triangles, corners.at(v)); });
     for (std::uint32_t v = 0; v < disc_.size(); ++v) {
-      if (is_sound[v]) continue;
-      sound_ = false;
-      std::vector<std::uint32_t> beside;  // discs
+      if (has_fan[v]) continue;
+      is_sound_ = false;
+      std::vector<std::uint32_t> neighbor_discs;  // discs at neighbours of the vertex
       for (const std::uint32_t c : corners.at(v))
         for (const std::uint32_t w : made_.mesh.triangles[c / 3])
-          if (w != v && disc_[w] != kNone) beside.push_back(disc_[w]);
-      if (std::any_of(beside.begin(), beside.end(), [&](std::uint32_t d) { return restored[d] > 0; })) continue;
+          if (w != v && disc_[w] != kNone) neighbor_discs.push_back(disc_[w]);
+      if (std::any_of(neighbor_discs.begin(), neighbor_discs.end(), [&](std::uint32_t d) { return restored[d] > 0; }))
+        continue;
       if (disc_[v] != kNone) {
         restored[disc_[v]] = 1;
-      } else if (beside.empty()) {
+      } else if (neighbor_discs.empty()) {
         broken[component_of(v)] = 1;
       } else {
-        for (const std::uint32_t d : beside) restored[d] = 1;
+        for (const std::uint32_t d : neighbor_discs) restored[d] = 1;
       }
     }
-    if (sound_) find_other_topology(broken);
+    if (is_sound_) mark_other_topology(broken);
     bool any = false;
     for (std::uint32_t& disc : disc_of_)
       if (disc != kNone && (restored[disc] || broken[surface_.faces[disc].component])) disc = kNone, any = true;
@@ -174,25 +178,26 @@ class Contraction {
 
   std::uint32_t component_of(std::uint32_t vertex) const { return surface_.faces[made_.vertex_face[vertex]].component; }
 
-  /// By V - E + F, where E = 3 F / 2.
-  void find_other_topology(std::vector<std::uint8_t>& broken) {
+  /// Marks the components with another Euler characteristic V - E + F, where E = 3 F / 2.
+  void mark_other_topology(std::vector<std::uint8_t>& broken) {
     std::vector<int> twice(broken.size(), 0);
     for (std::uint32_t v = 0; v < disc_.size(); ++v) twice[component_of(v)] += 2;
     for (const std::uint32_t f : made_.mesh.face) --twice[surface_.faces[f].component];
     for (std::size_t c = 0; c < broken.size(); ++c) {
       broken[c] = twice[c] != 2 * surface_.components[c].euler;
-      if (broken[c]) sound_ = false;
+      if (broken[c]) is_sound_ = false;
     }
   }
 
   const Surface& surface_;
   const SurfaceWalk& walk_;
   const TriangleMesh& coarse_;
-  std::vector<std::optional<glm::dvec3>> middle_;  ///< per face
-  std::vector<std::uint32_t> disc_of_;  ///< per vertex of the coarse mesh: the face that it goes into, or kNone
-  std::vector<std::uint32_t> disc_;     ///< per vertex that is made: its disc or kNone
+  std::vector<std::optional<glm::dvec3>> middle_;  ///< per face: the point that it becomes, if any
+  /// Per vertex of the coarse mesh: the contracted face that it belongs to, or kNone.
+  std::vector<std::uint32_t> disc_of_;
+  std::vector<std::uint32_t> disc_;  ///< per vertex of the new mesh: the contracted face that it was, or kNone
   BaseMesh made_;
-  bool sound_ = false;
+  bool is_sound_ = false;
 };
 
 }  // namespace

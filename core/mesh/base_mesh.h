@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The closed meshes from which even ones are made by splitting and collapsing edges.
+// Builds the closed meshes that even remeshing starts from.
 #pragma once
 
 #include <cstdint>
@@ -10,38 +10,43 @@
 
 namespace meniscus {
 
-/// A closed mesh that an even one begins with.
+/// A closed mesh that even remeshing starts from.
 struct BaseMesh {
-  TriangleMesh mesh;                       ///< `positions`, `triangles` and `face` are filled in
-  std::vector<std::uint32_t> vertex_face;  ///< per vertex: into Surface::faces, one that it lies on
+  TriangleMesh mesh;                       ///< only `positions`, `triangles` and `face` are filled
+  std::vector<std::uint32_t> vertex_face;  ///< per vertex: index into Surface::faces of a face that it lies on
 };
 
-/// What is remeshed.
-enum class Beginning : std::uint8_t {
-  contracted,  ///< contracted_mesh(): contact faces as points
-  coarse,      ///< coarse_mesh(): the fewest triangles of all faces
-  patches      ///< tessellate(): patch-aligned triangles
+/// The kinds of base meshes.
+enum class BaseMeshKind : std::uint8_t {
+  contracted,  ///< contracted_mesh(): contact faces are contracted to points
+  coarse,      ///< coarse_mesh(): the fewest triangles for all faces
+  patches      ///< tessellate(): triangles that follow the patches
 };
 
-/// Components and their Euler characteristics are those of the surface. walk: nothing barred. tolerance: Å, of patches;
-/// a finer one is taken where there is no such mesh. Throws OpenSurfaceError where there is none.
-BaseMesh base_mesh(const Surface& surface, const SurfaceWalk& walk, Beginning beginning, double tolerance);
+/// Builds a base mesh of this kind. Its components and their Euler characteristics are those of the surface. `walk`
+/// bars no border. `tolerance` (Å) applies to BaseMeshKind::patches only; finer ones are tried where tessellation fails
+/// at it. Throws OpenSurfaceError if no such mesh is found.
+BaseMesh base_mesh(const Surface& surface, const SurfaceWalk& walk, BaseMeshKind kind, double tolerance);
 
-/// The fewest triangles that have a surface's topology. Each face is a polygon between its vertices (and samples of
-/// long borders): a triangle stays one, a saddle's quadrangle gets a diagonal, others are fans about a point of the
-/// face; only what is none of that, as a face with holes, is triangulated in its plane. Closed, outward but for folds
-/// at deep faces, vertices on the exact surface, components and their Euler characteristics those of the surface. No
-/// bound on how far triangles are from it, and of degenerate surfaces, as lattices, a few may cross. Arcs that span no
-/// more than about `angle` (radian) are one edge. Of the result `positions`, `triangles` and `face` are filled in.
-/// walk: nothing barred. The probe needs a size. Throws OpenSurfaceError where no such mesh was found; two faces that
-/// draw an edge between the same two vertices are left to HalfEdges to refuse.
+/// Builds the mesh with the fewest triangles that has the topology of the surface. Each face becomes a polygon between
+/// its vertices and, on long borders, samples. A polygon of three corners stays one triangle, the quadrilateral of a
+/// saddle is split by a diagonal, and others become fans about a point of the face. Only a face that is none of these,
+/// such as one with holes, is triangulated in its plane.
+///
+/// The mesh is closed and, except for folds at deep faces, oriented outward. Its vertices lie on the exact surface, and
+/// its components and their Euler characteristics are those of the surface. The distance of triangles from the surface
+/// is not bounded, and on degenerate surfaces such as lattices a few triangles may cross. Arcs of at most about `angle`
+/// (radian) become one edge. Only `positions`, `triangles` and `face` of the result are filled. `walk` bars no border,
+/// and the probe radius is above 0. Throws OpenSurfaceError if no such mesh is found. Two faces that both draw an edge
+/// between the same two vertices are not detected here; HalfEdges refuses such a mesh.
 TriangleMesh coarse_mesh(const Surface& surface, const SurfaceWalk& walk, double angle = 0.9);
 
-/// A mesh about the reduced surface: contact faces drawn together to points. coarse: of coarse_mesh(). Contact faces
-/// that are discs become their middles, saddles between two such ones edges, unless the mesh would not be closed, or of
-/// another topology, without them. Closed, vertices on the exact surface, components and their Euler characteristics
-/// those of the surface. No bound on how far triangles are from it; some may cross. walk: nothing barred. Throws
-/// OpenSurfaceError where the coarse mesh is not a manifold.
+/// Builds a mesh around the reduced surface by contracting contact faces to points. `coarse` is a result of
+/// coarse_mesh(). A contact face that is a disc becomes its midpoint, and a saddle between two such discs becomes an
+/// edge, unless the mesh would then not be closed or would have another topology. The mesh is closed, its vertices lie
+/// on the exact surface, and its components and their Euler characteristics are those of the surface. The distance of
+/// triangles from the surface is not bounded, and some triangles may cross. `walk` bars no border. Throws
+/// OpenSurfaceError if the coarse mesh is not a manifold.
 BaseMesh contracted_mesh(const Surface& surface, const SurfaceWalk& walk, const TriangleMesh& coarse);
 
 }  // namespace meniscus

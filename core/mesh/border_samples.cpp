@@ -18,14 +18,15 @@ namespace {
 
 /// Borders shorter than this (Å) are rounding noise of a degenerate position: their two ends are one vertex.
 constexpr double kTinyBorder = 1e-9;
+/// The largest angle (radian) of an edge by tolerance.
 constexpr double kLargestAngle = 0.8;
-/// Where a length is asked for: of circles no fewer than five parts.
+/// The largest angle (radian) of an edge by length: circles have at least five parts.
 constexpr double kLargestAngleOfParts = 1.3;
-/// How far such an edge h may leave a sphere of radius r: twice as far as that of an equilateral triangle, but never
-/// more than this share of the radius.
+/// The distance that an edge h of requested length may leave a sphere of radius r is h^2/(3 r), twice that of an
+/// equilateral triangle, but never more than this share of the radius.
 constexpr double kLargestShare = 0.3;
 
-bool whole_circle(const Border& border) { return border.vertex[0] == kNone; }
+bool is_whole_circle(const Border& border) { return border.vertex[0] == kNone; }
 
 }  // namespace
 
@@ -63,7 +64,7 @@ BorderSamples::BorderSamples(const Surface& surface, const EdgeRule& rule, bool 
   tbb::parallel_for(std::size_t{0}, surface.borders.size(),
                     [&](std::size_t b) { sample(static_cast<std::uint32_t>(b), rule, split_colors); });
   // Two borders between the same two vertices would become the same edge if each were one segment.
-  std::vector<std::array<std::uint32_t, 3>> single;  // ends, border
+  std::vector<std::array<std::uint32_t, 3>> single;  // both ends, and the border
   for (std::uint32_t b = 0; b < surface.borders.size(); ++b) {
     if (segment_count(b) != 1) continue;
     const auto [from, to] = std::minmax({point(b, 0).index, point(b, 1).index});
@@ -78,7 +79,7 @@ void BorderSamples::join_ends_of_tiny_borders() {
   representative_.resize(surface_.vertices.size());
   for (std::uint32_t v = 0; v < representative_.size(); ++v) representative_[v] = v;
   for (const Border& border : surface_.borders) {
-    if (whole_circle(border) || border.radius * border.sweep > kTinyBorder) continue;
+    if (is_whole_circle(border) || border.radius * border.sweep > kTinyBorder) continue;
     std::uint32_t a = representative(border.vertex[0]), b = representative(border.vertex[1]);
     if (a > b) std::swap(a, b);
     representative_[b] = a;
@@ -93,7 +94,7 @@ std::uint32_t BorderSamples::representative(std::uint32_t vertex) const {
 void BorderSamples::sample(std::uint32_t index, const EdgeRule& rule, bool split_colors) {
   const Border& border = surface_.borders[index];
   std::vector<double>& t = parameters_[index];
-  if (!whole_circle(border) && representative(border.vertex[0]) == representative(border.vertex[1]) &&
+  if (!is_whole_circle(border) && representative(border.vertex[0]) == representative(border.vertex[1]) &&
       border.radius * border.sweep <= kTinyBorder) {
     return;
   }
@@ -121,7 +122,7 @@ void BorderSamples::sample(std::uint32_t index, const EdgeRule& rule, bool split
   }
   const double angle = std::min(step / border.radius, rule.largest_angle());
   std::sort(stops.begin(), stops.end());
-  const double apart = std::min(1e-3 * angle, 0.25 * border.sweep);  // closer stops are one
+  const double apart = std::min(1e-3 * angle, 0.25 * border.sweep);  // closer stops become one
   double from = 0.0;
   const auto go_to = [&](double to) {
     const double span = to - from;
@@ -133,18 +134,18 @@ void BorderSamples::sample(std::uint32_t index, const EdgeRule& rule, bool split
   for (const double stop : stops)
     if (!(stop - from < apart || border.sweep - stop < apart)) go_to(stop);
   go_to(border.sweep);
-  if (!whole_circle(border)) t.push_back(border.sweep);
+  if (!is_whole_circle(border)) t.push_back(border.sweep);
 }
 
 std::uint32_t BorderSamples::segment_count(std::uint32_t border) const {
   const std::size_t n = parameters_[border].size();
-  return static_cast<std::uint32_t>(n == 0 || whole_circle(surface_.borders[border]) ? n : n - 1);
+  return static_cast<std::uint32_t>(n == 0 || is_whole_circle(surface_.borders[border]) ? n : n - 1);
 }
 
 BorderPoint BorderSamples::point(std::uint32_t border, std::uint32_t k) const {
   const Border& b = surface_.borders[border];
   const std::uint32_t n = segment_count(border);
-  if (whole_circle(b)) return {border, k % n};
+  if (is_whole_circle(b)) return {border, k % n};
   if (k == 0) return {kNone, representative(b.vertex[0])};
   if (k == n) return {kNone, representative(b.vertex[1])};
   return {border, k};

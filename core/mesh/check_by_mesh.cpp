@@ -11,7 +11,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::array kTolerances{0.1, 0.03, 0.01};  // Å
+constexpr std::array kTolerances{0.1, 0.03, 0.01};  // Å, the finer ones after the others have failed
 
 }  // namespace
 

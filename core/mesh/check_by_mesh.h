@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An independent check of the areas and volumes of a surface: those of its triangles.
+// Checks the areas and volumes of a surface independently, by the triangles of its meshes.
 #pragma once
 
 namespace meniscus {
 
 struct Surface;
 
-/// Meshes the surface, more finely where a face is thinner than its borders bend, and compares areas and volumes face
-/// by face and component by component. Throws OpenSurfaceError with every difference.
+/// Meshes the surface and compares the areas of faces and the volumes of components with those of their triangles.
+/// Where a face is thinner than its borders bend, finer meshes are tried. Throws OpenSurfaceError with the first
+/// difference.
 void check_by_mesh(const Surface& surface);
 
 }  // namespace meniscus

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the coarsest mesh of a surface: polygons of border samples, cut without a plane wherever they are simple.
+// Builds the coarsest mesh of a surface from polygons of border samples; only those that are not simple are
+// triangulated in a plane.
 #include "core/mesh/base_mesh.h"
 
 #include <algorithm>
@@ -22,17 +23,18 @@
 namespace meniscus {
 namespace {
 
-/// Å: longer than any edge that a face of a molecule lets be, so that the angles of EdgeRule decide.
+/// An edge length (Å) longer than any face of a molecule permits, so that the angles of EdgeRule decide.
 constexpr double kAnyEdge = 10.0;
-/// Beside faces that are not simple no segment of an arc spans more, radian.
+/// The largest angle (radian) of a segment on an arc next to faces that are not simple.
 constexpr double kFineAngle = 1.2;
-/// A fan's triangles see its middle from no farther than the cosine of this many radian (1.9) away.
+/// The cosine of the largest angle (1.9 radian), at the sphere's centre, between the middle of a fan and its rim.
 constexpr double kWidestFan = -0.32;
-/// FaceCorners of a saddle that is a fan: longer ones bend too much.
+/// The most corners of a saddle that becomes a fan: longer ones bend too much.
 constexpr std::size_t kMostSaddleCorners = 6;
 
 using FaceCorners = std::vector<BorderPoint>;
 
+/// Cuts each face of a surface into as few triangles as possible.
 class CoarseMeshing {
  public:
   CoarseMeshing(const Surface& surface, const SurfaceWalk& walk, double angle)
@@ -42,8 +44,8 @@ class CoarseMeshing {
         samples_(surface, rule_.with_angle(angle), false),
         filling_(surface, rule_, samples_),
         parts_(surface.faces.size()),
-        wide_(angle > kFineAngle),
-        finer_(surface.faces.size(), false),
+        has_wide_arcs_(angle > kFineAngle),
+        is_finer_(surface.faces.size(), false),
         filled_(surface.faces.size()) {}
 
   TriangleMesh run() {
@@ -54,7 +56,7 @@ class CoarseMeshing {
       std::vector<std::uint32_t> hard = plan(todo);
       if (hard.empty()) break;
       todo = hard;
-      if (!wide_ || !sample_finer(hard)) {
+      if (!has_wide_arcs_ || !sample_finer(hard)) {
         for (const std::uint32_t f : hard) parts_[f].cut = Cut::filled;
         filling_.fill(std::move(hard), filled_);
       }
@@ -70,15 +72,16 @@ class CoarseMeshing {
 
  private:
   enum class Cut : std::uint8_t { none, triangle, diagonal, fan, filled };
-  /// What becomes of a face, and where its rows begin.
+  /// How a face is cut, and where its rows begin.
   struct Part {
     Cut cut = Cut::none;
-    std::uint8_t diagonal = 0;  ///< the corner it begins at
+    std::uint8_t diagonal = 0;  ///< the corner that the diagonal begins at
+    /// Number of corners; first own vertex and first triangle in the mesh.
     std::uint32_t corners = 0, vertex = 0, triangle = 0;
-    glm::dvec3 middle{0.0};  ///< of a fan
+    glm::dvec3 middle{0.0};  ///< middle of a fan
   };
 
-  /// The corners of a face with one loop, the face on their left.
+  /// Returns the corners of a face with one loop; the face lies on their left.
   FaceCorners corners_of(const Face& face) const {
     FaceCorners corners;
     for (const HalfBorder half : half_borders_of(surface_, loops_of(surface_, face)[0])) {
@@ -88,7 +91,7 @@ class CoarseMeshing {
     return corners;
   }
 
-  /// Finds how these faces are cut; returns those that have to be filled and are not yet.
+  /// Decides how these faces are cut; returns those that have to be filled and are not filled yet.
   std::vector<std::uint32_t> plan(const std::vector<std::uint32_t>& faces) {
     std::vector<std::uint8_t> hard(faces.size(), 0);
     tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t n) {
@@ -103,12 +106,12 @@ class CoarseMeshing {
     return found;
   }
 
-  /// Halves the long segments around faces that are not polygons of the simple kinds; false if that was done before.
+  /// Halves the long segments around faces that are not simple polygons; returns false if that was done before.
   bool sample_finer(const std::vector<std::uint32_t>& hard) {
     bool any = false;
     for (const std::uint32_t f : hard) {
-      if (finer_[f]) continue;
-      finer_[f] = any = true;
+      if (is_finer_[f]) continue;
+      is_finer_[f] = any = true;
       for_each_half_border(surface_, surface_.faces[f], [&](HalfBorder half) {
         const std::uint32_t b = border_of(half);
         for (std::uint32_t k = samples_.segment_count(b); k-- > 0;)
@@ -118,6 +121,7 @@ class CoarseMeshing {
     return any;
   }
 
+  /// Returns how a face that is a simple polygon is cut; nothing for other faces.
   std::optional<Part> simple_part(std::uint32_t f) const {
     const Face& face = surface_.faces[f];
     if (face.loop_count != 1 || face.tip != kNone) return std::nullopt;
@@ -143,13 +147,14 @@ class CoarseMeshing {
     return saddle_fan(f, part, at);
   }
 
-  /// Seen from the centre a fan must turn around its middle, and the middle must be on the face.
+  /// Cuts a face on a sphere as a fan. Seen from the centre, the fan must turn around its middle, which must lie on the
+  /// face.
   std::optional<Part> sphere_fan(std::uint32_t f, Part part, std::vector<glm::dvec3>& at) const {
     const Face& face = surface_.faces[f];
     const bool convex = face.kind == PatchKind::convex;
     const Ball sphere = convex ? surface_.atoms[surface_.convex[face.patch].atom]
                                : Ball{surface_.concave[face.patch].center, surface_.probe_radius};
-    glm::dvec3 area(0.0);  // the vector area of what the rim goes around points to its middle
+    glm::dvec3 area(0.0);  // vector area inside the rim, which points to its middle
     for (glm::dvec3& x : at) x = (x - sphere.center) / sphere.radius;
     for (std::size_t k = 0; k < at.size(); ++k) area += glm::cross(at[k], at[(k + 1) % at.size()]);
     if (!convex) area = -area;
@@ -162,12 +167,14 @@ class CoarseMeshing {
     }
     return with_middle(f, part, sphere.center + sphere.radius * middle);
   }
+  /// Cuts a saddle as a fan about the mean of its corners.
   std::optional<Part> saddle_fan(std::uint32_t f, Part part, const std::vector<glm::dvec3>& at) const {
     if (at.size() > kMostSaddleCorners) return std::nullopt;
     glm::dvec3 sum(0.0);
     for (const glm::dvec3& x : at) sum += x;
     return with_middle(f, part, sum / static_cast<double>(at.size()));
   }
+  /// Makes the point of the surface below x the middle of a fan; returns nothing if that point is not on the face.
   std::optional<Part> with_middle(std::uint32_t f, Part part, const glm::dvec3& x) const {
     const auto on = walk_.below(x, f);
     if (!on || on->face != f) return std::nullopt;
@@ -176,7 +183,7 @@ class CoarseMeshing {
     return part;
   }
 
-  /// Vertices of the surface that are used, border samples, then each face's own.
+  /// Numbers the vertices of the surface that are used, then the border samples; put_faces() numbers each face's own.
   void number_vertices() {
     vertex_number_.assign(surface_.vertices.size(), kNone);
     border_number_.resize(surface_.borders.size());
@@ -213,7 +220,7 @@ class CoarseMeshing {
       part.triangle = triangles;
       part.vertex = vertices;
       if (part.cut == Cut::filled) {
-        part_doubled_edges(filled_[f]);
+        split_doubled_edges(filled_[f]);
         triangles += static_cast<std::uint32_t>(filled_[f].triangles.size());
         vertices += own_vertices(filled_[f]);
       } else if (part.corners >= 3) {
@@ -226,7 +233,7 @@ class CoarseMeshing {
     mesh_.face.resize(triangles);
     tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t f) { put_face(static_cast<std::uint32_t>(f)); });
   }
-  /// Per seam point its number among the face's own.
+  /// Returns the number of each seam point among the face's own vertices.
   static std::map<std::uint32_t, std::uint32_t> seam_of(const FaceMesh& mesh) {
     std::map<std::uint32_t, std::uint32_t> seam;
     for (const BorderPoint& name : mesh.rim)
@@ -264,11 +271,11 @@ class CoarseMeshing {
     const auto rim = static_cast<std::uint32_t>(mesh.rim.size());
     std::vector<std::uint32_t> v(mesh.points.size());
     for (std::uint32_t i = 0; i < v.size(); ++i) {
-      const bool inner = i >= rim, on_seam = !inner && mesh.rim[i].border == kSeam;
+      const bool inner = i >= rim, is_on_seam = !inner && mesh.rim[i].border == kSeam;
       if (inner) v[i] = parts_[f].vertex + static_cast<std::uint32_t>(seam.size()) + i - rim;
-      if (on_seam) v[i] = parts_[f].vertex + seam.at(mesh.rim[i].index);
-      if (inner || on_seam) mesh_.positions[v[i]] = mesh.points[i].position;
-      if (!inner && !on_seam) v[i] = number(mesh.rim[i]);
+      if (is_on_seam) v[i] = parts_[f].vertex + seam.at(mesh.rim[i].index);
+      if (inner || is_on_seam) mesh_.positions[v[i]] = mesh.points[i].position;
+      if (!inner && !is_on_seam) v[i] = number(mesh.rim[i]);
     }
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const auto& [a, b, c] = mesh.triangles[t];
@@ -282,17 +289,18 @@ class CoarseMeshing {
   const EdgeRule rule_;
   BorderSamples samples_;
   FaceFilling filling_;
-  std::vector<Part> parts_;       ///< per face
-  bool wide_;                     ///< arcs that are one edge span more than those beside faces that are not simple
-  std::vector<bool> finer_;       ///< per face: its borders are sampled as finely as those of faces that are filled
-  std::vector<FaceMesh> filled_;  ///< per face; of those that were filled
+  std::vector<Part> parts_;     ///< per face
+  bool has_wide_arcs_;          ///< true if arcs of one edge may span more than those next to faces that are not simple
+  std::vector<bool> is_finer_;  ///< per face: true if its borders are sampled as finely as those of filled faces
+  std::vector<FaceMesh> filled_;  ///< per face: its triangles if it was filled
   std::vector<std::uint32_t> vertex_number_, border_number_;
   TriangleMesh mesh_;
 };
 
-/// V - E + F of each component, as the triangles' faces part them.
+/// Throws OpenSurfaceError unless each vertex has a triangle and each component has the V - E + F of the surface. The
+/// component of a triangle is that of its face.
 void check_euler(const Surface& surface, const TriangleMesh& mesh) {
-  std::vector<int> twice(surface.components.size(), 0);  // closed: E = 3 F / 2
+  std::vector<int> twice(surface.components.size(), 0);  // 2 (V - E + F), where E = 3 F / 2 since the mesh is closed
   std::vector<std::uint8_t> seen(mesh.positions.size(), 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     int& sum = twice[surface.faces[mesh.face[t]].component];

@@ -18,7 +18,7 @@ namespace {
 constexpr double kTie = 1e-9;
 constexpr int kMostPasses = 8;
 
-using Scores = std::vector<double>;  // one per contact; the largest wins
+using Scores = std::vector<double>;  // one score per contact; the largest wins
 
 /// Cuts the triangles of one face along its colour lines.
 class ColorCutter {
@@ -29,7 +29,7 @@ class ColorCutter {
     }
   }
 
-  /// Cutting an edge may show a third contact on the rest of it, so go on until every triangle has one winner.
+  /// Cuts triangles until every one has a single winner: cutting an edge may reveal a third contact on the rest of it.
   void run() {
     for (int pass = 0; pass < kMostPasses; ++pass) {
       const auto old = std::move(mesh_.triangles);
@@ -45,13 +45,15 @@ class ColorCutter {
     const Scores& s = scores_[vertex];
     return s[contact] >= *std::max_element(s.begin(), s.end()) - kTie;
   }
-  /// A contact that wins at all of these vertices, and so between them: scores are linear on a flat triangle.
+  /// Returns a contact that wins at all of these vertices, and so between them, as scores are linear on a flat
+  /// triangle.
   std::optional<std::size_t> shared_winner(std::initializer_list<std::uint32_t> vertices) const {
     for (std::size_t c = 0; c < scores_.front().size(); ++c) {
       if (std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return wins(v, c); })) return c;
     }
     return std::nullopt;
   }
+  /// Adds the point with these weights at three vertices; the tied contacts get the same score there.
   std::uint32_t add(const std::array<std::uint32_t, 3>& v, const std::array<double, 3>& weight,
                     std::initializer_list<std::size_t> tied) {
     const auto index = static_cast<std::uint32_t>(mesh_.points.size());
@@ -67,13 +69,13 @@ class ColorCutter {
     scores_.push_back(std::move(sum));
     return index;
   }
-  /// The first point of an edge where another contact overtakes; the two triangles of the edge share it.
+  /// Returns the first point of an edge where another contact overtakes; the two triangles of the edge share it.
   std::uint32_t crossing(std::uint32_t a, std::uint32_t b) {
     if (a > b) std::swap(a, b);
     const auto [at, fresh] = crossings_.try_emplace({a, b}, 0);
     if (fresh) {
       const Scores &from = scores_[a], &to = scores_[b];
-      std::size_t first = 0;  // of those that win at a, the one that wins just after it
+      std::size_t first = 0;  // of the contacts that win at a, the one that wins just after it
       for (std::size_t c = 1; c < from.size(); ++c) {
         if (wins(a, c) && (!wins(a, first) || to[c] > to[first])) first = c;
       }
@@ -89,7 +91,7 @@ class ColorCutter {
     }
     return at->second;
   }
-  /// The weights of the point of a triangle where three contacts are equally near.
+  /// Returns the weights of the point of a triangle where three contacts are equally near.
   std::array<double, 3> junction(const std::array<std::uint32_t, 3>& t, std::size_t a, std::size_t b,
                                  std::size_t c) const {
     std::array<glm::dvec2, 3> lead;
@@ -104,7 +106,7 @@ class ColorCutter {
     return {weight[0] / sum, weight[1] / sum, weight[2] / sum};
   }
 
-  /// No edge is crossed but no contact wins everywhere: three of them meet inside.
+  /// Cuts a triangle without crossed edges: if no contact wins everywhere, three of them meet inside.
   void cut_at_junction(const std::array<std::uint32_t, 3>& t) {
     const auto a = shared_winner({t[0], t[1]}), b = shared_winner({t[1], t[2]}), c = shared_winner({t[2], t[0]});
     auto& out = mesh_.triangles;
@@ -150,7 +152,7 @@ class ColorCutter {
 
   FaceMesh& mesh_;
   std::vector<Scores> scores_;
-  std::set<std::pair<int, int>> rim_edges_;  ///< shared with other faces: never cut
+  std::set<std::pair<int, int>> rim_edges_;  ///< edges that other faces share, and that are never cut
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> crossings_;
 };
 

@@ -15,6 +15,7 @@ namespace meniscus {
 
 namespace {
 
+/// The most differences that are described; the others are only counted.
 constexpr std::size_t kNamed = 8;
 
 const char* name_of(PatchKind kind) {
@@ -64,6 +65,7 @@ std::vector<std::string> differences(const Surface& surface, const TriangleMesh&
 
 namespace {
 
+/// Returns the point of a triangle that is nearest to x.
 glm::dvec3 nearest_point(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& x) {
   const auto& [a, b, c] = triangle;
   const glm::dvec3 ab = b - a, ac = c - a;

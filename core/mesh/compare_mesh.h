@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares a mesh with its surface: areas and volumes of the triangles alone, and distances of points from
-// them.
+// Compares a mesh with its surface by the areas and volumes of its triangles, and computes distances from points to
+// triangles.
 #pragma once
 
 #include <array>
@@ -16,28 +16,32 @@
 
 namespace meniscus {
 
-/// Every difference beyond what the mesh's tolerance t allows, in one sentence each; empty: equal. A face's triangles
-/// have its area but for 4 t over its radius of curvature and, along its borders, a strip of width 2 t; the volume of a
-/// component differs by no more than a layer 2 t thick. Both are far less than a sphere for t well below the probe.
-/// mesh: of all faces of `surface`, nothing hidden.
+/// Returns one sentence for each of the first eight differences that the mesh's tolerance t does not allow, and the
+/// number of the others; nothing if there are none. The triangles of a face may differ from its area by 4 t over its
+/// radius of curvature, relatively, and by a strip of width 2 t along its borders. The volume of a component may differ
+/// by a layer 2 t thick. Both are far less than a sphere if t is well below the probe radius. `mesh` has all faces of
+/// `surface`; none are hidden.
 std::vector<std::string> differences(const Surface& surface, const TriangleMesh& mesh);
 
-/// Of a point: the nearest triangle (the number of triangles if none is near enough) and how far it is, in Å.
+/// The triangle nearest to a point, and its distance in Å. `triangle` is the number of triangles if none is near
+/// enough.
 struct NearestTriangle {
   std::uint32_t triangle;
   double distance;
 };
 
+/// Finds the triangles of a mesh that are near a point.
 class MeshDistance {
  public:
-  /// Positions in Å. Both have to live as long.
+  /// Positions are in Å. Both spans must outlive this object.
   MeshDistance(std::span<const glm::dvec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles);
 
-  /// The nearest triangle of those nearer than `limit` Å. May be asked by several threads.
+  /// Returns the nearest of the triangles that are nearer than `limit` Å. Safe to call from several threads.
   NearestTriangle operator()(const glm::dvec3& x, double limit) const;
-  /// Any triangle nearer than `limit` Å, or the number of triangles: sooner found than the nearest.
+  /// Returns any triangle nearer than `limit` Å, or the number of triangles if there is none. Faster than finding the
+  /// nearest one.
   std::uint32_t any_within(const glm::dvec3& x, double limit) const;
-  /// Å, to this triangle.
+  /// Returns the distance (Å) from a point to this triangle.
   double to_triangle(const glm::dvec3& x, std::uint32_t triangle) const;
 
  private:

@@ -8,14 +8,14 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/mesh/even_sizes.h"
+#include "core/mesh/remesh_tuning.h"
 #include "core/surface/walks.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {
 namespace {
 
-/// Arcs that go on in one another.
+/// Chains of arcs that continue one another.
 class Chains {
  public:
   explicit Chains(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -29,7 +29,7 @@ class Chains {
   std::vector<std::uint32_t> parent_;
 };
 
-/// Takes away chains that are shorter than an edge; true if there were any.
+/// Removes chains that are shorter than an edge; returns true if there were any.
 bool drop_short_chains(const Surface& surface, const std::function<double(const glm::dvec3&)>& edge,
                        std::vector<bool>& keep) {
   std::vector<std::array<std::uint32_t, 2>> ends(surface.vertices.size(), {kNone, kNone});
@@ -57,7 +57,7 @@ bool drop_short_chains(const Surface& surface, const std::function<double(const 
   return any;
 }
 
-/// The first of a face's borders that counts and that an edge from a to b runs along, or kNone.
+/// Returns the first border of a face that counts as a crease and that an edge from a to b runs along, or kNone.
 std::uint32_t crease_of(const Surface& surface, const SurfaceWalk& walk, const std::vector<bool>& keep,
                         std::uint32_t face, const glm::dvec3& a, const glm::dvec3& b) {
   const auto on_circle = [](const Border& border, const glm::dvec3& x) {
@@ -82,7 +82,7 @@ std::array<glm::dvec3, 2> crease_normals(const Surface& surface, const Border& b
     for (int side = 0; side < 2; ++side)
       normal[side] = glm::normalize(surface.concave[surface.faces[border.face[side]].patch].center - x);
   } else if (border.kind == BorderKind::contact && surface.probe_radius == 0.0) {
-    for (int side = 0; side < 2; ++side) {  // tori have no faces
+    for (int side = 0; side < 2; ++side) {  // tori have no faces here
       const ConvexPatch& patch = surface.convex[surface.faces[border.face[side]].patch];
       normal[side] = glm::normalize(x - surface.atoms[patch.atom].center);
     }
@@ -118,7 +118,7 @@ void mark_creases(const Surface& surface, const SurfaceWalk& walk, const Triangl
   for (std::uint32_t half = 0; half < links.half_edge_count(); ++half) {
     const std::uint32_t f = mesh.face[half / 3], g = mesh.face[links.twin(half) / 3];
     if (f == g || half > links.twin(half) || !with_crease[f] || !with_crease[g]) continue;
-    // Without a probe a border on either side has the same points; the first stands for both.
+    // If the probe radius is 0, borders on both sides have the same points; the first one represents both.
     const glm::dvec3 &a = mesh.positions[links.from(half)], &b = mesh.positions[links.to(half)];
     const std::uint32_t border =
         std::min(crease_of(surface, walk, keep, f, a, b), crease_of(surface, walk, keep, g, a, b));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Borders at which faces meet at an angle, which of them a mesh of given edges has to follow, and which edges do.
+// Creases, the borders where faces meet at an angle: finds those that a mesh of given edges should follow, and the
+// edges that run along them.
 #pragma once
 
 #include <array>
@@ -18,28 +19,30 @@ namespace meniscus {
 
 struct TriangleMesh;
 
-/// The unit normals at a point of a border on both sides of it: of a cusp between spheres of two probes, and, where the
-/// probe has no size, of two balls. Twice the same (0) for other borders: tangent planes agree there.
+/// Returns the unit normals on both sides of a border at its point x. They differ on a cusp between the spheres of two
+/// probes and, if the probe radius is 0, between two balls. For other borders, where the tangent planes agree, both are
+/// the zero vector.
 std::array<glm::dvec3, 2> crease_normals(const Surface& surface, const Border& border, const glm::dvec3& x);
 
-/// The angle (radian) between them, the same all along the border.
+/// Returns the angle (radian) between the two normals, which is the same all along the border.
 double crease_angle(const Surface& surface, const Border& border);
 
-/// Per border whether triangles with edges this long (Å, at a place) should end at it: those that bridge it would be
-/// farther from the surface than elsewhere (h sin(angle/2) / 4 against h²/(6 r)), and the crease is no shorter than an
-/// edge.
+/// Returns for each border true if triangles with edges this long (`edge`: Å at a place) should end at it. This is so
+/// if triangles that bridge the border would be farther from the surface than elsewhere, h sin(angle/2) / 4 against
+/// h²/(6 r), and if the crease is not shorter than an edge.
 std::vector<bool> creases_to_keep(const Surface& surface, const std::function<double(const glm::dvec3&)>& edge);
 
-/// Tells the edges of `links`, which are those of the mesh, of the borders that they run along. keep: per border of the
-/// surface whether it counts. mesh: `face` is filled in.
+/// Sets HalfEdges::crease() of the edges of `links` that run along a border. `links` are the edges of `mesh`, of which
+/// `face` is filled. `keep` is true for each border of the surface that counts as a crease.
 void mark_creases(const Surface& surface, const SurfaceWalk& walk, const TriangleMesh& mesh,
                   const std::vector<bool>& keep, HalfEdges& links);
 
-/// What meets at a vertex.
+/// The crease at a vertex.
 struct CreaseAt {
-  std::uint32_t border = kNone;  ///< one that edges at the vertex run along, or kNone
-  bool ends = false;             ///< not two edges along one border: creases end or meet
+  std::uint32_t border = kNone;  ///< a border that edges at the vertex run along, or kNone
+  bool ends = false;  ///< true if creases end or meet here: the crease edges are not just two along one border
 };
+/// Returns the crease at each vertex.
 std::vector<CreaseAt> creases_at_vertices(const HalfEdges& links);
 
 }  // namespace meniscus

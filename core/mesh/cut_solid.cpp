@@ -23,9 +23,9 @@ namespace meniscus {
 namespace {
 
 constexpr int kAttempts = 9;
-constexpr double kNudge = 1e-6;     // Å between attempts
-constexpr double kLargestCell = 8;  // of the lattice that borders of parts are looked for on, in its smallest ones
-constexpr int kBorderSteps = 40;    // of bisection
+constexpr double kNudge = 1e-6;     // Å by which the plane moves from one attempt to the next
+constexpr double kLargestCell = 8;  // the largest lattice cells around borders of parts, in the smallest ones
+constexpr int kBorderSteps = 40;    // bisections that locate a border
 
 using Corners = std::array<std::uint32_t, 3>;
 
@@ -33,15 +33,16 @@ std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
   return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
 }
 
-/// Vertices in the middle of edges.
+/// Vertices that were inserted on edges.
 class EdgeVertices {
  public:
-  /// make(lower, higher): the vertex of an edge that has none yet.
+  /// Returns the vertex of an edge; make(lower, higher) creates it if there is none yet.
   std::uint32_t of(std::uint32_t a, std::uint32_t b, const auto& make) {
     const auto [at, fresh] = vertex_.try_emplace(edge_key(a, b), kNone);
     if (fresh) at->second = make(std::min(a, b), std::max(a, b));
     return at->second;
   }
+  /// Returns the vertex of an edge, or kNone.
   std::uint32_t find(std::uint32_t a, std::uint32_t b) const {
     const auto at = vertex_.find(edge_key(a, b));
     return at == vertex_.end() ? kNone : at->second;
@@ -89,13 +90,13 @@ class PlaneGrid {
   double scale_ = 1.0;
 };
 
-/// One cut: of everything that is left by one plane.
+/// Cuts by one plane what the earlier planes have left.
 class Cutter {
  public:
   Cutter(const Solid& solid, const ClipPlane& plane, std::uint32_t number, const CapAtoms& atoms, double border_length)
       : solid_(solid), plane_(plane), number_(number), atoms_(atoms), border_length_(border_length) {}
 
-  /// Nothing if the section cannot be triangulated.
+  /// Returns nothing if the section cannot be triangulated.
   std::optional<Solid> run() {
     result_.positions = solid_.positions;
     result_.normals = solid_.normals;
@@ -118,7 +119,8 @@ class Cutter {
  private:
   double height(const glm::dvec3& position) const { return glm::dot(plane_.normal, position) - plane_.offset; }
   std::uint32_t first_cut() const { return static_cast<std::uint32_t>(solid_.positions.size()); }
-  bool away(std::uint32_t v) const { return height_[v] >= 0.0; }
+  /// True if a vertex lies on the side of the plane that is cut away.
+  bool is_cut_away(std::uint32_t v) const { return height_[v] >= 0.0; }
 
   std::uint32_t add_vertex(const glm::dvec3& position, const glm::dvec3& normal) {
     result_.positions.push_back(position);
@@ -126,6 +128,7 @@ class Cutter {
     return static_cast<std::uint32_t>(result_.positions.size()) - 1;
   }
 
+  /// Returns the vertex where the plane cuts an edge.
   std::uint32_t cut_vertex(std::uint32_t a, std::uint32_t b) {
     return cuts_.of(a, b, [&](std::uint32_t low, std::uint32_t high) {
       const double share = height_[low] / (height_[low] - height_[high]);
@@ -144,12 +147,12 @@ class Cutter {
 
   void cut(const SolidPiece& piece) {
     const Corners& c = piece.corner;
-    const int count = int(away(c[0])) + int(away(c[1])) + int(away(c[2]));
+    const int count = int(is_cut_away(c[0])) + int(is_cut_away(c[1])) + int(is_cut_away(c[2]));
     if (count == 3) return;
     if (count == 0) return add(piece, c);
-    // The corner that is alone on its side, and those that follow it.
+    // Find the corner that is alone on its side; the others follow it.
     int k = 0;
-    while (away(c[k]) != (count == 1)) ++k;
+    while (is_cut_away(c[k]) != (count == 1)) ++k;
     const std::uint32_t lone = c[k], next = c[(k + 1) % 3], last = c[(k + 2) % 3];
     const std::uint32_t p = cut_vertex(lone, next), q = cut_vertex(last, lone);
     if (count == 2) {
@@ -166,17 +169,17 @@ class Cutter {
 
   void cut_sharp_edges() {
     for (const auto& [a, b] : solid_.sharp_edges) {
-      if (away(a) && away(b)) continue;
-      if (!away(a) && !away(b)) {
+      if (is_cut_away(a) && is_cut_away(b)) continue;
+      if (!is_cut_away(a) && !is_cut_away(b)) {
         result_.sharp_edges.push_back({a, b});
         continue;
       }
       const std::uint32_t middle = cuts_.find(a, b);
-      if (middle != kNone) result_.sharp_edges.push_back({away(a) ? b : a, middle});
+      if (middle != kNone) result_.sharp_edges.push_back({is_cut_away(a) ? b : a, middle});
     }
   }
 
-  /// Vertices of one grid point become one; what has no area left goes.
+  /// Merges the vertices at each grid point, and removes what has no area left.
   void weld(const PlaneGrid& grid) {
     std::vector<std::tuple<std::int64_t, std::int64_t, std::uint32_t>> order;
     for (std::uint32_t v = first_cut(); v < result_.positions.size(); ++v) {
@@ -202,7 +205,8 @@ class Cutter {
     std::erase_if(result_.sharp_edges, [](const auto& edge) { return edge[0] == edge[1]; });
   }
 
-  /// What is walked there and back encloses nothing. False if anything is walked twice.
+  /// Removes segments that are traversed in both directions, as these enclose nothing. Returns false if a segment
+  /// occurs twice.
   bool keep_single_segments() {
     std::ranges::sort(segments_);
     if (std::ranges::adjacent_find(segments_) != segments_.end()) return false;
@@ -211,6 +215,7 @@ class Cutter {
     return true;
   }
 
+  /// Triangulates the section and adds the caps; returns false if segments cross.
   bool fill(const PlaneGrid& grid) {
     PlanarTriangulation plane;
     vertex_ = std::vector<std::uint32_t>(plane.points().size(), kNone);
@@ -220,7 +225,8 @@ class Cutter {
     std::vector<std::tuple<std::int64_t, std::int64_t, std::uint32_t>> order;
     for (const auto& [v, unused] : place) {
       const GridPoint at = grid.at(result_.positions[v]);
-      order.emplace_back(at.y >> 23, (at.y >> 23) % 2 == 0 ? at.x : -at.x, v);  // to and fro: each is near the last
+      // Row by row, to and fro, so that each point is near the last.
+      order.emplace_back(at.y >> 23, (at.y >> 23) % 2 == 0 ? at.x : -at.x, v);
     }
     std::ranges::sort(order);
     for (const auto& [row, along, v] : order) {
@@ -238,7 +244,7 @@ class Cutter {
     return true;
   }
 
-  /// Points around borders of parts, so that triangles there are small.
+  /// Inserts points around borders of parts, so that triangles there are small.
   void add_lattice(PlanarTriangulation& plane, const PlaneGrid& grid) {
     const double size = kLargestCell * border_length_;
     const glm::dvec2 extent = grid.high() - grid.low();
@@ -251,6 +257,7 @@ class Cutter {
       }
   }
 
+  /// Inserts the middle of a cell, or divides the cell if a border of parts may pass through it.
   void add_cell(PlanarTriangulation& plane, const PlaneGrid& grid, const glm::dvec2& middle, double size) {
     const double reach = size / std::sqrt(2.0);
     const glm::dvec3 point = grid.point(middle);
@@ -266,7 +273,8 @@ class Cutter {
     if (place && *place == static_cast<int>(vertex_.size())) vertex_.push_back(add_vertex(point, plane_.normal));
   }
 
-  /// Triangles of the section, cut where parts are equally near, and with them what they share edges with.
+  /// Adds the triangles of the section, cut where parts are equally near, and cuts the triangles that share edges with
+  /// them.
   void add_caps(const PlanarTriangulation& plane) {
     std::vector<std::uint32_t> atom(vertex_.size(), kNone);
     EdgeVertices borders;
@@ -292,6 +300,7 @@ class Cutter {
     result_.pieces.insert(result_.pieces.end(), caps.begin(), caps.end());
   }
 
+  /// Returns the vertex of an edge at which the atoms of its ends are equally near.
   std::uint32_t border_vertex(EdgeVertices& borders, std::uint32_t a, std::uint32_t b, std::uint32_t atom_a,
                               std::uint32_t atom_b) {
     return borders.of(a, b, [&](std::uint32_t, std::uint32_t) {
@@ -307,12 +316,13 @@ class Cutter {
     });
   }
 
+  /// Adds a triangle of the section, cut along the borders of parts.
   void add_cap(const Corners& corner, const Corners& atom, EdgeVertices& borders) {
     const auto differ = [&](int a, int b) { return atoms_.part(atom[a]) != atoms_.part(atom[b]); };
     const auto put = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t of) {
       result_.pieces.push_back({{a, b, c}, kNone, number_, of});
     };
-    Corners middle{kNone, kNone, kNone};  // of the edge from corner k to the next
+    Corners middle{kNone, kNone, kNone};  // border vertices of the edges from corner k to the next
     int count = 0;
     for (int k = 0; k < 3; ++k) {
       const int n = (k + 1) % 3;
@@ -323,7 +333,7 @@ class Cutter {
     if (count == 0) {
       put(corner[0], corner[1], corner[2], atom[0]);
     } else if (count == 2) {
-      int k = 0;  // the corner of another part
+      int k = 0;  // the corner that belongs to another part
       while (middle[k] == kNone || middle[(k + 2) % 3] == kNone) ++k;
       const int n = (k + 1) % 3, p = (k + 2) % 3;
       put(corner[k], middle[k], middle[p], atom[k]);
@@ -340,7 +350,7 @@ class Cutter {
     }
   }
 
-  /// A piece beside a cap, with the vertices that its rim was given.
+  /// Adds a piece next to a cap, cut at the vertices that were inserted on its rim.
   void add_split(const SolidPiece& piece, const EdgeVertices& borders) {
     const Corners& c = piece.corner;
     for (int k = 0; k < 3; ++k) {
@@ -366,10 +376,11 @@ class Cutter {
   double border_length_;
 
   Solid result_;
-  std::vector<double> height_;  // Å of each vertex of solid_ over the plane
+  std::vector<double> height_;  // per vertex of solid_: its height (Å) over the plane
   EdgeVertices cuts_;
-  std::vector<std::array<std::uint32_t, 2>> segments_;  // the solid on their left, seen from where it was cut away
-  std::vector<std::uint32_t> vertex_;                   // of each of the triangulation
+  // Directed: the solid is on their left, seen from where it was cut away.
+  std::vector<std::array<std::uint32_t, 2>> segments_;
+  std::vector<std::uint32_t> vertex_;  // per vertex of the triangulation: its vertex in the result
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes even meshes: remeshes a base mesh in rounds, then makes edges shorter wherever the result is not as promised.
+// Makes even meshes: remeshes a base mesh in rounds, then shortens edges wherever the result is not as promised.
 #include "core/mesh/even_mesh.h"
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 #include "core/mesh/base_mesh.h"
 #include "core/mesh/creases.h"
 #include "core/mesh/even_sizes.h"
+#include "core/mesh/remesh_tuning.h"
 #include "core/mesh/mesh_crossings.h"
 #include "core/mesh/mesh_mender.h"
 #include "core/mesh/mesh_nearness.h"
@@ -26,17 +27,17 @@ namespace meniscus {
 
 namespace {
 
-/// Those that may do, the fastest first.
-std::vector<Beginning> beginnings(const Surface& surface, const EvenMeshOptions& options) {
-  std::vector<Beginning> all;
+/// Returns the kinds of base meshes that may be suitable, the fastest first.
+std::vector<BaseMeshKind> suitable_kinds(const Surface& surface, const EvenMeshOptions& options) {
+  std::vector<BaseMeshKind> all;
   const double edge = edge_of_density(options.density);
-  if (surface.probe_radius > 0.0 && edge >= RemeshTuning::long_contracted) all.push_back(Beginning::contracted);
-  if (surface.probe_radius > 0.0 && edge >= RemeshTuning::long_edge) all.push_back(Beginning::coarse);
-  all.push_back(Beginning::patches);
+  if (surface.probe_radius > 0.0 && edge >= RemeshTuning::long_contracted) all.push_back(BaseMeshKind::contracted);
+  if (surface.probe_radius > 0.0 && edge >= RemeshTuning::long_edge) all.push_back(BaseMeshKind::coarse);
+  all.push_back(BaseMeshKind::patches);
   return all;
 }
 
-/// Triangles at vertices that changed since crossings were searched for last.
+/// Returns the triangles at vertices that changed since crossings were last searched for.
 std::vector<std::uint32_t> unchecked_triangles(const MeshOnSurface& mesh,
                                                std::span<const std::array<std::uint32_t, 3>> all) {
   std::vector<std::uint32_t> unchecked;
@@ -45,13 +46,15 @@ std::vector<std::uint32_t> unchecked_triangles(const MeshOnSurface& mesh,
   return unchecked;
 }
 
+/// The triangles of a mesh that pass through others.
 struct CrossingTriangles {
-  std::vector<std::uint32_t> triangles;  ///< those that pass through others, ascending
-  bool crumpled = false;                 ///< so many others that single changes lead nowhere
+  std::vector<std::uint32_t> triangles;  ///< ascending
+  bool has_too_many = false;             ///< true if there are so many crossings that single changes lead nowhere
 };
 
-/// Two triangles that did not pass through one another when this was asked last, and have not changed, do not now.
-CrossingTriangles crossing(MeshOnSurface& mesh) {
+/// Finds the triangles that pass through others. Pairs that did not cross at the last search and have not changed are
+/// known not to cross.
+CrossingTriangles find_crossings(MeshOnSurface& mesh) {
   const auto all = all_triangles(mesh.links());
   const std::vector<std::uint32_t> unchecked = unchecked_triangles(mesh, all);
   const bool few = unchecked.size() < all.size() / RemeshTuning::few_unchecked;
@@ -69,8 +72,8 @@ CrossingTriangles crossing(MeshOnSurface& mesh) {
   return found;
 }
 
-/// Triangles that pass through others once their vertices are rounded as files of single precision hold them,
-/// ascending.
+/// Returns, ascending, the triangles that pass through others once their vertices are rounded to single precision, as
+/// files hold them.
 std::vector<std::uint32_t> crossing_in_single_precision(const MeshOnSurface& mesh) {
   std::vector<glm::dvec3> rounded;
   rounded.reserve(mesh.positions().size());
@@ -88,8 +91,8 @@ std::vector<std::uint32_t> triangles_of(const std::vector<PointAtTriangle>& poin
   return triangles;
 }
 
-/// A triangle and what is as near as its longest edge is long.
-Ball around(const PlacedTriangle& t) {
+/// Returns the ball that holds a triangle and what is as near to it as its longest edge is long.
+Ball ball_around(const PlacedTriangle& t) {
   const glm::dvec3 middle = (t.at[0] + t.at[1] + t.at[2]) / 3.0;
   double reach = 0.0, longest = 0.0;
   for (int k = 0; k < 3; ++k) {
@@ -113,7 +116,7 @@ void add_vertices(const MeshOnSurface& from, FineMesh& even) {
   });
 }
 
-/// A triangle is of the face below its middle.
+/// Adds the triangles; each belongs to the face below its centroid.
 void add_triangles(const MeshOnSurface& from, TriangleMesh& mesh) {
   mesh.triangles = all_triangles(from.links());
   const std::size_t count = mesh.triangles.size();
@@ -135,7 +138,7 @@ void add_triangles(const MeshOnSurface& from, TriangleMesh& mesh) {
   });
 }
 
-/// At vertices on creases each triangle has the normal of the face that it lies nearest to.
+/// Adds the creases. At vertices on creases each triangle has the normal of the face that it lies nearest to.
 void add_creases(const MeshOnSurface& from, TriangleMesh& mesh) {
   const HalfEdges& links = from.links();
   const Surface& surface = from.surface();
@@ -148,7 +151,7 @@ void add_creases(const MeshOnSurface& from, TriangleMesh& mesh) {
     const auto& [a, b, c] = mesh.triangles[half / 3];
     const glm::dvec3 flat = glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
     glm::dvec3 best = mesh.normals[v];
-    links.around(v, [&](std::uint32_t edge) {
+    links.for_each_leaving(v, [&](std::uint32_t edge) {
       if (links.crease(edge) == kNone) return;
       for (const glm::dvec3& n : crease_normals(surface, surface.borders[links.crease(edge)], mesh.positions[v]))
         if (glm::dot(n, flat) > glm::dot(best, flat)) best = n;
@@ -161,7 +164,8 @@ void add_creases(const MeshOnSurface& from, TriangleMesh& mesh) {
     if (const double size = glm::length(sum[v]); size > 1e-6) mesh.normals[v] = sum[v] / size;
 }
 
-FineMesh rows_of(const MeshOnSurface& mesh, double tolerance) {
+/// Returns the tables of a finished mesh.
+FineMesh to_fine_mesh(const MeshOnSurface& mesh, double tolerance) {
   FineMesh even;
   add_vertices(mesh, even);
   add_triangles(mesh, even.mesh);
@@ -170,56 +174,59 @@ FineMesh rows_of(const MeshOnSurface& mesh, double tolerance) {
   return even;
 }
 
+/// Remeshes a surface from one kind of base mesh, in several attempts.
 class EvenMeshing {
  public:
-  /// attempts: how often a mesh was begun, counted on.
-  EvenMeshing(const Surface& surface, const EvenMeshOptions& options, bool follow_creases, Beginning beginning,
+  /// `attempts` counts the attempts of all kinds of base meshes.
+  EvenMeshing(const Surface& surface, const EvenMeshOptions& options, bool follow_creases, BaseMeshKind kind,
               std::uint32_t& attempts)
       : surface_(surface),
         options_(options),
         sizes_(surface, options),
         follow_creases_(follow_creases),
-        contracted_(beginning == Beginning::contracted),
+        contracted_(kind == BaseMeshKind::contracted),
         attempts_(attempts),
         creased_(surface.components.size(), false),
         walk_(surface),
-        base_(base_mesh(surface, walk_, beginning, RemeshTuning::coarser_base * sizes_.tolerance())),
+        base_(base_mesh(surface, walk_, kind, RemeshTuning::coarser_base * sizes_.tolerance())),
         nearness_(surface, walk_, sizes_) {}
 
   FineMesh run() {
-    std::vector<Ball> watched;
+    std::vector<Ball> guarded;
     for (int attempt = 1;; ++attempt) {
       if (attempt == RemeshTuning::first_frozen && !sizes_.by_density())
-        base_ = base_mesh(surface_, walk_, Beginning::patches, RemeshTuning::kept_base * options_.tolerance);
+        base_ = base_mesh(surface_, walk_, BaseMeshKind::patches, RemeshTuning::kept_base * options_.tolerance);
       ++attempts_;
-      start(watched);
-      if (attempt >= RemeshTuning::first_frozen && !contracted_) freeze_watched();
+      start_attempt(guarded);
+      if (attempt >= RemeshTuning::first_frozen && !contracted_) freeze_guarded();
       std::vector<std::uint32_t> bad = even_out(attempt >= RemeshTuning::first_unmended);
-      if (bad.empty()) bad = of_other_volume();
-      if (bad.empty()) bad = crossing_of_all();
+      if (bad.empty()) bad = triangles_of_wrong_volume();
+      if (bad.empty()) bad = find_all_crossings();
       if (bad.empty()) break;
-      if (attempt == (contracted_ ? RemeshTuning::contracted_attempts : RemeshTuning::attempts))
+      if (attempt == (contracted_ ? RemeshTuning::contracted_attempts : RemeshTuning::most_attempts))
         throw OpenSurfaceError(fmt::format(
             "no even mesh was found: {} triangles still cross others, lie too far from the surface or bound "
             "another volume; ask for a finer one",
             bad.size()));
-      for (Ball& place : watched) place.radius *= RemeshTuning::wider;
-      for (const std::uint32_t t : bad) watched.push_back(around(mesh_->placed(t)));
+      for (Ball& place : guarded) place.radius *= RemeshTuning::place_growth;
+      for (const std::uint32_t t : bad) guarded.push_back(ball_around(mesh_->placed(t)));
     }
-    FineMesh even = rows_of(*mesh_, sizes_.by_density() ? 0.0 : options_.tolerance);
+    FineMesh even = to_fine_mesh(*mesh_, sizes_.by_density() ? 0.0 : options_.tolerance);
     even.attempts = attempts_;
     return even;
   }
 
  private:
-  void start(const std::vector<Ball>& watched) {
-    if (!sizes_.by_density()) nearness_.ask_for(base_);
+  /// Begins an attempt with the base mesh; crossings are checked in the guarded balls.
+  void start_attempt(const std::vector<Ball>& guarded) {
+    if (!sizes_.by_density()) nearness_.set_targets(base_);
     walk_.bar(std::vector<bool>(surface_.borders.size(), false));
-    mesh_.emplace(surface_, walk_, base_.mesh, base_.vertex_face, creases(),
+    mesh_.emplace(surface_, walk_, base_.mesh, base_.vertex_face, creases_to_follow(),
                   [this](const SurfacePoint& at) { return sizes_.edge_at(at); });
-    mesh_->guard().watch(watched);
+    mesh_->guard().guard_balls(guarded);
   }
-  std::vector<bool> creases() const {
+  /// Returns true for each border that edges follow.
+  std::vector<bool> creases_to_follow() const {
     // By tolerance, creases of bare balls cost minutes, and triangles come near enough without them.
     const bool of_bare_balls = surface_.probe_radius == 0.0 && !sizes_.by_density();
     if (!follow_creases_ || of_bare_balls) return std::vector<bool>(surface_.borders.size(), false);
@@ -231,13 +238,14 @@ class EvenMeshing {
     }
     return keep;
   }
-  void freeze_watched() {
+  /// Keeps the base mesh where the guard is active.
+  void freeze_guarded() {
     for (std::uint32_t v = 0; v < mesh_->links().vertex_count(); ++v)
-      mesh_->vertex(v).frozen = mesh_->guard().watches(v);
+      mesh_->vertex(v).frozen = mesh_->guard().is_guarded(v);
   }
 
-  /// Returns triangles that pass through others and would not part, or that would not come near enough, or none. If
-  /// slivers may stay, none are mended in a mesh that is as promised already.
+  /// Remeshes in rounds. Returns triangles that pass through others and could not be separated, or that could not be
+  /// brought near enough, or none. If `slivers_may_stay`, no slivers are mended in a mesh that already is as promised.
   std::vector<std::uint32_t> even_out(bool slivers_may_stay) {
     Remesher remesher(*mesh_);
     if (sizes_.by_density()) remesher.approach();
@@ -251,30 +259,31 @@ class EvenMeshing {
         RemeshTuning::most_growth * mesh_->links().triangle_count() + RemeshTuning::growth_allowed;
     for (int n = 1;; ++n) {
       if (!sizes_.by_density())
-        if (std::vector<std::uint32_t> far = come_near(most); !far.empty()) return far;
-      const CrossingTriangles now = crossing(*mesh_);
-      if (now.crumpled) return now.triangles;
-      if (slivers_may_stay && !sizes_.by_density() && now.triangles.empty() && nearness_.reaches_all(*mesh_)) return {};
+        if (std::vector<std::uint32_t> far = refine_far(most); !far.empty()) return far;
+      const CrossingTriangles now = find_crossings(*mesh_);
+      if (now.has_too_many) return now.triangles;
+      if (slivers_may_stay && !sizes_.by_density() && now.triangles.empty() && nearness_.reaches_fine_vertices(*mesh_))
+        return {};
       mend(now.triangles);
-      std::vector<std::uint32_t> bad = crossing(*mesh_).triangles;
-      if (sizes_.by_density()) bad = part(std::move(bad));
+      std::vector<std::uint32_t> bad = find_crossings(*mesh_).triangles;
+      if (sizes_.by_density()) bad = separate_crossings(std::move(bad));
       if (!bad.empty() || sizes_.by_density()) return bad;
-      bad = triangles_of(nearness_.too_far(*mesh_));
-      if (bad.empty() && nearness_.reaches_all(*mesh_)) return bad;
+      bad = triangles_of(nearness_.find_far_triangles(*mesh_));
+      if (bad.empty() && nearness_.reaches_fine_vertices(*mesh_)) return bad;
       if (n == RemeshTuning::mendings) return bad;
     }
   }
 
-  /// The last word, whatever is known to have changed: of the positions as they are, and as files of single precision
-  /// hold them.
-  std::vector<std::uint32_t> crossing_of_all() {
+  /// Searches all triangles for crossings, as a last check that does not rely on which have changed: at their
+  /// positions, and at those rounded to the single precision of files.
+  std::vector<std::uint32_t> find_all_crossings() {
     for (std::uint32_t v = 0; v < mesh_->links().vertex_count(); ++v) mesh_->vertex(v).unchecked = true;
-    std::vector<std::uint32_t> bad = crossing(*mesh_).triangles;
+    std::vector<std::uint32_t> bad = find_crossings(*mesh_).triangles;
     return bad.empty() ? crossing_in_single_precision(*mesh_) : bad;
   }
 
   MeshMender mender() {
-    const auto allowed = [this](const PlacedTriangle& t) { return !nearness_.far_place(*mesh_, t); };
+    const auto allowed = [this](const PlacedTriangle& t) { return !nearness_.find_far_place(*mesh_, t); };
     if (!sizes_.by_density()) return {*mesh_, allowed};
     return {*mesh_, [](const PlacedTriangle&) { return true; },
             RemeshTuning::least_work + RemeshTuning::most_work_each * mesh_->links().triangle_count()};
@@ -284,63 +293,63 @@ class EvenMeshing {
     mesh_->compact();
   }
 
-  /// Makes triangles smaller where few pass through others, as long as that helps; returns those that still do. Where
-  /// very few do, new ones may pass through none at first; where that leaves all as it was, for halves of triangles
-  /// that cross do, too, they may.
-  std::vector<std::uint32_t> part(std::vector<std::uint32_t> bad) {
-    const std::size_t most =
-        std::max(RemeshTuning::few_far, std::size_t{mesh_->links().triangle_count()} / RemeshTuning::most_parted);
+  /// Refines triangles that pass through others, if they are few and as long as that helps; returns those that still
+  /// do. If they are very few, new triangles must not cross others at first. If that achieves nothing, because halves
+  /// of crossing triangles cross, too, they may.
+  std::vector<std::uint32_t> separate_crossings(std::vector<std::uint32_t> bad) {
+    const std::size_t most = std::max(
+        RemeshTuning::few_far, std::size_t{mesh_->links().triangle_count()} / RemeshTuning::triangles_per_crossing);
     std::size_t fewest = bad.size();
-    bool guarded = bad.size() <= RemeshTuning::few_far;
-    for (int n = 0, idle = 0;
-         n < RemeshTuning::partings && idle < RemeshTuning::idle_refinements && !bad.empty() && bad.size() <= most;
+    bool is_guarded = bad.size() <= RemeshTuning::few_far;
+    for (int n = 0, futile = 0; n < RemeshTuning::crossing_refinements && futile < RemeshTuning::futile_refinements &&
+                                !bad.empty() && bad.size() <= most;
          ++n) {
-      if (guarded) mesh_->guard().watch_around(bad);
-      const std::size_t sane = mesh_->links().triangle_count() + RemeshTuning::most_growth_each * bad.size();
+      if (is_guarded) mesh_->guard().guard_around(bad);
+      const std::size_t most_triangles = mesh_->links().triangle_count() + RemeshTuning::most_growth_each * bad.size();
       refine(bad);
-      if (mesh_->links().triangle_count() > sane) return crossing_of_all();
+      if (mesh_->links().triangle_count() > most_triangles) return find_all_crossings();
       mender().mend_only(unchecked_triangles(*mesh_, all_triangles(mesh_->links())));
       mesh_->compact();
-      bad = crossing(*mesh_).triangles;
+      bad = find_crossings(*mesh_).triangles;
       const bool helped = bad.size() < fewest;
-      idle = helped ? 0 : idle + 1;
-      if (!helped) guarded = !guarded;
+      futile = helped ? 0 : futile + 1;
+      if (!helped) is_guarded = !is_guarded;
       fewest = std::min(fewest, bad.size());
     }
     return bad;
   }
 
-  /// Makes triangles smaller where they are too far away; returns those that stay.
-  std::vector<std::uint32_t> come_near(std::uint32_t most) {
-    std::vector<PointAtTriangle> far = nearness_.too_far(*mesh_);
+  /// Refines triangles that are too far away; returns those that remain so.
+  std::vector<std::uint32_t> refine_far(std::uint32_t most) {
+    std::vector<PointAtTriangle> far = nearness_.find_far_triangles(*mesh_);
     std::size_t fewest = far.size();
-    for (int round = 0, idle = 0;
-         round < RemeshTuning::refinements && idle < RemeshTuning::idle_refinements && !far.empty(); ++round) {
+    for (int round = 0, futile = 0;
+         round < RemeshTuning::refinements && futile < RemeshTuning::futile_refinements && !far.empty(); ++round) {
       if (mesh_->links().triangle_count() > most) break;
       if (far.size() > RemeshTuning::few_far) {
         refine(triangles_of(far));
-        far = nearness_.too_far(*mesh_);
+        far = nearness_.find_far_triangles(*mesh_);
       } else {
-        mender().reach(far);
+        mender().insert_points(far);
       }
       if (far.size() <= mesh_->links().triangle_count() / RemeshTuning::most_mended) mend(triangles_of(far));
-      far = nearness_.too_far(*mesh_);
-      idle = far.size() < fewest ? 0 : idle + 1;
+      far = nearness_.find_far_triangles(*mesh_);
+      futile = far.size() < fewest ? 0 : futile + 1;
       fewest = std::min(fewest, far.size());
     }
     return triangles_of(far);
   }
   void refine(const std::vector<std::uint32_t>& triangles) {
     Remesher remesher(*mesh_);
-    remesher.refine(triangles, RemeshTuning::finer);
+    remesher.refine(triangles, RemeshTuning::refinement_factor);
     remesher.even_out(RemeshTuning::refined_rounds);
     mesh_->compact();
   }
 
-  /// Splits, collapses and flips keep the topology; that triangles look outwards is seen from the volumes. Returns the
-  /// triangles of components that have another volume than the surface's; from now on they end at all their creases,
-  /// however short these are.
-  std::vector<std::uint32_t> of_other_volume() {
+  /// Returns the triangles of components with a volume other than the surface's. Splits, collapses and flips keep the
+  /// topology, but only the volumes show whether triangles face outward. From now on the triangles of these components
+  /// end at all their creases, however short these are.
+  std::vector<std::uint32_t> triangles_of_wrong_volume() {
     TriangleMesh mesh;
     mesh.positions = mesh_->positions();
     mesh.triangles = all_triangles(mesh_->links());
@@ -367,7 +376,7 @@ class EvenMeshing {
   EvenSizes sizes_;
   bool follow_creases_, contracted_;
   std::uint32_t& attempts_;
-  std::vector<bool> creased_;  ///< per component
+  std::vector<bool> creased_;  ///< per component: true if edges follow all its creases
   SurfaceWalk walk_;
   BaseMesh base_;
   MeshNearness nearness_;
@@ -382,15 +391,16 @@ FineMesh even_mesh(const Surface& surface, const EvenMeshOptions& options) {
                             kLargestDensity));
   if (options.density == 0.0 && !(options.tolerance > 0.0 && std::isfinite(options.tolerance)))
     throw Error(fmt::format("mesh tolerance: {} Å; give a number above 0", options.tolerance));
-  // Where creases crowd, triangles that have to end at them may find no place; without that they are smaller there.
+  // Where creases crowd, triangles that have to end at them may find no place. The last try ignores creases, and
+  // triangles become smaller there.
   std::uint32_t attempts = 0;
-  for (const Beginning beginning : beginnings(surface, options)) {
+  for (const BaseMeshKind kind : suitable_kinds(surface, options)) {
     try {
-      return EvenMeshing(surface, options, true, beginning, attempts).run();
+      return EvenMeshing(surface, options, true, kind, attempts).run();
     } catch (const OpenSurfaceError&) {
     }
   }
-  return EvenMeshing(surface, options, false, Beginning::patches, attempts).run();
+  return EvenMeshing(surface, options, false, BaseMeshKind::patches, attempts).run();
 }
 
 }  // namespace meniscus

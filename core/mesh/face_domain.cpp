@@ -9,20 +9,20 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/mesh/even_sizes.h"
+#include "core/mesh/remesh_tuning.h"
 #include "core/surface/walks.h"
 
 namespace meniscus {
 namespace {
 
-/// Share of a full turn that a spindle's half takes up in the plane: that of the unrolled cone at its tip, but neither
-/// so much that the sides of a full turn meet nor, where the tube just touches the axis, nothing.
+/// The range of the share of a full turn that a spindle's half occupies in the plane. The share is that of the unrolled
+/// cone at its tip, but not so large that the sides of a full turn meet, nor zero where the tube just touches the axis.
 constexpr double kNarrowestOpening = 0.1;
 constexpr double kWidestOpening = 0.9;
 /// Keeps the radial coordinate of tubes that just touch their axis from becoming constant.
 constexpr double kSmallestTip = 0.05;
 
-/// Any unit vector perpendicular to a unit vector.
+/// Returns any unit vector perpendicular to a unit vector.
 glm::dvec3 perpendicular(const glm::dvec3& v) {
   const glm::dvec3 other = std::abs(v.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   return glm::normalize(glm::cross(v, other));
@@ -79,7 +79,7 @@ TorusDomain::TorusDomain(const ToroidalPatch& patch, double tube_radius, int pie
     : patch_(patch),
       tube_radius_(tube_radius),
       piece_(piece),
-      spindle_(patch.face_count == 2 || !patch.has_piece[0] || !patch.has_piece[1]) {
+      is_spindle_(patch.face_count == 2 || !patch.has_piece[0] || !patch.has_piece[1]) {
   if (patch.radius <= tube_radius) {
     tip_ = std::acos(patch.radius / tube_radius);
     tan_tip_ = std::sqrt((tube_radius - patch.radius) / (tube_radius + patch.radius));
@@ -97,11 +97,11 @@ glm::dvec2 TorusDomain::flat(const FacePoint& point) const {
   const double theta = point.angles.x, half_tan = std::tan(0.5 * point.angles.y);
   if (tube_radius_ == 0.0) return point.angles;  // a saddle without width: any map will do
   // d(height) = p d(tube) / (distance from the axis), integrated in closed form.
-  if (!spindle_ && tip_ > 0.0) {
+  if (!is_spindle_ && tip_ > 0.0) {
     const double t = std::abs(half_tan), height = std::log((t - tan_tip_) / (t + tan_tip_)) / std::sin(tip_);
     return {theta, half_tan < 0.0 ? -height : height};
   }
-  if (!spindle_) {
+  if (!is_spindle_) {
     const double ratio = std::max(patch_.radius / tube_radius_, 1.0 + 1e-9);
     const double root = std::sqrt((ratio - 1.0) * (ratio + 1.0));
     return {theta, 2.0 / root * std::atan(std::sqrt((ratio + 1.0) / (ratio - 1.0)) * half_tan)};
@@ -115,11 +115,11 @@ glm::dvec2 TorusDomain::flat(const FacePoint& point) const {
 
 FacePoint TorusDomain::between(const std::array<const FacePoint*, 3>& points,
                                const std::array<double, 3>& weights) const {
-  // The tip of a spindle has every theta: it takes that of the others.
+  // The tip of a spindle has every theta, so only the other points determine it.
   double theta = 0.0, tube = 0.0, share = 0.0;
   for (int k = 0; k < 3; ++k) {
     tube += weights[k] * points[k]->angles.y;
-    if (weights[k] == 0.0 || (spindle_ && points[k]->angles.y == tip_angle())) continue;
+    if (weights[k] == 0.0 || (is_spindle_ && points[k]->angles.y == tip_angle())) continue;
     theta += weights[k] * points[k]->angles.x;
     share += weights[k];
   }
@@ -128,7 +128,7 @@ FacePoint TorusDomain::between(const std::array<const FacePoint*, 3>& points,
 
 double TorusDomain::deviation(const FacePoint& a, const FacePoint& b, const FacePoint& c) const {
   double worst = 0.0;
-  for (const auto& w : RemeshTuning::places) {
+  for (const auto& w : RemeshTuning::sample_weights) {
     const glm::dvec3 x = w[0] * a.position + w[1] * b.position + w[2] * c.position - patch_.center;
     const double height = glm::dot(x, patch_.axis);
     const double out = glm::length(x - height * patch_.axis) - patch_.radius;
@@ -144,7 +144,7 @@ glm::dvec3 TorusDomain::normal(const FacePoint& point) const {
 }
 
 glm::dvec3 TorusDomain::corner_normal(const FacePoint& point, const FacePoint& next, const FacePoint& last) const {
-  if (!spindle_ || point.angles.y != tip_angle()) return normal(point);
+  if (!is_spindle_ || point.angles.y != tip_angle()) return normal(point);
   return normal({point.position, {0.5 * (next.angles.x + last.angles.x), point.angles.y}});
 }
 
@@ -187,7 +187,7 @@ int lattice_frequency(double angle) {
 SphereLattice sphere_lattice(int frequency) {
   const auto corner = icosahedron();
   SphereLattice lattice;
-  // A lattice point is known by its barycentric weights on the named corners, so sides share their rims.
+  // A lattice point is identified by its barycentric weights at the named corners, so that sides share their rims.
   std::map<std::array<int, 6>, std::uint32_t> known;
   auto point = [&](const std::array<int, 3>& side, int a, int b, int c) {
     std::array<std::array<int, 2>, 3> part{{{side[0], a}, {side[1], b}, {side[2], c}}};

@@ -19,11 +19,11 @@ namespace {
 /// Segments shorter than this (Å) are not halved further to untangle a rim.
 constexpr double kShortestSegment = 1e-6;
 constexpr int kRefinementRounds = 12;
-constexpr int kPartingRounds = 32;  // of doubled edges: each halves some, and one or two rounds are usual
+constexpr int kPartingRounds = 32;  // to split doubled edges: each round halves some, and one or two are usual
 constexpr int kManyRimPoints = 200;
 constexpr int kBoxCorners = 4;
 
-/// The flat plane of a face, laid on the integer grid.
+/// The plane of a face, laid on the integer grid.
 class Grid {
  public:
   explicit Grid(const std::vector<glm::dvec2>& rim) {
@@ -36,7 +36,7 @@ class Grid {
     scale_ = (double(kGridLimit) - 16.0) / std::max(0.5 * std::max(extent.x, extent.y), 1e-300);
   }
   bool covers(const glm::dvec2& p) const { return p.x > low_.x && p.y > low_.y && p.x < high_.x && p.y < high_.y; }
-  /// Is there a grid point at all?
+  /// True if the integer grid extends to the point, which may lie beyond the rim.
   bool reaches(const glm::dvec2& p) const {
     const glm::dvec2 q = glm::abs(p - 0.5 * (low_ + high_)) * scale_;
     return std::max(q.x, q.y) < double(kGridLimit);
@@ -51,6 +51,7 @@ class Grid {
   double scale_ = 1.0;
 };
 
+/// Triangulates a face by a constrained Delaunay triangulation of its plane.
 class FaceFiller {
  public:
   FaceFiller(FaceOutline outline, double tolerance) : outline_(std::move(outline)), tolerance_(tolerance) {}
@@ -69,7 +70,7 @@ class FaceFiller {
         if (too_coarse_.empty()) return extract();
       } else {
         // The chords of a rim with few points may enclose the wrong side.
-        for (int e = 0; e < rim_count() && rim_count() < kManyRimPoints; ++e) ask_for_split(e);
+        for (int e = 0; e < rim_count() && rim_count() < kManyRimPoints; ++e) request_split(e);
       }
     }
     FaceMesh failed;
@@ -80,7 +81,8 @@ class FaceFiller {
  private:
   int rim_count() const { return static_cast<int>(outline_.points.size()); }
 
-  /// Rim points that fall on one grid point are set apart by a few grid steps, some 1e-8 of the face.
+  /// Inserts the rim. Rim points that fall on one grid point are set apart by a few grid steps, some 1e-8 of the face.
+  /// Returns false if edges of the rim cross or meet.
   bool insert_rim(const Grid& grid, const std::vector<glm::dvec2>& flat) {
     for (int i = 0; i < rim_count(); ++i) {
       const GridPoint at = grid.at(flat[i]);
@@ -95,16 +97,17 @@ class FaceFiller {
       const auto conflict = plane_.constrain(kBoxCorners + a, kBoxCorners + b, e);
       if (!conflict) continue;
       const int other = conflict->segment >= 0 && length(conflict->segment) > length(e) ? conflict->segment : e;
-      ask_for_split(other);
-      blocked_ = true;
+      request_split(other);
+      is_blocked_ = true;
     }
-    return !blocked_;
+    return !is_blocked_;
   }
   double length(int edge) const {
     return glm::distance(outline_.points[outline_.edges[edge][0]].position,
                          outline_.points[outline_.edges[edge][1]].position);
   }
-  void ask_for_split(int edge) {
+  /// Requests that the border segment of a rim edge is split, unless it is too short.
+  void request_split(int edge) {
     const Segment& s = outline_.segments[edge];
     if (s.border != kNone && length(edge) > kShortestSegment) too_coarse_.push_back(s);
   }
@@ -127,8 +130,9 @@ class FaceFiller {
     return i < rim_count() ? outline_.points[i] : inner_[i - rim_count()];
   }
 
-  /// Splits the longest inner edge of each triangle that is too far from the surface, or its middle. Where that lies
-  /// beyond the chord of a rim, as on spindles, whose contact circles bulge in the plane, the rim is split instead.
+  /// Splits the longest edge of each triangle that is too far from the surface or, if that is on the rim, the
+  /// triangle's middle. Where the new point lies beyond the chord of a rim, as on spindles with contact circles that
+  /// bulge in the plane, the rim is split instead.
   void refine(const Grid& grid) {
     for (int round = 0; round < kRefinementRounds; ++round) {
       std::vector<FacePoint> wanted;
@@ -153,7 +157,7 @@ class FaceFiller {
           wanted.push_back(middle);
         else
           for (const int edge : t.segment)
-            if (edge >= 0) ask_for_split(edge);
+            if (edge >= 0) request_split(edge);
       }
       if (wanted.empty()) return;
       for (const FacePoint& p : wanted) insert(grid.at(outline_.domain->flat(p)), p);
@@ -194,7 +198,7 @@ class FaceFiller {
   PlanarTriangulation plane_;
   std::vector<FacePoint> inner_;
   std::vector<Segment> too_coarse_;
-  bool blocked_ = false;
+  bool is_blocked_ = false;
 };
 
 }  // namespace
@@ -217,7 +221,7 @@ FaceMesh fan_outline(FaceOutline outline) {
   return mesh;
 }
 
-void part_doubled_edges(FaceMesh& mesh) {
+void split_doubled_edges(FaceMesh& mesh) {
   std::map<BorderPoint, std::uint32_t> first;
   std::vector<std::uint32_t> same(mesh.rim.size());
   for (std::uint32_t i = 0; i < same.size(); ++i) same[i] = first.try_emplace(mesh.rim[i], i).first->second;
@@ -230,7 +234,7 @@ void part_doubled_edges(FaceMesh& mesh) {
   int round = 0;
   for (bool again = true; again; ++round) {
     if (round == kPartingRounds) throw OpenSurfaceError("edges of the mesh coincide; give another tolerance");
-    std::map<Edge, Edge> seen;  // by name: the first edge found
+    std::map<Edge, Edge> seen;  // by the names of its ends: the first edge found
     for (const auto& [a, b] : rim) seen.try_emplace(ordered(named(a), named(b)), Edge(a, b));
     std::set<Edge> doubled;
     for (const auto& t : mesh.triangles) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fills faces with triangles in rounds: a rim whose chords cross asks for finer samples, and with it the face beyond.
+// Fills faces with triangles in rounds: a rim with chords that cross gets finer samples, and so does the face beyond
+// it.
 #include "core/mesh/filled_faces.h"
 
 #include <set>
@@ -13,13 +14,13 @@
 namespace meniscus {
 namespace {
 
-/// Rims that cross themselves are sampled finer this often before a face is given up.
+/// The most rounds in which rims that cross themselves are sampled more finely before a face is given up.
 constexpr int kUntanglingRounds = 24;
 
 }  // namespace
 
 FaceFilling::FaceFilling(const Surface& surface, const EdgeRule& rule, BorderSamples& samples)
-    : surface_(surface), rule_(rule), samples_(samples), asked_(surface.faces.size(), false) {}
+    : surface_(surface), rule_(rule), samples_(samples), is_requested_(surface.faces.size(), false) {}
 
 void FaceFilling::make_lattices(const std::vector<std::uint32_t>& faces) {
   for (const std::uint32_t f : faces) {
@@ -42,7 +43,7 @@ FaceMesh FaceFilling::filled(std::uint32_t f) const {
   FaceOutline rim = outline(f);
   if (rim.edges.size() < 3) return {};  // shrunk to a point or to one line
   FaceMesh mesh = fill_outline(std::move(rim), tolerance_of(rule_, surface_, face));
-  give_back_room(mesh);
+  shrink_lists(mesh);
   return mesh;
 }
 
@@ -59,7 +60,7 @@ void FaceFilling::fan(std::uint32_t f, FaceMesh& mesh) const {
 
 void FaceFilling::fill(std::vector<std::uint32_t> todo, std::vector<FaceMesh>& meshes) {
   make_lattices(todo);
-  for (const std::uint32_t f : todo) asked_[f] = true;
+  for (const std::uint32_t f : todo) is_requested_[f] = true;
   for (int round = 0; round < kUntanglingRounds && !todo.empty(); ++round) {
     tbb::parallel_for(std::size_t{0}, todo.size(), [&](std::size_t i) { meshes[todo[i]] = filled(todo[i]); });
     std::set<std::pair<std::uint32_t, std::uint32_t>> segments;
@@ -67,19 +68,19 @@ void FaceFilling::fill(std::vector<std::uint32_t> todo, std::vector<FaceMesh>& m
       for (const Segment& s : meshes[f].too_coarse) segments.insert({s.border, s.index});
     }
     std::set<std::uint32_t> dirty;
-    for (auto s = segments.rbegin(); s != segments.rend(); ++s) {  // from the back, so that indices stay true
+    for (auto s = segments.rbegin(); s != segments.rend(); ++s) {  // from the back, so that indices remain valid
       samples_.split(s->first, s->second);
       for (std::uint32_t f : surface_.borders[s->first].face)
-        if (asked_[f]) dirty.insert(f);
+        if (is_requested_[f]) dirty.insert(f);
     }
     todo.assign(dirty.begin(), dirty.end());
   }
   tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t f) {
-    if (asked_[f]) fan(static_cast<std::uint32_t>(f), meshes[f]);
+    if (is_requested_[f]) fan(static_cast<std::uint32_t>(f), meshes[f]);
   });
 }
 
-void give_back_room(FaceMesh& mesh) {
+void shrink_lists(FaceMesh& mesh) {
   mesh.points.shrink_to_fit();
   mesh.triangles.shrink_to_fit();
   mesh.atom.shrink_to_fit();

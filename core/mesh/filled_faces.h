@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faces filled with triangles, each by itself, between samples of borders that both sides of a border share.
+// Fills faces with triangles, each by itself, between border samples that both sides of a border share.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,15 @@
 
 namespace meniscus {
 
+/// Fills faces with triangles, and samples borders more finely where that fails.
 class FaceFilling {
  public:
-  /// All three must live as long; borders whose chords tangle are sampled finer.
+  /// All three arguments must outlive this object. Borders with chords that cross are sampled more finely.
   FaceFilling(const Surface& surface, const EdgeRule& rule, BorderSamples& samples);
 
-  /// Fills these faces of the surface into `meshes`, one for each face of the surface; a face whose border was sampled
-  /// finer is filled again if it was filled before. What shrunk to a point or to one line has no triangles.
-  /// Throws OpenSurfaceError where borders cross.
+  /// Fills these faces of the surface into `meshes`, which has one entry for each face of the surface. If a border is
+  /// sampled more finely, the faces at it that were filled before are filled again. A face that shrank to a point or to
+  /// one line has no triangles. Throws OpenSurfaceError if borders cross.
   void fill(std::vector<std::uint32_t> faces, std::vector<FaceMesh>& meshes);
 
  private:
@@ -33,10 +34,10 @@ class FaceFilling {
   const EdgeRule& rule_;
   BorderSamples& samples_;
   std::map<int, SphereLattice> lattices_;
-  std::vector<bool> asked_;  ///< per face of the surface
+  std::vector<bool> is_requested_;  ///< per face of the surface: true if it was to be filled
 };
 
-/// Lists that grew row by row have room for half as much again.
-void give_back_room(FaceMesh& mesh);
+/// Frees the unused capacity of lists that grew row by row, which is up to half of their size.
+void shrink_lists(FaceMesh& mesh);
 
 }  // namespace meniscus

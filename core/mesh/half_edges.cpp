@@ -11,7 +11,7 @@
 namespace meniscus {
 namespace {
 
-/// Neighbours of a vertex that are compared at once; few vertices have more.
+/// The number of neighbours of a vertex that are compared at once; few vertices have more.
 constexpr std::size_t kRing = 16;
 
 }  // namespace
@@ -52,7 +52,7 @@ HalfEdges::HalfEdges(std::span<const std::array<std::uint32_t, 3>> triangles, co
 
 std::uint32_t HalfEdges::between(std::uint32_t a, std::uint32_t b) const {
   std::uint32_t found = kNone;
-  around(a, [&](std::uint32_t half) {
+  for_each_leaving(a, [&](std::uint32_t half) {
     if (to(half) == b) found = half;
   });
   return found;
@@ -122,8 +122,8 @@ void HalfEdges::unpoke(std::uint32_t half) {
   for (const std::uint32_t t : {mb / 3, am / 3}) from_[3 * t] = from_[3 * t + 1] = from_[3 * t + 2] = kNone;
 }
 
-/// Of a closed mesh of one edge between two vertices: a third common neighbour would close a circle of three edges, and
-/// of a tetrahedron two triangles back to back would be left.
+/// Tests the link condition of a closed mesh without doubled edges: a third common neighbour would leave a cycle of
+/// three edges, and a tetrahedron would leave two triangles back to back.
 bool HalfEdges::can_collapse(std::uint32_t half) const {
   const CommonNeighbors neighbors = common_neighbors(*this, from_[half], to(half));
   return neighbors.common == 2 && neighbors.sum > 6;
@@ -132,7 +132,7 @@ bool HalfEdges::can_collapse(std::uint32_t half) const {
 void HalfEdges::collapse(std::uint32_t half) {
   const std::uint32_t other = twin_[half];
   const std::uint32_t a = from_[half], b = to(half), c = opposite(half), d = opposite(other);
-  std::uint32_t rim = half;  // all that leave a leave b from now on
+  std::uint32_t rim = half;  // half-edges that left a leave b from now on
   do {
     const std::uint32_t following = next(twin_[rim]);
     from_[rim] = b;
@@ -199,13 +199,13 @@ void HalfEdges::put_first(std::uint32_t half) {
 std::vector<std::uint32_t> HalfEdges::compact() {
   std::vector<std::uint32_t> old_vertex, new_vertex(vertex_count(), kNone), new_half(half_edge_count(), kNone);
   for (std::uint32_t v = 0; v < vertex_count(); ++v) {
-    if (!vertex_lives(v)) continue;
+    if (!is_vertex_alive(v)) continue;
     new_vertex[v] = static_cast<std::uint32_t>(old_vertex.size());
     old_vertex.push_back(v);
   }
   std::uint32_t count = 0;
   for (std::uint32_t half = 0; half < half_edge_count(); ++half)
-    if (lives(half)) new_half[half] = count++;
+    if (is_alive(half)) new_half[half] = count++;
   for (std::uint32_t half = 0; half < half_edge_count(); ++half) {
     if (new_half[half] == kNone) continue;
     from_[new_half[half]] = new_vertex[from_[half]];
@@ -221,18 +221,18 @@ std::vector<std::uint32_t> HalfEdges::compact() {
 }
 
 CommonNeighbors common_neighbors(const HalfEdges& links, std::uint32_t a, std::uint32_t b) {
-  std::array<std::uint32_t, kRing> ring{};  // some of those around a
+  std::array<std::uint32_t, kRing> ring{};  // some neighbours of a
   std::size_t count = 0;
   CommonNeighbors found;
   const auto compare = [&] {
     std::uint32_t neighbors = 0;
-    links.around(b, [&](std::uint32_t half) {
+    links.for_each_leaving(b, [&](std::uint32_t half) {
       found.common += std::find(ring.begin(), ring.begin() + count, links.to(half)) != ring.begin() + count;
       ++neighbors;
     });
     return neighbors;
   };
-  links.around(a, [&](std::uint32_t half) {
+  links.for_each_leaving(a, [&](std::uint32_t half) {
     ring[count++] = links.to(half);
     ++found.sum;
     if (count < kRing) return;
@@ -259,7 +259,7 @@ CornerLists::CornerLists(std::span<const std::array<std::uint32_t, 3>> triangles
     for (std::size_t k = 3; k-- > 0;) corners_[--first_[triangles[t][k]]] = --corner;
 }
 
-bool go_around_once(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint32_t> corners) {
+bool is_closed_fan(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint32_t> corners) {
   if (corners.size() < 3) return false;
   const auto after = [&](std::uint32_t c) { return triangles[c / 3][(c % 3 + 1) % 3]; };
   const auto before = [&](std::uint32_t c) { return triangles[c / 3][(c % 3 + 2) % 3]; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangle meshes whose edges can be split, collapsed and flipped without a change of topology.
+// The half-edge structure of triangle meshes, with splits, collapses and flips of edges that keep the topology.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace meniscus {
 
-/// Per vertex the corners (3 * triangle + 0..2) there, ascending. The triangles need not be a closed mesh, nor a
+/// Lists the corners (3 * triangle + 0..2) at each vertex, ascending. The triangles need not form a closed mesh or a
 /// manifold.
 class CornerLists {
  public:
@@ -23,21 +23,22 @@ class CornerLists {
   }
 
  private:
-  std::vector<std::uint32_t> first_;  ///< per vertex, and one more: into corners_
+  std::vector<std::uint32_t> first_;  ///< per vertex: the start of its corners in corners_, followed by their end
   std::vector<std::uint32_t> corners_;
 };
 
-/// Do the triangles at these corners of one vertex go around it once? Not if they are fewer than three.
-bool go_around_once(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint32_t> corners);
+/// True if the triangles at these corners of one vertex form a single closed fan around it; false for fewer than three.
+bool is_closed_fan(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint32_t> corners);
 
-/// Half-edge 3 t + k of triangle t goes from its corner k to corner (k + 1) % 3. Triangles and vertices that were taken
-/// away keep their numbers until compact().
+/// A half-edge structure. Half-edge 3 t + k of triangle t goes from its corner k to corner (k + 1) % 3. Triangles and
+/// vertices that were removed keep their numbers until compact().
 class HalfEdges {
  public:
-  /// triangles: closed; each edge has two, which walk it in opposite directions. Throws OpenSurfaceError otherwise.
+  /// Links a closed mesh, in which each edge has two triangles that traverse it in opposite directions. Throws
+  /// OpenSurfaceError for any other mesh.
   HalfEdges(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t vertex_count);
-  /// Of some triangles of a mesh; corners: of these. A half-edge without exactly one that goes back has no twin
-  /// (kNone). Only around vertices whose triangles go_around_once() may anything be asked or changed.
+  /// Links some triangles of a mesh; `corners` are the corners of these. A half-edge without exactly one reverse
+  /// half-edge has no twin (kNone). Only vertices with a closed fan (is_closed_fan()) may be queried or changed.
   static HalfEdges of_part(std::span<const std::array<std::uint32_t, 3>> triangles, const CornerLists& corners);
 
   static std::uint32_t next(std::uint32_t half) { return half % 3 == 2 ? half - 2 : half + 1; }
@@ -45,24 +46,24 @@ class HalfEdges {
   std::uint32_t half_edge_count() const { return static_cast<std::uint32_t>(from_.size()); }
   std::uint32_t triangle_count() const { return half_edge_count() / 3; }
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(leaving_.size()); }
-  bool lives(std::uint32_t half) const { return from_[half] != kNone; }
-  bool vertex_lives(std::uint32_t vertex) const { return leaving_[vertex] != kNone; }
+  bool is_alive(std::uint32_t half) const { return from_[half] != kNone; }
+  bool is_vertex_alive(std::uint32_t vertex) const { return leaving_[vertex] != kNone; }
   std::uint32_t from(std::uint32_t half) const { return from_[half]; }
   std::uint32_t to(std::uint32_t half) const { return from_[next(half)]; }
   std::uint32_t opposite(std::uint32_t half) const { return from_[last(half)]; }
   std::uint32_t twin(std::uint32_t half) const { return twin_[half]; }
-  /// Some half-edge that leaves a vertex, or kNone.
+  /// Returns a half-edge that leaves the vertex, or kNone if the vertex was removed.
   std::uint32_t leaving(std::uint32_t vertex) const { return leaving_[vertex]; }
   std::array<std::uint32_t, 3> corners(std::uint32_t triangle) const {
     return {from_[3 * triangle], from_[3 * triangle + 1], from_[3 * triangle + 2]};
   }
-  /// A border of the surface that the edge runs along, or kNone; the same for both half-edges.
+  /// Returns the border of the surface that the edge runs along, or kNone. It is the same for both half-edges.
   std::uint32_t crease(std::uint32_t half) const { return crease_[half]; }
   void set_crease(std::uint32_t half, std::uint32_t border) { crease_[half] = crease_[twin_[half]] = border; }
 
-  /// Calls visit(half-edge that leaves) for those around a vertex, clockwise.
+  /// Calls visit(half-edge) for the half-edges that leave a vertex, clockwise.
   template <typename Visit>
-  void around(std::uint32_t vertex, const Visit& visit) const {
+  void for_each_leaving(std::uint32_t vertex, const Visit& visit) const {
     const std::uint32_t first = leaving_[vertex];
     std::uint32_t half = first;
     do {
@@ -70,9 +71,9 @@ class HalfEdges {
       half = next(twin_[half]);
     } while (half != first);
   }
-  /// Is that so of each half-edge that leaves a vertex? Asked is no further than to the first of which it is not.
+  /// True if the predicate holds for each half-edge that leaves a vertex. Stops at the first for which it does not.
   template <typename Predicate>
-  bool all_around(std::uint32_t vertex, const Predicate& is_so) const {
+  bool all_leaving(std::uint32_t vertex, const Predicate& is_so) const {
     const std::uint32_t first = leaving_[vertex];
     std::uint32_t half = first;
     do {
@@ -83,31 +84,31 @@ class HalfEdges {
   }
   std::uint32_t valence(std::uint32_t vertex) const {
     std::uint32_t count = 0;
-    around(vertex, [&](std::uint32_t) { ++count; });
+    for_each_leaving(vertex, [&](std::uint32_t) { ++count; });
     return count;
   }
-  /// Some half-edge from one vertex to another, or kNone.
+  /// Returns a half-edge from one vertex to another, or kNone.
   std::uint32_t between(std::uint32_t from, std::uint32_t to) const;
 
-  /// Puts a new vertex on an edge, and returns it. Both halves keep the crease.
+  /// Inserts a new vertex on an edge, and returns it. Both halves keep the crease.
   std::uint32_t split(std::uint32_t half);
-  /// Puts a new vertex into a triangle, and returns it.
+  /// Inserts a new vertex into a triangle, and returns it.
   std::uint32_t poke(std::uint32_t triangle);
-  /// The inverse of poke(): takes out the vertex opposite to a half-edge, which has three edges. Of its triangles that
-  /// of the half-edge stays, and covers all three.
+  /// Inverts poke(): removes the vertex opposite to a half-edge, which has valence 3. The triangle of the half-edge
+  /// remains and covers all three.
   void unpoke(std::uint32_t half);
-  /// Would the surface stay a closed one of the same topology without this edge?
+  /// True if the surface remains closed, with the same topology, when this edge is collapsed.
   bool can_collapse(std::uint32_t half) const;
-  /// Moves the edge's first vertex into its second: it and two triangles are gone.
+  /// Merges the first vertex of an edge into its second. The first vertex and two triangles are removed.
   void collapse(std::uint32_t half);
-  /// Would the other diagonal be a new edge?
+  /// True if the edge is not a crease and the other diagonal would be a new edge.
   bool can_flip(std::uint32_t half) const;
-  /// Puts the other diagonal of the two triangles in its place.
+  /// Replaces an edge by the other diagonal of its two triangles.
   void flip(std::uint32_t half);
-  /// Renumbers the half-edges of a triangle in a circle, so that this one is its first.
+  /// Rotates the numbers of a triangle's half-edges so that this one is the first.
   void put_first(std::uint32_t half);
 
-  /// Renumbers what lives in order; returns the old number of each vertex.
+  /// Renumbers the remaining vertices and triangles in order; returns the old number of each vertex.
   std::vector<std::uint32_t> compact();
 
  private:
@@ -119,20 +120,20 @@ class HalfEdges {
     crease_[a] = crease_[b] = crease;
   }
 
-  std::vector<std::uint32_t> from_;     // per half-edge; kNone: its triangle is gone
-  std::vector<std::uint32_t> twin_;     // per half-edge
-  std::vector<std::uint32_t> crease_;   // per half-edge
-  std::vector<std::uint32_t> leaving_;  // per vertex: one half-edge; kNone: gone
+  std::vector<std::uint32_t> from_;     // per half-edge: its start; kNone: its triangle was removed
+  std::vector<std::uint32_t> twin_;     // per half-edge: its reverse, or kNone
+  std::vector<std::uint32_t> crease_;   // per half-edge: the border that it runs along, or kNone
+  std::vector<std::uint32_t> leaving_;  // per vertex: a half-edge that leaves it; kNone: it was removed
 };
 
-/// What two vertices have around them.
+/// Counts of the neighbours of two vertices.
 struct CommonNeighbors {
-  std::uint32_t common = 0;  ///< neighbours of both
-  std::uint32_t sum = 0;     ///< neighbours of the one and of the other, added up
+  std::uint32_t common = 0;  ///< number of vertices that are neighbours of both
+  std::uint32_t sum = 0;     ///< sum of the numbers of neighbours of each
 };
 CommonNeighbors common_neighbors(const HalfEdges& links, std::uint32_t a, std::uint32_t b);
 
-/// The corners of all triangles, none of which may be gone.
+/// Returns the corners of all triangles, none of which may have been removed.
 std::vector<std::array<std::uint32_t, 3>> all_triangles(const HalfEdges& links);
 
 }  // namespace meniscus

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes what a split, a collapse or a flip would make of a mesh, and where on the surface its vertex may go.
+// Finds the triangles that a change of a mesh makes, makes changes, and finds places for vertices on the surface.
 #include "core/mesh/mesh_change.h"
 
 #include <glm/geometric.hpp>
 
-#include "core/mesh/even_sizes.h"
+#include "core/mesh/remesh_tuning.h"
 
 namespace meniscus {
 
-Exchange exchange_by(const MeshOnSurface& mesh, const MeshChange& change) {
-  Exchange all;
-  all.made.reserve(RemeshTuning::most_mended_edges);
-  all.gone.reserve(RemeshTuning::most_mended_edges);
+TriangleExchange exchange_by(const MeshOnSurface& mesh, const MeshChange& change) {
+  TriangleExchange all;
+  all.made.reserve(RemeshTuning::largest_mended_valence);
+  all.removed.reserve(RemeshTuning::largest_mended_valence);
   for_each_made(mesh, change, [&](const PlacedTriangle& t) { all.made.push_back(t); });
-  for_each_gone(mesh, change, [&](std::uint32_t t) { all.gone.push_back(t); });
+  for_each_removed(mesh, change, [&](std::uint32_t t) { all.removed.push_back(t); });
   return all;
 }
 
-bool may_vanish(const MeshOnSurface& mesh, std::uint32_t half) {
+bool is_mergeable(const MeshOnSurface& mesh, std::uint32_t half) {
   const HalfEdges& links = mesh.links();
   const MeshVertex& vertex = mesh.vertex(links.from(half));
   if (vertex.pinned) return false;
@@ -28,12 +28,12 @@ bool may_vanish(const MeshOnSurface& mesh, std::uint32_t half) {
   return !joins_creases(half) && !joins_creases(links.twin(half));
 }
 
-bool crosses_nothing(const MeshOnSurface& mesh, const MeshChange& change) {
-  const Exchange all = exchange_by(mesh, change);
-  return mesh.guard().crossings(all.made, all.gone, 1) == 0;
+bool is_free_of_crossings(const MeshOnSurface& mesh, const MeshChange& change) {
+  const TriangleExchange all = exchange_by(mesh, change);
+  return mesh.guard().crossings(all.made, all.removed, 1) == 0;
 }
 
-void make(MeshOnSurface& mesh, const MeshChange& change) {
+void apply_change(MeshOnSurface& mesh, const MeshChange& change) {
   switch (change.kind) {
     case MeshChange::Kind::flip:
       mesh.flip(change.where);
@@ -77,7 +77,7 @@ std::optional<SurfacePoint> edge_middle(const MeshOnSurface& mesh, std::uint32_t
 std::optional<glm::dvec3> crease_middle(const MeshOnSurface& mesh, std::uint32_t vertex) {
   glm::dvec3 sum(0.0);
   int count = 0;
-  mesh.links().around(vertex, [&](std::uint32_t half) {
+  mesh.links().for_each_leaving(vertex, [&](std::uint32_t half) {
     if (mesh.links().crease(half) == kNone) return;
     sum += mesh.positions()[mesh.links().to(half)];
     ++count;
@@ -91,7 +91,7 @@ glm::dvec3 centroid_around(const MeshOnSurface& mesh, std::uint32_t vertex) {
   glm::dvec3 sum(0.0);
   double weight = 0.0;
   const glm::dvec3& x = position[vertex];
-  mesh.links().around(vertex, [&](std::uint32_t half) {
+  mesh.links().for_each_leaving(vertex, [&](std::uint32_t half) {
     const glm::dvec3 u = position[mesh.links().to(half)] - x, v = position[mesh.links().opposite(half)] - x;
     const double area = glm::length(glm::cross(u, v));
     sum += area / 3.0 * (u + v);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A change of a few triangles that has not been made: what it would make and remove, and where its vertex would
-// go.
+// Changes of a few triangles that have not been made yet: the triangles that they make and remove, and the places of
+// their vertices.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,24 @@
 
 namespace meniscus {
 
+/// A local change of a mesh that has not been made yet.
 struct MeshChange {
   enum class Kind : std::uint8_t { flip, collapse, split, poke, move };
   Kind kind = Kind::flip;
-  std::uint32_t where = kNone;  ///< a half-edge; of a poke the triangle, of a move the vertex
-  SurfacePoint at;              ///< of a split, poke or move: where the vertex comes
+  std::uint32_t where = kNone;  ///< a half-edge; for a poke the triangle, for a move the vertex
+  SurfacePoint at;              ///< the place of the vertex that a split, poke or move inserts or moves
 
   bool places_vertex() const { return kind == Kind::split || kind == Kind::poke || kind == Kind::move; }
 };
 
-/// The triangles that a change makes and those that it takes away. A new vertex has the number that it will have.
-struct Exchange {
+/// The triangles that a change makes and those that it removes. A new vertex has the number that it will get.
+struct TriangleExchange {
   std::vector<PlacedTriangle> made;
-  std::vector<std::uint32_t> gone;
+  std::vector<std::uint32_t> removed;
 };
-Exchange exchange_by(const MeshOnSurface& mesh, const MeshChange& change);
+TriangleExchange exchange_by(const MeshOnSurface& mesh, const MeshChange& change);
 
-/// visit(PlacedTriangle) for those that a change makes.
+/// Calls visit(PlacedTriangle) for each triangle that a change makes.
 template <typename Visit>
 void for_each_made(const MeshOnSurface& mesh, const MeshChange& change, const Visit& visit) {
   const HalfEdges& links = mesh.links();
@@ -48,7 +49,7 @@ void for_each_made(const MeshOnSurface& mesh, const MeshChange& change, const Vi
     }
     case MeshChange::Kind::collapse: {
       const std::uint32_t b = links.to(change.where);
-      links.around(links.from(change.where), [&](std::uint32_t edge) {
+      links.for_each_leaving(links.from(change.where), [&](std::uint32_t edge) {
         const std::uint32_t c = links.to(edge), d = links.opposite(edge);
         if (c != b && d != b) visit(placed(b, c, d));
       });
@@ -68,7 +69,7 @@ void for_each_made(const MeshOnSurface& mesh, const MeshChange& change, const Vi
       }
       break;
     case MeshChange::Kind::move:
-      links.around(change.where, [&](std::uint32_t half) {
+      links.for_each_leaving(change.where, [&](std::uint32_t half) {
         PlacedTriangle moved = placed(change.where, links.to(half), links.opposite(half));
         moved.at[0] = change.at.position;
         visit(moved);
@@ -76,9 +77,9 @@ void for_each_made(const MeshOnSurface& mesh, const MeshChange& change, const Vi
   }
 }
 
-/// visit(triangle) for those that a change takes away.
+/// Calls visit(triangle) for each triangle that a change removes.
 template <typename Visit>
-void for_each_gone(const MeshOnSurface& mesh, const MeshChange& change, const Visit& visit) {
+void for_each_removed(const MeshOnSurface& mesh, const MeshChange& change, const Visit& visit) {
   const HalfEdges& links = mesh.links();
   switch (change.kind) {
     case MeshChange::Kind::flip:
@@ -90,33 +91,37 @@ void for_each_gone(const MeshOnSurface& mesh, const MeshChange& change, const Vi
       visit(change.where);
       break;
     case MeshChange::Kind::collapse:
-      links.around(links.from(change.where), [&](std::uint32_t half) { visit(half / 3); });
+      links.for_each_leaving(links.from(change.where), [&](std::uint32_t half) { visit(half / 3); });
       break;
     case MeshChange::Kind::move:
-      links.around(change.where, [&](std::uint32_t half) { visit(half / 3); });
+      links.for_each_leaving(change.where, [&](std::uint32_t half) { visit(half / 3); });
   }
 }
 
-/// May the first vertex of an edge go into the second? One of a crease goes along it only, one where creases end or
-/// meet stays, and two creases must not fall together.
-bool may_vanish(const MeshOnSurface& mesh, std::uint32_t half);
+/// True if the first vertex of an edge may be merged into the second. A vertex on a crease may only move along the
+/// crease, a vertex where creases end or meet must stay, and two creases must not fall together.
+bool is_mergeable(const MeshOnSurface& mesh, std::uint32_t half);
 
-/// Would no triangle that a change makes pass through watched ones?
-bool crosses_nothing(const MeshOnSurface& mesh, const MeshChange& change);
+/// True if no triangle that a change makes would pass through guarded triangles of the mesh.
+bool is_free_of_crossings(const MeshOnSurface& mesh, const MeshChange& change);
 
-/// Makes a change. A vertex of a crease that goes into one beside it pins that one there.
-void make(MeshOnSurface& mesh, const MeshChange& change);
+/// Makes a change. A collapse that takes a vertex off its crease, or removes a pinned vertex of a crease, pins the
+/// vertex that remains.
+void apply_change(MeshOnSurface& mesh, const MeshChange& change);
 
-/// Below the middle of an edge, of a crease on it; nothing where the surface is another sheet there.
+/// Returns the point of the surface below the midpoint of an edge, for a crease edge the point on the crease; nothing
+/// if the surface is another sheet there.
 std::optional<SurfacePoint> edge_middle(const MeshOnSurface& mesh, std::uint32_t half);
 
-/// Of a vertex on a crease, the middle of its neighbours along it; nothing unless there are two.
+/// Returns the midpoint of the two neighbours of a crease vertex along its crease; nothing unless there are two.
 std::optional<glm::dvec3> crease_middle(const MeshOnSurface& mesh, std::uint32_t vertex);
 
-/// Of the triangles around a vertex, the mean of their centroids by area: what Lloyd's algorithm moves to.
+/// Returns the mean of the centroids of the triangles around a vertex, weighted by area: the target of Lloyd's
+/// algorithm.
 glm::dvec3 centroid_around(const MeshOnSurface& mesh, std::uint32_t vertex);
 
-/// Where relaxation moves a vertex; nothing if it stays, as where its triangles would become poor.
+/// Returns the place that relaxation moves a vertex to; nothing if the vertex stays, for example because its triangles
+/// would become poor.
 std::optional<SurfacePoint> relaxed(const MeshOnSurface& mesh, std::uint32_t vertex);
 
 }  // namespace meniscus

@@ -117,7 +117,7 @@ std::vector<double> color_changes(const std::vector<ContactDirection>& contacts,
   std::vector<double> roots;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     for (std::size_t j = i + 1; j < contacts.size(); ++j) {
-      // a + b cos t + c sin t = 0 where i and j are equally near.
+      // The contacts i and j are equally near where a + b cos t + c sin t = 0.
       const glm::dvec3 difference = contacts[i].direction - contacts[j].direction;
       const double a = glm::dot(difference, border.center - probe);
       const double b = border.radius * glm::dot(difference, border.start);
@@ -133,7 +133,7 @@ std::vector<double> color_changes(const std::vector<ContactDirection>& contacts,
     }
   }
   std::sort(roots.begin(), roots.end());
-  // Of all equidistances, keep those with another nearest contact on either side.
+  // Keep those of all equidistances that have another nearest contact on either side.
   std::vector<double> changes;
   double before = 0.0;
   for (std::size_t i = 0; i < roots.size(); ++i) {
@@ -146,7 +146,7 @@ std::vector<double> color_changes(const std::vector<ContactDirection>& contacts,
 
 namespace {
 
-constexpr double kNextAtoms = 1.0;  // Å beyond the nearest atom in which others are looked for
+constexpr double kNextAtoms = 1.0;  // Å beyond the nearest atom within which others are searched for
 
 }  // namespace
 
@@ -165,7 +165,7 @@ double CapAtoms::distance(std::uint32_t atom, const glm::dvec3& point) const {
 }
 
 CapAtoms::Nearest CapAtoms::nearest(const glm::dvec3& point) const {
-  // An atom that is not found is farther than the reach.
+  // Atoms that the search misses are farther than `reach`.
   for (double reach = largest_ + probe_radius_ + kNextAtoms;; reach *= 2.0) {
     Nearest best;
     best.distance = std::numeric_limits<double>::infinity();

@@ -13,7 +13,7 @@
 
 #include "core/math/ball.h"
 #include "core/math/box.h"
-#include "core/mesh/even_sizes.h"
+#include "core/mesh/remesh_tuning.h"
 
 namespace meniscus {
 namespace {
@@ -21,19 +21,20 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-/// The mean longest side of the boxes, times this, is the side of a cell.
+/// The side of a grid cell in units of the mean longest side of the boxes.
 constexpr double kCellSides = 1.5;
-/// Unit normals of two triangles with a common edge that are folded onto one another: their product is below this.
+/// Two triangles with a common edge are folded onto one another if the product of their unit normals is not above this.
 constexpr double kFolded = -1.0 + 1e-12;
-/// Of triangles of a flat fan, the cosine between their normals and the direction that it is seen from is above this.
+/// The cosine between the normals of a flat fan's triangles and the direction that it is seen from is above this.
 constexpr double kLeastFlat = 0.2;
 
-/// Six times the volume of a tetrahedron; above 0 where d sees a, b, c clockwise.
+/// Returns six times the volume of a tetrahedron; above 0 if d sees a, b, c clockwise.
 double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
   return glm::dot(a - d, glm::cross(b - d, c - d));
 }
 
-/// at_p, at_q: on which side of the triangle its ends are.
+/// True if the segment from p to q meets the triangle. `at_p` and `at_q` tell by their signs on which side of it its
+/// ends are.
 bool passes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm::dvec3, 3>& t, double at_p,
                     double at_q) {
   if ((at_p > 0.0 && at_q > 0.0) || (at_p < 0.0 && at_q < 0.0) || (at_p == 0.0 && at_q == 0.0)) return false;
@@ -41,23 +42,24 @@ bool passes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<g
   return (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
 }
 
+/// True if the fan of a vertex is flat, see flat_fans().
 bool is_flat_fan(const HalfEdges& links, std::span<const glm::dvec3> positions, std::uint32_t vertex) {
   const glm::dvec3& x = positions[vertex];
   const auto normal = [&](std::uint32_t half) {
     return glm::cross(positions[links.to(half)] - x, positions[links.opposite(half)] - x);
   };
   glm::dvec3 direction(0.0);
-  links.around(vertex, [&](std::uint32_t half) { direction += normal(half); });
+  links.for_each_leaving(vertex, [&](std::uint32_t half) { direction += normal(half); });
   const double least = kLeastFlat * kLeastFlat * glm::dot(direction, direction);
-  const bool look_there = links.all_around(vertex, [&](std::uint32_t half) {
+  const bool faces_one_way = links.all_leaving(vertex, [&](std::uint32_t half) {
     const glm::dvec3 n = normal(half);
     const double along = glm::dot(n, direction);
     return along > 0.0 && along * along > least * glm::dot(n, n);
   });
-  if (!look_there) return false;
+  if (!faces_one_way) return false;
   const glm::dvec3 side = glm::cross(direction, positions[links.to(links.leaving(vertex))] - x);
-  int turns = 0;  // each goes over to this side once
-  links.around(vertex, [&](std::uint32_t half) {
+  int turns = 0;  // how often the fan goes over to this side
+  links.for_each_leaving(vertex, [&](std::uint32_t half) {
     const bool before = glm::dot(positions[links.to(half)] - x, side) < 0.0;
     turns += before && !(glm::dot(positions[links.opposite(half)] - x, side) < 0.0);
   });
@@ -68,7 +70,7 @@ bool passes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<g
   return passes_through(p, q, t, volume(t[0], t[1], t[2], p), volume(t[0], t[1], t[2], q));
 }
 
-/// On which sides of a triangle's plane the corners of another are.
+/// Returns, as signs, on which sides of a triangle's plane the corners of another triangle are.
 std::array<double, 3> sides_of(const std::array<glm::dvec3, 3>& triangle, const std::array<glm::dvec3, 3>& other) {
   const auto side = [&](const glm::dvec3& x) { return volume(triangle[0], triangle[1], triangle[2], x); };
   return {side(other[0]), side(other[1]), side(other[2])};
@@ -77,7 +79,7 @@ bool is_one_side(const std::array<double, 3>& sides) {
   return (sides[0] > 0.0 && sides[1] > 0.0 && sides[2] > 0.0) || (sides[0] < 0.0 && sides[1] < 0.0 && sides[2] < 0.0);
 }
 
-/// Of triangles without a common corner.
+/// True if two triangles without a common corner meet.
 bool cross_apart(const std::array<glm::dvec3, 3>& x, const std::array<glm::dvec3, 3>& y) {
   const std::array<double, 3> at_y = sides_of(x, y);
   if (is_one_side(at_y)) return false;
@@ -88,6 +90,7 @@ bool cross_apart(const std::array<glm::dvec3, 3>& x, const std::array<glm::dvec3
   return false;
 }
 
+/// Searches a mesh for crossing triangles by a grid of their boxes.
 class CrossingSearch {
  public:
   CrossingSearch(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles,
@@ -97,38 +100,40 @@ class CrossingSearch {
                       [&](std::size_t t) { boxes_[t] = placed(static_cast<std::uint32_t>(t)).box(); });
   }
 
+  /// Returns all crossing pairs.
   std::vector<Pair> run() {
     if (triangles_.empty()) return {};
     make_grid(triangles_.size());
     for (std::uint32_t t = 0; t < boxes_.size(); ++t) grid_.add(t, boxes_[t]);
-    tbb::enumerable_thread_specific<Room> rooms;
+    tbb::enumerable_thread_specific<Scratch> scratches;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid_.bucket_count(), 256), [&](const auto& range) {
-      Room& mine = rooms.local();
+      Scratch& mine = scratches.local();
       for (std::size_t bucket = range.begin(); bucket != range.end(); ++bucket) search(bucket, mine);
     });
-    return all_found(rooms);
+    return all_found(scratches);
   }
 
+  /// Returns the crossing pairs with one of `some`.
   std::vector<Pair> run(std::span<const std::uint32_t> some) {
     if (some.empty()) return {};
     make_grid(some.size());
     for (const std::uint32_t t : some) grid_.add(t, boxes_[t]);
-    tbb::enumerable_thread_specific<Room> rooms;
+    tbb::enumerable_thread_specific<Scratch> scratches;
     tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(boxes_.size()), [&](std::uint32_t t) {
       grid_.for_each_near(boxes_[t], [&](std::uint32_t u) {
         if (t != u && !are_apart(boxes_[t], boxes_[u]) &&
             triangles_cross(placed(std::min(t, u)), placed(std::max(t, u))))
-          rooms.local().found.emplace_back(std::min(t, u), std::max(t, u));
+          scratches.local().found.emplace_back(std::min(t, u), std::max(t, u));
       });
     });
-    std::vector<Pair> all = all_found(rooms);
+    std::vector<Pair> all = all_found(scratches);
     all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
   }
 
  private:
-  /// Of a thread.
-  struct Room {
+  /// The scratch memory of a thread.
+  struct Scratch {
     std::vector<Pair> found;
     std::vector<std::pair<Box, std::uint32_t>> here;  ///< triangles of a bucket
   };
@@ -138,9 +143,9 @@ class CrossingSearch {
     for (const Box& box : boxes_) sum += longest_side(box);
     grid_ = BoxGrid(std::max(kCellSides * sum / static_cast<double>(boxes_.size()), 1e-9), count);
   }
-  static std::vector<Pair> all_found(const tbb::enumerable_thread_specific<Room>& rooms) {
+  static std::vector<Pair> all_found(const tbb::enumerable_thread_specific<Scratch>& scratches) {
     std::vector<Pair> all;
-    for (const Room& some : rooms) all.insert(all.end(), some.found.begin(), some.found.end());
+    for (const Scratch& some : scratches) all.insert(all.end(), some.found.begin(), some.found.end());
     std::sort(all.begin(), all.end());
     return all;
   }
@@ -150,7 +155,7 @@ class CrossingSearch {
     return {v, {positions_[v[0]], positions_[v[1]], positions_[v[2]]}};
   }
 
-  /// Have these a vertex in common whose triangles do not cross?
+  /// True if two triangles share a vertex with a flat fan, so that they do not cross.
   bool have_flat_fan(std::uint32_t t, std::uint32_t u) const {
     if (flat_.empty()) return false;
     const Triangle& other = triangles_[u];
@@ -158,18 +163,19 @@ class CrossingSearch {
         triangles_[t], [&](std::uint32_t v) { return (v == other[0] || v == other[1] || v == other[2]) && flat_[v]; });
   }
 
-  void search(std::size_t bucket, Room& room) const {
-    room.here.clear();
-    grid_.for_each_in(bucket, [&](std::uint32_t t) { room.here.emplace_back(boxes_[t], t); });
-    for (std::size_t i = 0; i < room.here.size(); ++i)
-      for (std::size_t j = i + 1; j < room.here.size(); ++j) {
-        const auto& [box, t] = room.here[i];
-        const auto& [other, u] = room.here[j];
+  /// Finds the crossing pairs in a bucket.
+  void search(std::size_t bucket, Scratch& scratch) const {
+    scratch.here.clear();
+    grid_.for_each_in(bucket, [&](std::uint32_t t) { scratch.here.emplace_back(boxes_[t], t); });
+    for (std::size_t i = 0; i < scratch.here.size(); ++i)
+      for (std::size_t j = i + 1; j < scratch.here.size(); ++j) {
+        const auto& [box, t] = scratch.here[i];
+        const auto& [other, u] = scratch.here[j];
         if (are_apart(box, other) || have_flat_fan(t, u)) continue;
         const auto [a, b] = std::minmax(t, u);
-        // Boxes that meet do so in several cells; they count in the first.
+        // Boxes may meet in several cells; their pair counts in the first of these.
         const glm::dvec3 low = glm::max(box.low, other.low);
-        if (grid_.bucket_of(low) == bucket && triangles_cross(placed(a), placed(b))) room.found.emplace_back(a, b);
+        if (grid_.bucket_of(low) == bucket && triangles_cross(placed(a), placed(b))) scratch.found.emplace_back(a, b);
       }
   }
 
@@ -183,7 +189,7 @@ class CrossingSearch {
 }  // namespace
 
 bool triangles_cross(const PlacedTriangle& a, const PlacedTriangle& b) {
-  std::array<int, 3> shared{};  // places in a
+  std::array<int, 3> shared{};  // corners of a that are corners of b, too
   int count = 0;
   for (int k = 0; k < 3; ++k)
     if (std::find(b.vertex.begin(), b.vertex.end(), a.vertex[k]) != b.vertex.end()) shared[count++] = k;
@@ -202,7 +208,7 @@ bool triangles_cross(const PlacedTriangle& a, const PlacedTriangle& b) {
 std::vector<std::uint8_t> flat_fans(const HalfEdges& links, std::span<const glm::dvec3> positions) {
   std::vector<std::uint8_t> flat(links.vertex_count(), 0);
   tbb::parallel_for(std::uint32_t{0}, links.vertex_count(), [&](std::uint32_t v) {
-    if (links.vertex_lives(v)) flat[v] = is_flat_fan(links, positions, v);
+    if (links.is_vertex_alive(v)) flat[v] = is_flat_fan(links, positions, v);
   });
   return flat;
 }
@@ -221,10 +227,10 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(std::span<cons
 
 namespace {
 
-/// The mean longest side of listed triangles, times this, is the side of a cell.
+/// The side of a grid cell in units of the mean longest side of the listed triangles' boxes.
 constexpr double kGuardCellSides = 1.2;
 
-/// Do neighbouring triangles that all look the same way go side by side onto a plane?
+/// True if these neighbouring triangles all face one way and so project side by side onto a plane.
 bool unfolds(std::span<const PlacedTriangle> triangles) {
   glm::dvec3 sum(0.0);
   const auto normal = [](const PlacedTriangle& x) { return glm::cross(x.at[1] - x.at[0], x.at[2] - x.at[0]); };
@@ -240,7 +246,8 @@ PlacedTriangle CrossingGuard::placed(std::uint32_t triangle) const {
   return {v, {positions_[v[0]], positions_[v[1]], positions_[v[2]]}};
 }
 
-void CrossingGuard::mark(std::span<const Ball> places, std::uint8_t how) {
+/// Marks the vertices in the balls with these bits.
+void CrossingGuard::mark(std::span<const Ball> places, std::uint8_t bits) {
   if (!places.empty()) {
     std::vector<Box> boxes;
     for (const Ball& place : places) boxes.push_back({place.center - place.radius, place.center + place.radius});
@@ -249,7 +256,7 @@ void CrossingGuard::mark(std::span<const Ball> places, std::uint8_t how) {
       constexpr double kInside = 1e-9;
       tree.nearest(positions_[v], kInside, [&](std::uint32_t p, double limit) {
         if (glm::distance(positions_[v], places[p].center) > places[p].radius) return limit;
-        watched_[v] |= how;
+        guards_[v] |= bits;
         return 0.0;
       });
     });
@@ -257,36 +264,36 @@ void CrossingGuard::mark(std::span<const Ball> places, std::uint8_t how) {
   list();
 }
 
-void CrossingGuard::watch_around(std::span<const std::uint32_t> triangles) {
+void CrossingGuard::guard_around(std::span<const std::uint32_t> triangles) {
   std::vector<Ball> places;
   for (const std::uint32_t t : triangles) {
     const PlacedTriangle x = placed(t);
     double longest = 0.0;
     for (int k = 0; k < 3; ++k) longest = std::max(longest, glm::distance(x.at[k], x.at[(k + 1) % 3]));
-    places.push_back({(x.at[0] + x.at[1] + x.at[2]) / 3.0, RemeshTuning::mending_reach * longest});
+    places.push_back({(x.at[0] + x.at[1] + x.at[2]) / 3.0, RemeshTuning::mending_radius * longest});
   }
-  mark(places, kForNow);
+  mark(places, kTemporary);
 }
 
 void CrossingGuard::release() {
-  for (std::uint8_t& how : watched_) how &= kLasting;
+  for (std::uint8_t& bits : guards_) bits &= kPermanent;
   list();
 }
 
 void CrossingGuard::compact(std::span<const std::uint32_t> old_vertices) {
-  for (std::size_t v = 0; v < old_vertices.size(); ++v) watched_[v] = watched_[old_vertices[v]];
-  watched_.resize(old_vertices.size());
+  for (std::size_t v = 0; v < old_vertices.size(); ++v) guards_[v] = guards_[old_vertices[v]];
+  guards_.resize(old_vertices.size());
   list();
 }
 
-/// Forgets all, and lists the triangles that have a watched vertex.
+/// Clears the grid, and lists the triangles that have a guarded vertex.
 void CrossingGuard::list() {
   std::vector<std::uint32_t> listed;
   double sum = 0.0;
   for (std::uint32_t t = 0; t < links_.triangle_count(); ++t) {
-    if (!links_.lives(3 * t)) continue;
+    if (!links_.is_alive(3 * t)) continue;
     const auto v = links_.corners(t);
-    if (!watched_[v[0]] && !watched_[v[1]] && !watched_[v[2]]) continue;
+    if (!guards_[v[0]] && !guards_[v[1]] && !guards_[v[2]]) continue;
     listed.push_back(t);
     sum += longest_side(placed(t).box());
   }
@@ -297,12 +304,12 @@ void CrossingGuard::list() {
 
 void CrossingGuard::add(std::uint32_t triangle) { grid_.add(triangle, placed(triangle).box()); }
 
-/// Finds the listed triangles that stay and whose boxes meet the one around all that are made.
-void CrossingGuard::list_near(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone) const {
+/// Finds the listed triangles that remain and have boxes that meet the box around all new triangles.
+void CrossingGuard::list_near(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> removed) const {
   near_.clear();
   seen_.resize(links_.triangle_count(), 0);
-  ++question_;
-  for (const std::uint32_t t : gone) seen_[t] = question_;
+  ++query_;
+  for (const std::uint32_t t : removed) seen_[t] = query_;
   Box all = made[0].box();
   for (const PlacedTriangle& x : made) {
     const Box box = x.box();
@@ -310,14 +317,14 @@ void CrossingGuard::list_near(std::span<const PlacedTriangle> made, std::span<co
   }
   grid_.for_each_near(all, [&](std::uint32_t t) {
     ++work_;
-    if (std::exchange(seen_[t], question_) == question_ || !links_.lives(3 * t)) return;
+    if (std::exchange(seen_[t], query_) == query_ || !links_.is_alive(3 * t)) return;
     const PlacedTriangle other = placed(t);
     const Box box = other.box();
     if (!are_apart(all, box)) near_.emplace_back(box, other);
   });
 }
 
-std::size_t CrossingGuard::crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone,
+std::size_t CrossingGuard::crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> removed,
                                      std::size_t enough) const {
   if (made.empty()) return 0;
   std::size_t count = 0;
@@ -325,11 +332,11 @@ std::size_t CrossingGuard::crossings(std::span<const PlacedTriangle> made, std::
     for (std::size_t i = 0; i < made.size(); ++i)
       for (std::size_t j = i + 1; j < made.size(); ++j) count += triangles_cross(made[i], made[j]);
   if (count >= enough) return count;
-  list_near(made, gone);
+  list_near(made, removed);
   for (const PlacedTriangle& x : made) {
     const Box box = x.box();
     work_ += near_.size();
-    for (const auto& [around, other] : near_) count += !are_apart(box, around) && triangles_cross(x, other);
+    for (const auto& [other_box, other] : near_) count += !are_apart(box, other_box) && triangles_cross(x, other);
     if (count >= enough) return count;
   }
   return count;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles of a mesh that pass through one another, and a guard that keeps a changing mesh from doing so.
+// Finds triangles of a mesh that pass through one another, and guards a changing mesh against them.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace meniscus {
 
 struct Ball;
 
-/// Have two boxes no point in common?
+/// True if two boxes have no point in common.
 inline bool are_apart(const Box& a, const Box& b) {
   return a.low.x > b.high.x || b.low.x > a.high.x || a.low.y > b.high.y || b.low.y > a.high.y || a.low.z > b.high.z ||
          b.low.z > a.high.z;
@@ -33,24 +33,24 @@ inline double longest_side(const Box& box) {
   return std::max({size.x, size.y, size.z});
 }
 
-/// A grid without bounds (Teschner, Heidelberger, Mueller, Pomeranets & Gross, "Optimized spatial hashing", 2003): each
-/// bucket has the boxes of some cells.
+/// An unbounded hash grid of boxes (Teschner, Heidelberger, Mueller, Pomeranets & Gross, "Optimized spatial hashing",
+/// 2003). Each bucket lists the boxes of some cells.
 class BoxGrid {
  public:
-  /// cell: Å, the side of a cell; count: about how many boxes will be added.
+  /// `cell` is the side of a cell in Å, `count` about the number of boxes that will be added.
   explicit BoxGrid(double cell = 1.0, std::size_t count = 0)
       : cells_(1.0 / cell), heads_(std::bit_ceil(std::max(2 * count, kFewestBuckets)), kNone) {}
 
   void add(std::uint32_t number, const Box& box) {
     for_each_bucket(box, [&](std::size_t bucket) {
       std::uint32_t& head = heads_[bucket];
-      if (head != kNone && entries_[head].number == number) return;  // of another cell
+      if (head != kNone && entries_[head].number == number) return;  // already listed by another cell
       entries_.push_back({number, head});
       head = static_cast<std::uint32_t>(entries_.size() - 1);
     });
   }
 
-  /// visit(number) for all boxes that may meet this one, some of them several times.
+  /// Calls visit(number) for all boxes that may meet this one; some boxes are visited several times.
   template <typename Visit>
   void for_each_near(const Box& box, const Visit& visit) const {
     for_each_bucket(box, [&](std::size_t bucket) { for_each_in(bucket, visit); });
@@ -71,11 +71,11 @@ class BoxGrid {
 
   glm::i64vec3 cell_of(const glm::dvec3& x) const {
     const glm::dvec3 at = x * cells_;
-    const glm::i64vec3 cut(at);  // towards 0
+    const glm::i64vec3 cut(at);  // truncated towards 0
     return cut - glm::i64vec3(at.x < static_cast<double>(cut.x), at.y < static_cast<double>(cut.y),
                               at.z < static_cast<double>(cut.z));
   }
-  /// Cells of a cube of 4 x 4 x 4 have buckets side by side: near in space, near in memory.
+  /// Maps the cells of a cube of 4 x 4 x 4 to adjacent buckets, so that cells near in space are near in memory.
   std::size_t bucket_of_cell(const glm::i64vec3& cell) const {
     const glm::i64vec3 cube = cell >> std::int64_t{2}, in_cube = cell & std::int64_t{3};
     const auto hash = static_cast<std::size_t>((cube.x * 73856093) ^ (cube.y * 19349663) ^ (cube.z * 83492791));
@@ -91,12 +91,12 @@ class BoxGrid {
         for (at.z = low.z; at.z <= high.z; ++at.z) visit(bucket_of_cell(at));
   }
 
-  double cells_;                      ///< per Å
-  std::vector<std::uint32_t> heads_;  ///< per bucket, into entries_, or kNone
+  double cells_;                      ///< cells per Å
+  std::vector<std::uint32_t> heads_;  ///< per bucket: its first entry in entries_, or kNone
   std::vector<Entry> entries_;
 };
 
-/// A triangle by the numbers of its vertices and where these are (Å).
+/// A triangle by the numbers and positions (Å) of its vertices.
 struct PlacedTriangle {
   std::array<std::uint32_t, 3> vertex{};
   std::array<glm::dvec3, 3> at{};
@@ -104,74 +104,76 @@ struct PlacedTriangle {
   Box box() const { return {glm::min(glm::min(at[0], at[1]), at[2]), glm::max(glm::max(at[0], at[1]), at[2])}; }
 };
 
-/// Have these a point in common other than a vertex or edge that both have? Decided by signs of volumes in double
-/// precision.
+/// True if two triangles have a point in common other than a shared vertex or edge. Decided by signs of volumes in
+/// double precision.
 bool triangles_cross(const PlacedTriangle& a, const PlacedTriangle& b);
 
-/// Per vertex of a closed mesh, whether its triangles go around it once as seen from one direction, from which all look
-/// the same way and none leans almost at a right angle: of these no two cross.
+/// Returns for each vertex of a closed mesh true if, seen from some direction, its triangles form one closed fan, all
+/// face that direction, and none leans almost at a right angle. No two triangles of such a fan cross.
 std::vector<std::uint8_t> flat_fans(const HalfEdges& links, std::span<const glm::dvec3> positions);
 
-/// All pairs of triangles that have a point in common other than a vertex or edge that both have, in ascending order.
-/// flat: of flat_fans(), or nothing; what is known from it is not computed. Runs on all cores TBB may use.
+/// Returns all pairs of triangles that have a point in common other than a shared vertex or edge, in ascending order.
+/// `flat` is a result of flat_fans(), or empty; pairs that share a vertex with a flat fan are not tested. Runs on all
+/// cores that TBB may use.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing_triangles(
     std::span<const glm::dvec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
     std::span<const std::uint8_t> flat = {});
 
-/// Those of these pairs in which one of `some` (ascending) is: sooner found where these are few.
+/// Returns those of these pairs that contain one of the triangles `some` (ascending); faster if these are few.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(
     std::span<const std::uint32_t> some, std::span<const glm::dvec3> positions,
     std::span<const std::array<std::uint32_t, 3>> triangles);
 
-/// Knows which vertices are watched, and the triangles at them, in a grid. Triangles that changed or are gone may still
-/// be listed; they are looked at as they are now.
+/// Checks changes of a mesh for crossings around guarded vertices, with the triangles at these in a grid. The grid may
+/// still list triangles that have changed or were removed; they are inspected in their present state.
 class CrossingGuard {
  public:
-  /// Watches nothing. links, positions: of the mesh that it guards; they have to live as long.
+  /// Guards nothing at first. `links` and `positions` are those of the guarded mesh and must outlive the guard.
   CrossingGuard(const HalfEdges& links, const std::vector<glm::dvec3>& positions)
-      : links_(links), positions_(positions), watched_(links.vertex_count(), 0) {}
+      : links_(links), positions_(positions), guards_(links.vertex_count(), 0) {}
 
-  /// Watches the vertices in these balls from now on.
-  void watch(std::span<const Ball> places) { mark(places, kLasting); }
-  /// Watches what is around these triangles until release().
-  void watch_around(std::span<const std::uint32_t> triangles);
+  /// Guards the vertices in these balls permanently.
+  void guard_balls(std::span<const Ball> places) { mark(places, kPermanent); }
+  /// Guards the vertices around these triangles until release().
+  void guard_around(std::span<const std::uint32_t> triangles);
   void release();
-  bool watches(std::uint32_t vertex) const { return watched_[vertex] != 0; }
+  bool is_guarded(std::uint32_t vertex) const { return guards_[vertex] != 0; }
 
-  /// A vertex that came between these two is watched if one of them is.
-  void add_vertex(std::uint32_t a, std::uint32_t b) { watched_.push_back(watched_[a] | watched_[b]); }
-  /// So is a vertex that another goes into.
-  void merge_vertex(std::uint32_t a, std::uint32_t into) { watched_[into] |= watched_[a]; }
+  /// Adds a new vertex between a and b, which is guarded if one of these is.
+  void add_vertex(std::uint32_t a, std::uint32_t b) { guards_.push_back(guards_[a] | guards_[b]); }
+  /// Notes that vertex a is merged into another one, which is then guarded if either was.
+  void merge_vertex(std::uint32_t a, std::uint32_t into) { guards_[into] |= guards_[a]; }
   /// Lists a triangle that is new or has moved.
   void add(std::uint32_t triangle);
-  /// After HalfEdges::compact(), which returned this.
+  /// Renumbers vertices after HalfEdges::compact(), which returned `old_vertices`.
   void compact(std::span<const std::uint32_t> old_vertices);
 
-  /// How many pairs of the new triangles, which are neighbours, pass through one another, or of one of them and one
-  /// that is listed and stays? `gone` are those that they replace. Once there are `enough`, no more are looked for. Not
-  /// for several threads at once.
-  std::size_t crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone,
+  /// Returns the number of crossing pairs that exist once `made` replace the triangles `removed`: pairs of the new
+  /// triangles, which are neighbours, and pairs of a new triangle and a listed one that remains. Stops counting at
+  /// `enough`. Not safe to call from several threads at once.
+  std::size_t crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> removed,
                         std::size_t enough = kAll) const;
   PlacedTriangle placed(std::uint32_t triangle) const;
-  /// How many triangles all questions so far looked at: what they cost, the same for any number of threads.
+  /// Returns the number of triangles that all calls so far inspected: a measure of cost that is the same for any number
+  /// of threads.
   std::uint64_t work() const { return work_; }
 
  private:
-  /// How a vertex is watched: bits.
-  static constexpr std::uint8_t kLasting = 1, kForNow = 2;
+  /// Bits that tell how a vertex is guarded.
+  static constexpr std::uint8_t kPermanent = 1, kTemporary = 2;
   static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
-  void mark(std::span<const Ball> places, std::uint8_t how);
+  void mark(std::span<const Ball> places, std::uint8_t bits);
   void list();
-  void list_near(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone) const;
+  void list_near(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> removed) const;
 
   const HalfEdges& links_;
   const std::vector<glm::dvec3>& positions_;
-  std::vector<std::uint8_t> watched_;  ///< per vertex
+  std::vector<std::uint8_t> guards_;  ///< bits of each vertex
   BoxGrid grid_;
-  // of the last question: not to be asked by two threads
+  // The scratch memory of the last query, which is why queries are not thread-safe.
   mutable std::vector<std::pair<Box, PlacedTriangle>> near_;
-  mutable std::vector<std::uint32_t> seen_;  ///< per triangle: the number of the question that last met it
-  mutable std::uint32_t question_ = 0;
+  mutable std::vector<std::uint32_t> seen_;  ///< per triangle: the number of the query that last met it
+  mutable std::uint32_t query_ = 0;
   mutable std::uint64_t work_ = 0;
 };
 

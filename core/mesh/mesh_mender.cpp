@@ -14,7 +14,7 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
-#include "core/mesh/even_sizes.h"
+#include "core/mesh/remesh_tuning.h"
 #include "core/mesh/mesh_change.h"
 
 namespace meniscus {
@@ -24,15 +24,15 @@ using Kind = MeshChange::Kind;
 
 namespace {
 
-/// Of a change after which more is wrong than before.
-constexpr std::ptrdiff_t kMore = -1;
+/// The result of fault_reduction() for a change that adds faults.
+constexpr std::ptrdiff_t kWorse = -1;
 
-/// Are no edges too long once the first vertex has gone to the second?
+/// True if no edge is too long once the first vertex of this one is merged into the second.
 bool stays_short(const MeshOnSurface& mesh, std::uint32_t half) {
   const HalfEdges& links = mesh.links();
   const std::uint32_t b = links.to(half);
   bool fits = true;
-  links.around(links.from(half), [&](std::uint32_t edge) {
+  links.for_each_leaving(links.from(half), [&](std::uint32_t edge) {
     const std::uint32_t c = links.to(edge);
     const double longest = Tuning::too_long * 0.5 * (mesh.vertex(b).size + mesh.vertex(c).size);
     fits = fits && glm::distance(mesh.positions()[b], mesh.positions()[c]) <= longest;
@@ -46,10 +46,12 @@ bool MeshMender::is_too_short(std::uint32_t half) const {
   return mesh_.length(half) < Tuning::too_short * mesh_.wanted(half);
 }
 
-/// Short edges at the ends of creases, which may otherwise not vanish, would be slivers for ever.
-bool MeshMender::may_merge(std::uint32_t half) const { return may_vanish(mesh_, half) || is_too_short(half); }
+/// True if the first vertex of an edge may be merged into the second. This includes short edges at the ends of creases,
+/// which would otherwise remain slivers forever.
+bool MeshMender::may_merge(std::uint32_t half) const { return is_mergeable(mesh_, half) || is_too_short(half); }
 
-/// If `steep`, triangles may lean almost at a right angle against the surface.
+/// Returns the quality of a triangle with a placed vertex. If `steep`, triangles may lean almost at a right angle to
+/// the surface.
 double MeshMender::quality(const PlacedTriangle& t, const PlacedVertex& placed, bool steep) const {
   const glm::dvec3 normal = glm::cross(t.at[1] - t.at[0], t.at[2] - t.at[0]);
   const double size = glm::length(normal);
@@ -71,16 +73,17 @@ double MeshMender::quality(const PlacedTriangle& t, const PlacedVertex& placed, 
   return folded ? quality - kFold : quality;
 }
 
-/// What is no better than the bar is not looked at to its end.
+/// Returns the score of the triangles that a change makes. Scores that are no better than `bar` are not computed to the
+/// end.
 double MeshMender::score_after(const MeshChange& change, bool steep, double bar) const {
   const bool moving = change.kind == Kind::move, splitting = change.kind == Kind::split;
   PlacedVertex placed;
   if (change.places_vertex()) {
     const HalfEdges& links = mesh_.links();
-    const std::uint32_t like = moving ? change.where : links.from(splitting ? change.where : 3 * change.where);
+    const std::uint32_t similar = moving ? change.where : links.from(splitting ? change.where : 3 * change.where);
     placed.vertex = moving ? change.where : links.vertex_count();
     placed.normal = mesh_.walk().normal(change.at);
-    placed.least_cosine = mesh_.vertex(like).least_cosine;
+    placed.least_cosine = mesh_.vertex(similar).least_cosine;
     placed.on_crease =
         moving ? mesh_.vertex(change.where).on_crease() : splitting && links.crease(change.where) != kNone;
   }
@@ -91,14 +94,16 @@ double MeshMender::score_after(const MeshChange& change, bool steep, double bar)
   return worst.score();
 }
 
+/// Returns the score of the triangles that a change removes.
 double MeshMender::score_before(const MeshChange& change, bool steep) const {
   WorstQuality worst;
-  for_each_gone(mesh_, change, [&](std::uint32_t t) {
+  for_each_removed(mesh_, change, [&](std::uint32_t t) {
     worst.add(steep ? quality(mesh_.placed(t), {}, true) : mesh_.quality().of(t));
   });
   return worst.score();
 }
 
+/// Calls visit(place) for the places where a vertex may go.
 template <typename Visit>
 void MeshMender::for_each_place(std::uint32_t vertex, const Visit& visit) const {
   const MeshVertex& v = mesh_.vertex(vertex);
@@ -130,7 +135,7 @@ void MeshMender::for_each_place(std::uint32_t vertex, const Visit& visit) const 
     for (const glm::dvec3& direction : along) visit_below(x + step * size * direction);
 }
 
-/// visit(change, the score of what it takes away) for all small changes of a triangle.
+/// Calls visit(change, score of the triangles that it removes) for all small changes of a triangle.
 template <typename Visit>
 void MeshMender::for_each_change(std::uint32_t triangle, bool steep, const Visit& visit) const {
   const HalfEdges& links = mesh_.links();
@@ -138,14 +143,15 @@ void MeshMender::for_each_change(std::uint32_t triangle, bool steep, const Visit
   for (std::uint32_t half = 3 * triangle; half < 3 * triangle + 3; ++half) {
     const std::uint32_t other = links.twin(half);
     const std::uint32_t c = links.opposite(half), d = links.opposite(other);
-    const bool has_room = links.valence(c) < Tuning::most_mended_edges && links.valence(d) < Tuning::most_mended_edges;
-    if (has_room && links.can_flip(half)) offer({Kind::flip, half, {}});
-    if (links.valence(links.from(half)) + links.valence(links.to(half)) < Tuning::most_mended_edges + 4)
+    const bool valence_allows =
+        links.valence(c) < Tuning::largest_mended_valence && links.valence(d) < Tuning::largest_mended_valence;
+    if (valence_allows && links.can_flip(half)) offer({Kind::flip, half, {}});
+    if (links.valence(links.from(half)) + links.valence(links.to(half)) < Tuning::largest_mended_valence + 4)
       for (const std::uint32_t side : {half, other})
         if (may_merge(side) && stays_short(mesh_, side) && links.can_collapse(side) &&
             mesh_.can_spare(links.from(side)))
           offer({Kind::collapse, side, {}});
-    if (has_room && mesh_.length(half) > 2.0 * Tuning::too_short * mesh_.wanted(half))
+    if (valence_allows && mesh_.length(half) > 2.0 * Tuning::too_short * mesh_.wanted(half))
       if (const auto at = edge_middle(mesh_, half)) offer({Kind::split, half, *at});
   }
   for (const std::uint32_t v : links.corners(triangle)) {
@@ -154,44 +160,47 @@ void MeshMender::for_each_change(std::uint32_t triangle, bool steep, const Visit
   }
 }
 
-bool MeshMender::is_wrong(std::uint32_t triangle) const {
+/// True if a triangle crosses others or is not allowed.
+bool MeshMender::is_faulty(std::uint32_t triangle) const {
   const PlacedTriangle x = mesh_.placed(triangle);
   return mesh_.guard().crossings({&x, 1}, {&triangle, 1}) > 0 || !allowed_(x);
 }
 
-/// Changes at a triangle take away the same ones again and again.
-class MeshMender::WrongNow {
+/// Caches faults, since the changes at a triangle remove the same triangles again and again.
+class MeshMender::FaultCache {
  public:
-  /// Both have to live as long.
-  WrongNow(const MeshOnSurface& mesh, const Allowed& allowed) : mesh_(mesh), allowed_(allowed) {}
+  /// Both arguments must outlive this object.
+  FaultCache(const MeshOnSurface& mesh, const Allowed& allowed) : mesh_(mesh), allowed_(allowed) {}
 
-  std::size_t forbidden(std::span<const std::uint32_t> gone) {
+  /// Returns how many of these triangles are not allowed.
+  std::size_t forbidden(std::span<const std::uint32_t> removed) {
     std::size_t count = 0;
-    for (const std::uint32_t t : gone) {
+    for (const std::uint32_t t : removed) {
       const auto [known, is_new] = forbidden_.try_emplace(t, false);
       if (is_new) known->second = !allowed_(mesh_.placed(t));
       count += known->second;
     }
     return count;
   }
-  std::size_t crossings(const std::vector<std::uint32_t>& gone) {
-    if (gone == gone_) return crossings_;
+  /// Returns how many pairs these triangles are part of that cross.
+  std::size_t crossings(const std::vector<std::uint32_t>& removed) {
+    if (removed == removed_) return crossings_;
     std::vector<PlacedTriangle> now;
-    now.reserve(gone.size());
-    for (const std::uint32_t t : gone) now.push_back(mesh_.placed(t));
-    gone_ = gone;
-    return crossings_ = mesh_.guard().crossings(now, gone);
+    now.reserve(removed.size());
+    for (const std::uint32_t t : removed) now.push_back(mesh_.placed(t));
+    removed_ = removed;
+    return crossings_ = mesh_.guard().crossings(now, removed);
   }
 
  private:
   const MeshOnSurface& mesh_;
   const Allowed& allowed_;
   std::unordered_map<std::uint32_t, bool> forbidden_;
-  std::vector<std::uint32_t> gone_;  ///< those asked about last
-  std::size_t crossings_ = 0;        ///< theirs
+  std::vector<std::uint32_t> removed_;  ///< the triangles of the last query
+  std::size_t crossings_ = 0;           ///< number of their crossings
 };
 
-/// How many of these would be forbidden; once there are `enough`, no more are looked for.
+/// Returns how many of these triangles are not allowed; stops counting at `enough`.
 std::size_t MeshMender::forbidden(std::span<const PlacedTriangle> made, std::size_t enough) const {
   std::size_t count = 0;
   for (const PlacedTriangle& t : made)
@@ -199,69 +208,72 @@ std::size_t MeshMender::forbidden(std::span<const PlacedTriangle> made, std::siz
   return count;
 }
 
-/// How many triangles fewer are forbidden, and pairs cross; kMore if more of either come to be.
-std::ptrdiff_t MeshMender::fewer_wrong(const Exchange& exchange, WrongNow& now) const {
-  const std::size_t are_forbidden = now.forbidden(exchange.gone), will_be = forbidden(exchange.made, are_forbidden + 1);
-  if (will_be > are_forbidden) return kMore;
-  const std::size_t cross = now.crossings(exchange.gone);
-  const std::size_t will_cross = mesh_.guard().crossings(exchange.made, exchange.gone, cross + 1);
-  if (will_cross > cross) return kMore;
+/// Returns by how much a change reduces the forbidden triangles and the crossing pairs together; kWorse if it adds any
+/// of either.
+std::ptrdiff_t MeshMender::fault_reduction(const TriangleExchange& exchange, FaultCache& faults) const {
+  const std::size_t are_forbidden = faults.forbidden(exchange.removed),
+                    will_be = forbidden(exchange.made, are_forbidden + 1);
+  if (will_be > are_forbidden) return kWorse;
+  const std::size_t cross = faults.crossings(exchange.removed);
+  const std::size_t will_cross = mesh_.guard().crossings(exchange.made, exchange.removed, cross + 1);
+  if (will_cross > cross) return kWorse;
   return static_cast<std::ptrdiff_t>(are_forbidden - will_be + cross - will_cross);
 }
 
-/// At a sliver all triangles may lean.
+/// True if a triangle is a sliver, around which all triangles may lean.
 bool MeshMender::is_sliver(std::uint32_t triangle) const {
   return quality(mesh_.placed(triangle), {}, true) < Tuning::sliver_quality;
 }
 
-/// Those after which the worst triangle is better, or a short edge is gone even if a worse one stays.
+/// Returns the changes after which the worst triangle is better, or a short edge is gone and the worst one no worse.
 MeshMender::Candidates MeshMender::better_changes(std::uint32_t triangle) const {
   const bool sliver = is_sliver(triangle);
   Candidates candidates;
   for_each_change(triangle, sliver, [&](const MeshChange& change, double now) {
     const bool shortens = change.kind == Kind::collapse && is_too_short(change.where);
-    const double bar = now + (shortens ? -Tuning::better : Tuning::better), score = score_after(change, sliver, bar);
+    const double bar = now + (shortens ? -Tuning::score_tolerance : Tuning::score_tolerance),
+                 score = score_after(change, sliver, bar);
     if (score > bar) candidates.push_back({0, score - now, change});
   });
-  put_best_first(candidates, sliver);
+  sort_candidates(candidates, sliver);
   return candidates;
 }
 
-/// Those after which the fewest triangles pass through others or are forbidden.
-MeshMender::Candidates MeshMender::righting_changes(std::uint32_t triangle) const {
+/// Returns the changes after which fewer triangles cross others or are forbidden.
+MeshMender::Candidates MeshMender::repairing_changes(std::uint32_t triangle) const {
   const bool sliver = is_sliver(triangle);
   Candidates candidates;
-  WrongNow wrong_now(mesh_, allowed_);
+  FaultCache faults(mesh_, allowed_);
   for_each_change(triangle, sliver, [&](const MeshChange& change, double now) {
-    if (const std::ptrdiff_t fewer = fewer_wrong(exchange_by(mesh_, change), wrong_now); fewer > 0)
+    if (const std::ptrdiff_t fewer = fault_reduction(exchange_by(mesh_, change), faults); fewer > 0)
       candidates.push_back({fewer, score_after(change, sliver) - now, change});
   });
-  put_best_first(candidates, sliver);
+  sort_candidates(candidates, sliver);
   return candidates;
 }
 
-/// Of a sliver all of them are tried.
-void MeshMender::put_best_first(Candidates& candidates, bool sliver) {
+/// Sorts candidates, the best first, and keeps the first Tuning::checked_candidates; of those of a sliver all are kept.
+void MeshMender::sort_candidates(Candidates& candidates, bool sliver) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return a.fewer != b.fewer ? a.fewer > b.fewer : a.gain > b.gain;
+    return a.fewer_faults != b.fewer_faults ? a.fewer_faults > b.fewer_faults : a.gain > b.gain;
   });
-  if (!sliver && candidates.size() > Tuning::tries)
-    candidates.erase(candidates.begin() + Tuning::tries, candidates.end());
+  if (!sliver && candidates.size() > Tuning::checked_candidates)
+    candidates.erase(candidates.begin() + Tuning::checked_candidates, candidates.end());
 }
 
-/// Makes the first change that makes nothing wrong, if there is one.
-bool MeshMender::make_first(const Candidates& candidates) {
-  WrongNow wrong_now(mesh_, allowed_);
+/// Makes the first change that causes no fault; returns false if there is none.
+bool MeshMender::apply_first(const Candidates& candidates) {
+  FaultCache faults(mesh_, allowed_);
   for (const Candidate& candidate : candidates) {
     const MeshChange& change = candidate.change;
     if (change.kind == Kind::collapse && !mesh_.can_spare(mesh_.links().from(change.where))) continue;
-    const Exchange all = exchange_by(mesh_, change);
-    if (candidate.fewer == 0) {
-      if (mesh_.guard().crossings(all.made, all.gone, 1) > 0) continue;
+    const TriangleExchange all = exchange_by(mesh_, change);
+    if (candidate.fewer_faults == 0) {
+      if (mesh_.guard().crossings(all.made, all.removed, 1) > 0) continue;
       const std::size_t will_be = forbidden(all.made, all.made.size());
-      if (will_be > 0 && will_be > wrong_now.forbidden(all.gone)) continue;
+      if (will_be > 0 && will_be > faults.forbidden(all.removed)) continue;
     }
-    make(mesh_, change);
+    apply_change(mesh_, change);
     changed_.resize(mesh_.links().vertex_count(), 0);
     for (const PlacedTriangle& t : all.made)
       for (const std::uint32_t v : t.vertex) changed_[v] = 1;
@@ -270,18 +282,18 @@ bool MeshMender::make_first(const Candidates& candidates) {
   return false;
 }
 
-/// Those that no triangle before them is likely to change.
-std::vector<std::optional<MeshMender::Candidates>> MeshMender::changes_of_first(
+/// Returns the changes of those triangles that no triangle before them is likely to change.
+std::vector<std::optional<MeshMender::Candidates>> MeshMender::find_independent_changes(
     std::span<const std::uint32_t> bad, std::span<const std::uint8_t> doubtful) {
   const HalfEdges& links = mesh_.links();
   std::vector<std::size_t> first;
   changed_.assign(links.vertex_count(), 0);
   for (std::size_t n = 0; n < bad.size(); ++n) {
     const std::uint32_t t = bad[n];
-    if (!links.lives(3 * t) || (!doubtful[t] && mesh_.quality().of(t) >= Tuning::good_quality)) continue;
+    if (!links.is_alive(3 * t) || (!doubtful[t] && mesh_.quality().of(t) >= Tuning::good_quality)) continue;
     if (!doubtful[t] && !has_changed_around(t)) first.push_back(n);
     for (const std::uint32_t v : links.corners(t))
-      links.around(v, [&](std::uint32_t half) { changed_[links.to(half)] = 1; });
+      links.for_each_leaving(v, [&](std::uint32_t half) { changed_[links.to(half)] = 1; });
   }
   std::vector<std::optional<Candidates>> found(bad.size());
   tbb::parallel_for(std::size_t{0}, first.size(),
@@ -289,29 +301,29 @@ std::vector<std::optional<MeshMender::Candidates>> MeshMender::changes_of_first(
   return found;
 }
 
-/// Has this round changed what the changes of a triangle follow from?
+/// True if this round has changed anything that the changes of a triangle depend on.
 bool MeshMender::has_changed_around(std::uint32_t triangle) const {
   const auto corners = mesh_.links().corners(triangle);
   return std::ranges::any_of(corners, [&](std::uint32_t v) {
     return changed_[v] ||
-           !mesh_.links().all_around(v, [&](std::uint32_t half) { return changed_[mesh_.links().to(half)] == 0; });
+           !mesh_.links().all_leaving(v, [&](std::uint32_t half) { return changed_[mesh_.links().to(half)] == 0; });
   });
 }
 
-void MeshMender::reach(std::span<const PointAtTriangle> points) {
+void MeshMender::insert_points(std::span<const PointAtTriangle> points) {
   const HalfEdges& links = mesh_.links();
   std::vector<std::uint32_t> triangles;
   for (const PointAtTriangle& point : points) triangles.push_back(point.triangle);
-  mesh_.guard().watch_around(triangles);
+  mesh_.guard().guard_around(triangles);
   for (const auto& [triangle, at] : points) {
-    if (at.face == kNone || !links.lives(3 * triangle)) continue;
+    if (at.face == kNone || !links.is_alive(3 * triangle)) continue;
     std::optional<MeshChange> best;
     double score = 0.0;
-    WrongNow wrong_now(mesh_, allowed_);
+    FaultCache faults(mesh_, allowed_);
     const auto consider = [&](const MeshChange& change) {
       const double now = score_after(change, false);
       if (best && now <= score) return;
-      if (fewer_wrong(exchange_by(mesh_, change), wrong_now) == kMore) return;
+      if (fault_reduction(exchange_by(mesh_, change), faults) == kWorse) return;
       best = change;
       score = now;
     };
@@ -321,7 +333,7 @@ void MeshMender::reach(std::span<const PointAtTriangle> points) {
       if (const std::uint32_t v = links.from(half); !mesh_.vertex(v).on_crease()) consider({Kind::move, v, at});
     }
     if (!best) continue;
-    make(mesh_, *best);
+    apply_change(mesh_, *best);
     mesh_.vertex(best->kind == Kind::move ? best->where : links.vertex_count() - 1).pinned = true;
   }
   mesh_.guard().release();
@@ -331,7 +343,7 @@ void MeshMender::mend(std::span<const std::uint32_t> triangles) {
   std::vector<std::uint8_t> doubtful(mesh_.links().triangle_count(), 0);
   for (const std::uint32_t t : triangles) doubtful[t] = 1;
   std::vector<std::uint32_t> bad;
-  mesh_.quality().find_all();
+  mesh_.quality().compute_all();
   for (std::uint32_t t = 0; t < doubtful.size(); ++t)
     if (doubtful[t] || mesh_.quality().of(t) < Tuning::good_quality) bad.push_back(t);
   mend(std::move(bad), std::move(doubtful));
@@ -343,35 +355,36 @@ void MeshMender::mend_only(std::span<const std::uint32_t> triangles) {
   mend({triangles.begin(), triangles.end()}, std::move(doubtful));
 }
 
-/// Doubtful are triangles that may cross others or be forbidden, and with them what comes about there. The changes of
-/// others that are far apart are found first, on all cores, and found again if a round has changed something there.
+/// Mends bad triangles in rounds. Doubtful triangles, and those that replace them, may cross others or be forbidden.
+/// The changes of other triangles that are far apart are found first, on all cores, and found again if the round has
+/// changed something there.
 void MeshMender::mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> doubtful) {
   const HalfEdges& links = mesh_.links();
   const TriangleQuality& qualities = mesh_.quality();
-  mesh_.guard().watch_around(bad);
+  mesh_.guard().guard_around(bad);
   for (int round = 0; round < Tuning::mending_rounds && !bad.empty(); ++round) {
     std::vector<std::uint32_t> next;
     std::sort(bad.begin(), bad.end());
     bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
-    std::vector<std::optional<Candidates>> found = changes_of_first(bad, doubtful);
+    std::vector<std::optional<Candidates>> found = find_independent_changes(bad, doubtful);
     changed_.assign(links.vertex_count(), 0);
     for (std::size_t n = 0; n < bad.size(); ++n) {
       const std::uint32_t t = bad[n];
       if (mesh_.guard().work() > most_work_) return mesh_.guard().release();
-      if (!links.lives(3 * t)) continue;
-      const bool wrong = doubtful[t] && is_wrong(t);
-      if (!wrong && qualities.of(t) >= Tuning::good_quality) continue;
-      if (wrong)
-        found[n] = righting_changes(t);
+      if (!links.is_alive(3 * t)) continue;
+      const bool is_bad = doubtful[t] && is_faulty(t);
+      if (!is_bad && qualities.of(t) >= Tuning::good_quality) continue;
+      if (is_bad)
+        found[n] = repairing_changes(t);
       else if (!found[n] || has_changed_around(t))
         found[n] = better_changes(t);
-      if (!make_first(*std::exchange(found[n], {}))) continue;
+      if (!apply_first(*std::exchange(found[n], {}))) continue;
       doubtful.resize(links.triangle_count(), 0);
-      if (!links.lives(3 * t)) continue;
+      if (!links.is_alive(3 * t)) continue;
       for (const std::uint32_t v : links.corners(t))
-        links.around(v, [&](std::uint32_t half) {
+        links.for_each_leaving(v, [&](std::uint32_t half) {
           next.push_back(half / 3);
-          if (wrong) doubtful[half / 3] = 1;
+          if (is_bad) doubtful[half / 3] = 1;
         });
     }
     bad = std::move(next);

@@ -13,6 +13,7 @@
 #include "core/mesh/compare_mesh.h"
 #include "core/mesh/creases.h"
 #include "core/mesh/even_sizes.h"
+#include "core/mesh/remesh_tuning.h"
 #include "core/mesh/tessellate.h"
 #include "core/surface/walks.h"
 
@@ -22,7 +23,8 @@ using Tuning = RemeshTuning;
 
 namespace {
 
-/// Of three corners in any order; triangles keep it while their numbers and those of their vertices change.
+/// Returns a key of three corners in any order, which triangles keep while their numbers and those of their vertices
+/// change.
 std::uint64_t key_of(std::span<const glm::dvec3> positions, const std::array<std::uint32_t, 3>& triangle) {
   std::uint64_t key = 0;
   for (const std::uint32_t v : triangle) {
@@ -34,7 +36,7 @@ std::uint64_t key_of(std::span<const glm::dvec3> positions, const std::array<std
   return key;
 }
 
-/// The keys of all triangles of a mesh.
+/// The set of the keys of all triangles of a mesh.
 class TriangleKeys {
  public:
   TriangleKeys(std::span<const glm::dvec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles)
@@ -46,7 +48,7 @@ class TriangleKeys {
   bool contain(std::uint64_t key) const { return slots_[slot(key)] != kNone; }
 
  private:
-  /// That of this key, or the empty one where it would be.
+  /// Returns the slot of this key, or the empty one where it would be.
   std::size_t slot(std::uint64_t key) const {
     std::size_t at = key & (slots_.size() - 1);
     while (slots_[at] != kNone && keys_[slots_[at]] != key) at = (at + 1) & (slots_.size() - 1);
@@ -69,22 +71,22 @@ std::optional<SurfacePoint> below(const MeshOnSurface& mesh, const glm::dvec3& x
   return std::nullopt;
 }
 
-void MeshNearness::ask_for(const BaseMesh& base) {
+void MeshNearness::set_targets(const BaseMesh& base) {
   const TriangleMesh& mesh = base.mesh;
-  to_reach_.clear();
-  near_.clear();
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) to_reach_.push_back({mesh.positions[v], base.vertex_face[v]});
+  targets_.clear();
+  near_keys_.clear();
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) targets_.push_back({mesh.positions[v], base.vertex_face[v]});
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     const glm::dvec3 middle = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
-    if (const auto at = walk_.below(middle, mesh.face[t])) to_reach_.push_back(*at);
+    if (const auto at = walk_.below(middle, mesh.face[t])) targets_.push_back(*at);
   }
   for (const Border& border : surface_.borders) {
     if (surface_.probe_radius == 0.0 || crease_angle(surface_, border) == 0.0) continue;
     const double step = Tuning::crease_step * sizes_.tolerance_at(arc_point(border, 0.5 * border.sweep));
     const auto count = static_cast<std::uint32_t>(std::ceil(border.radius * border.sweep / step));
     for (std::uint32_t k = 1; k < count; ++k)
-      to_reach_.push_back({arc_point(border, border.sweep * k / count), border.face[0]});
+      targets_.push_back({arc_point(border, border.sweep * k / count), border.face[0]});
   }
 }
 
@@ -93,8 +95,8 @@ const SurfaceDistance& MeshNearness::distance() const {
   return *distance_;
 }
 
-std::optional<glm::dvec3> MeshNearness::far_place(const MeshOnSurface& mesh, const PlacedTriangle& t) const {
-  for (const auto& w : Tuning::places) {
+std::optional<glm::dvec3> MeshNearness::find_far_place(const MeshOnSurface& mesh, const PlacedTriangle& t) const {
+  for (const auto& w : Tuning::sample_weights) {
     const glm::dvec3 place = w[0] * t.at[0] + w[1] * t.at[1] + w[2] * t.at[2];
     const double limit = Tuning::margin * sizes_.tolerance_at(place);
     const auto foot = below(mesh, place, t.vertex);
@@ -104,9 +106,9 @@ std::optional<glm::dvec3> MeshNearness::far_place(const MeshOnSurface& mesh, con
   return std::nullopt;
 }
 
-/// Below x or, where creases bar the way there, the nearest point of these.
-SurfacePoint MeshNearness::near(const MeshOnSurface& mesh, const glm::dvec3& x,
-                                const std::array<std::uint32_t, 3>& corners) const {
+/// Returns the point below x or, if creases bar the way there, the nearest point of these.
+SurfacePoint MeshNearness::nearest_point(const MeshOnSurface& mesh, const glm::dvec3& x,
+                                         const std::array<std::uint32_t, 3>& corners) const {
   if (const auto at = below(mesh, x, corners)) return *at;
   SurfacePoint nearest;
   for (const std::uint32_t v : corners)
@@ -115,13 +117,13 @@ SurfacePoint MeshNearness::near(const MeshOnSurface& mesh, const glm::dvec3& x,
   return nearest;
 }
 
-std::vector<PointAtTriangle> MeshNearness::too_far(MeshOnSurface& mesh) {
+std::vector<PointAtTriangle> MeshNearness::find_far_triangles(MeshOnSurface& mesh) {
   const HalfEdges& links = mesh.links();
   std::vector<PointAtTriangle> points(links.triangle_count());
   tbb::parallel_for(std::uint32_t{0}, links.triangle_count(), [&](std::uint32_t t) {
     const auto v = links.corners(t);
     if (std::none_of(v.begin(), v.end(), [&](std::uint32_t corner) { return mesh.vertex(corner).changed; })) return;
-    if (const auto far = far_place(mesh, mesh.placed(t))) points[t] = {t, near(mesh, *far, v)};
+    if (const auto far = find_far_place(mesh, mesh.placed(t))) points[t] = {t, nearest_point(mesh, *far, v)};
   });
   add_bridges(mesh, points);
   std::erase_if(points, [](const PointAtTriangle& point) { return point.triangle == kNone; });
@@ -131,24 +133,25 @@ std::vector<PointAtTriangle> MeshNearness::too_far(MeshOnSurface& mesh) {
   return points;
 }
 
+/// Adds the triangles nearest to places that are too far from the mesh.
 void MeshNearness::add_bridges(const MeshOnSurface& mesh, std::vector<PointAtTriangle>& points) {
   const std::vector<std::array<std::uint32_t, 3>> all = all_triangles(mesh.links());
   const TriangleKeys keys(mesh.positions(), all);
-  near_.resize(to_reach_.size(), 0);
-  std::vector<std::uint8_t> unknown(to_reach_.size());
-  tbb::parallel_for(std::size_t{0}, unknown.size(), [&](std::size_t v) { unknown[v] = !keys.contain(near_[v]); });
-  std::vector<std::uint32_t> asked;
+  near_keys_.resize(targets_.size(), 0);
+  std::vector<std::uint8_t> unknown(targets_.size());
+  tbb::parallel_for(std::size_t{0}, unknown.size(), [&](std::size_t v) { unknown[v] = !keys.contain(near_keys_[v]); });
+  std::vector<std::uint32_t> queries;
   for (std::uint32_t v = 0; v < unknown.size(); ++v)
-    if (unknown[v]) asked.push_back(v);
-  if (asked.empty()) return;
+    if (unknown[v]) queries.push_back(v);
+  if (queries.empty()) return;
   const MeshDistance from_mesh(mesh.positions(), all);
-  std::vector<NearestTriangle> bridging(asked.size(), {kNone, 0.0});
-  tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t n) {
-    const glm::dvec3& x = to_reach_[asked[n]].position;
+  std::vector<NearestTriangle> bridging(queries.size(), {kNone, 0.0});
+  tbb::parallel_for(std::size_t{0}, queries.size(), [&](std::size_t n) {
+    const glm::dvec3& x = targets_[queries[n]].position;
     const double limit = Tuning::margin * sizes_.tolerance_at(x);
     const std::uint32_t near = from_mesh.any_within(x, limit);
     if (near < all.size())
-      near_[asked[n]] = keys.of(near);
+      near_keys_[queries[n]] = keys.of(near);
     else
       bridging[n] = from_mesh(x, std::numeric_limits<double>::infinity());
   });
@@ -157,14 +160,14 @@ void MeshNearness::add_bridges(const MeshOnSurface& mesh, std::vector<PointAtTri
     const auto& [t, distance] = bridging[n];
     if (t == kNone || distance <= farthest[t]) continue;
     farthest[t] = distance;
-    points[t] = {t, to_reach_[asked[n]]};
+    points[t] = {t, targets_[queries[n]]};
   }
 }
 
-/// Of a mesh that is finer than the tolerance asks; the same for all attempts.
+/// Returns the vertices of a mesh that is finer than the tolerance; they are the same for all attempts.
 const std::vector<SurfacePoint>& MeshNearness::fine_vertices() {
   if (!fine_vertices_.empty()) return fine_vertices_;
-  const TriangleMesh fine = tessellate(surface_, {Tuning::share_of_fine * sizes_.tolerance(), false});
+  const TriangleMesh fine = tessellate(surface_, {Tuning::fine_tolerance_share * sizes_.tolerance(), false});
   fine_vertices_.resize(fine.positions.size());
   for (std::size_t v = 0; v < fine_vertices_.size(); ++v) fine_vertices_[v].position = fine.positions[v];
   for (std::size_t t = 0; t < fine.triangles.size(); ++t)
@@ -172,7 +175,7 @@ const std::vector<SurfacePoint>& MeshNearness::fine_vertices() {
   return fine_vertices_;
 }
 
-bool MeshNearness::reaches_all(const MeshOnSurface& mesh) {
+bool MeshNearness::reaches_fine_vertices(const MeshOnSurface& mesh) {
   const std::vector<SurfacePoint>& fine = fine_vertices();
   const std::vector<std::array<std::uint32_t, 3>> all = all_triangles(mesh.links());
   const MeshDistance from_mesh(mesh.positions(), all);
@@ -184,7 +187,7 @@ bool MeshNearness::reaches_all(const MeshOnSurface& mesh) {
   bool all_near = true;
   for (std::size_t v = 0; v < far.size(); ++v) {
     if (!far[v]) continue;
-    to_reach_.push_back(fine[v]);
+    targets_.push_back(fine[v]);
     all_near = false;
   }
   return all_near;

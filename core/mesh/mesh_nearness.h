@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks that an even mesh is as near to its surface as asked, and the surface to the mesh.
+// Checks that an even mesh is within the tolerance of its surface, and the surface within that of the mesh.
 #pragma once
 
 #include <array>
@@ -17,30 +17,36 @@
 
 namespace meniscus {
 
-/// The point of the surface under one of a triangle of the mesh, as its corners lead there.
+/// Returns the point of the surface below x, a point of a triangle of the mesh, by walks that start at the faces of its
+/// corners; nothing if no walk arrives.
 std::optional<SurfacePoint> below(const MeshOnSurface& mesh, const glm::dvec3& x,
                                   const std::array<std::uint32_t, 3>& corners);
 
+/// Measures the distances between an even mesh and its surface.
 class MeshNearness {
  public:
-  /// All three have to live as long.
+  /// All three arguments must outlive this object.
   MeshNearness(const Surface& surface, const SurfaceWalk& walk, const EvenSizes& sizes)
       : surface_(surface), walk_(walk), sizes_(sizes) {}
 
-  /// From now on the mesh has to come near the vertices and the middles of this one, and near places along creases,
-  /// which coarser meshes bridge.
-  void ask_for(const BaseMesh& base);
-  /// A place of a triangle that is too far from the surface.
-  std::optional<glm::dvec3> far_place(const MeshOnSurface& mesh, const PlacedTriangle& triangle) const;
-  /// Triangles that are too far from the surface, and those nearest to places that are too far from the mesh: away from
-  /// creases neither is without the other. With the point that they should reach, as far as it is known; ascending. Of
-  /// triangles that did not change since this was asked last, the first are known to be near.
-  std::vector<PointAtTriangle> too_far(MeshOnSurface& mesh);
-  /// Is the mesh near the vertices of a fine one as well? Others have to be reached from now on.
-  bool reaches_all(const MeshOnSurface& mesh);
+  /// Requires the mesh to come near the vertices and centroids of this one, and near places along creases, which
+  /// coarser meshes bridge.
+  void set_targets(const BaseMesh& base);
+  /// Returns a place of a triangle that is too far from the surface; nothing if there is none. Safe to call from
+  /// several threads.
+  std::optional<glm::dvec3> find_far_place(const MeshOnSurface& mesh, const PlacedTriangle& triangle) const;
+  /// Returns the triangles that are too far from the surface, and those nearest to places that are too far from the
+  /// mesh; away from creases neither occurs without the other. Each has the point of the surface that it should reach,
+  /// if that is known; triangles are in ascending order. Triangles that did not change since the last call are known to
+  /// be near the surface.
+  std::vector<PointAtTriangle> find_far_triangles(MeshOnSurface& mesh);
+  /// True if the mesh is also near the vertices of a fine one. Otherwise those that it is far from have to be reached
+  /// from now on.
+  bool reaches_fine_vertices(const MeshOnSurface& mesh);
 
  private:
-  SurfacePoint near(const MeshOnSurface& mesh, const glm::dvec3& x, const std::array<std::uint32_t, 3>& corners) const;
+  SurfacePoint nearest_point(const MeshOnSurface& mesh, const glm::dvec3& x,
+                             const std::array<std::uint32_t, 3>& corners) const;
   void add_bridges(const MeshOnSurface& mesh, std::vector<PointAtTriangle>& points);
   const SurfaceDistance& distance() const;
   const std::vector<SurfacePoint>& fine_vertices();
@@ -48,9 +54,10 @@ class MeshNearness {
   const Surface& surface_;
   const SurfaceWalk& walk_;
   const EvenSizes& sizes_;
-  std::vector<SurfacePoint> to_reach_;
-  std::vector<std::uint64_t> near_;  ///< per place to reach, the key of a triangle that was near it; 0: none known
-  std::vector<SurfacePoint> fine_vertices_;  ///< made when it is asked for first
+  std::vector<SurfacePoint> targets_;  ///< places that the mesh has to come near
+  std::vector<std::uint64_t>
+      near_keys_;  ///< per place to reach: the key of a triangle that was near it; 0: none is known
+  std::vector<SurfacePoint> fine_vertices_;  ///< computed on first use
   mutable std::once_flag distance_made_;
   mutable std::optional<SurfaceDistance> distance_;
 };

@@ -21,7 +21,7 @@ namespace meniscus {
 
 double tolerance_of(const MeshRequest& request, glm::ivec2 size, const Camera& camera, std::span<const Ball> balls) {
   if (request.tolerance_pixels == 0.0) return request.tolerance;
-  // A pixel spans 2 * half height / rows of the plane at distance 1 (perspective), or in Å anywhere (orthographic).
+  // A pixel is 2 * half height / rows: of the plane at distance 1 (perspective), or in Å anywhere (orthographic).
   double pixel = 2.0 * half_extent(camera, double(size.x) / size.y).y / size.y;
   if (camera.projection == Projection::perspective) {
     double nearest = std::numeric_limits<double>::infinity();
@@ -47,11 +47,11 @@ std::vector<TriangleMesh> mesh_objects(std::span<const SurfaceObject> objects, d
 
 namespace {
 
-/// Of an even mesh by tolerance, as measured: vertices per Å² times tolerance times radius of curvature.
+/// The measured density of an even mesh by tolerance: vertices per Å² times tolerance times radius of curvature.
 constexpr double kEvenVertices = 0.36;
-/// Triangles of an even mesh beside each vertex.
+/// The number of triangles per vertex of an even mesh.
 constexpr double kTrianglesAVertex = 2.0;
-/// Of a mesh that keeps to patches, as measured: triangles a segment of a border, on both sides together.
+/// The measured number of triangles per border segment, on both sides together, in a mesh that follows patches.
 constexpr double kTrianglesASegment = 2.3;
 
 double patch_aligned_triangles(const Surface& surface, double tolerance) {

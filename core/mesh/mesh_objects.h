@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The meshes of a molecule's objects: their fineness, in Å or by a camera, and the number of triangles it gives.
+// The meshes of a molecule's objects: their fineness, in Å or by a camera, and the number of triangles that it gives.
 #pragma once
 
 #include <cstddef>
@@ -20,40 +20,41 @@ struct Surface;
 struct SurfaceObject;
 struct TriangleMesh;
 
-/// What a camera is for: nothing finer than this many pixels can be seen.
+/// The tolerance (pixels) of meshes that are made for a camera: nothing finer can be seen.
 inline constexpr double kPixelsOfACamera = 0.5;
 
 /// How far a mesh may be from the surface.
 struct MeshRequest {
   double tolerance = 0.01;        ///< Å
-  double tolerance_pixels = 0.0;  ///< > 0: of a picture, instead of Å
+  double tolerance_pixels = 0.0;  ///< above 0: in pixels of a picture, instead of `tolerance`
 };
 
-/// The tolerance in Å: as given, or what the pixels mean at the nearest ball in a picture of this size (pixels).
+/// Returns the tolerance in Å: the requested one, or the size of the requested pixels at the nearest ball, in a picture
+/// of `size` (pixels).
 double tolerance_of(const MeshRequest& request, glm::ivec2 size, const Camera& camera, std::span<const Ball> balls);
 
-/// Meshes what is shown of each object. Throws RequestError when no triangle came out.
+/// Meshes the shown part of each object. Throws RequestError if no triangle is shown, unless `may_be_empty`.
 std::vector<TriangleMesh> mesh_objects(std::span<const SurfaceObject> objects, double tolerance,
                                        bool may_be_empty = false);
 
-/// What a mesh is to be like.
+/// The properties that a mesh should have.
 struct MeshFineness {
-  double tolerance = 0.05;  ///< Å; the smallest, where it depends on the place
-  /// Å at a point, for even meshes; empty: the same everywhere.
+  double tolerance = 0.05;  ///< Å; the smallest one if it depends on the place
+  /// The tolerance (Å) at a point, for even meshes; empty if it is the same everywhere.
   std::function<double(const glm::dvec3&)> tolerance_at;
-  double density = 0.0;  ///< > 0: vertices per Å², of an even mesh
-  bool even = false;     ///< nearly equilateral triangles, which reach over borders of patches
+  double density = 0.0;  ///< above 0: vertices per Å² of an even mesh
+  bool even = false;     ///< true for nearly equilateral triangles, which may cross the borders of patches
 };
 
-/// Of a picture of this size (pixels). Pixels are those at each point, for an even mesh; for one that keeps to patches,
-/// those at the nearest of the balls.
+/// Returns the fineness for a picture of `size` (pixels). For an even mesh a pixel is measured at each point, for a
+/// mesh that follows patches at the nearest of the balls.
 MeshFineness fineness_of(const MeshRequest& request, bool even, double density, glm::ivec2 size, const Camera& camera,
                          std::span<const Ball> balls);
 
-/// About how many triangles the mesh of a surface gets, to a factor of two, without making it.
+/// Returns about how many triangles the mesh of a surface gets, to a factor of two, without making the mesh.
 double estimated_triangles(const Surface& surface, const MeshFineness& fineness);
 
-/// Throws what tessellate() or even_mesh() throw.
+/// Makes a mesh of this fineness. Throws what tessellate() and even_mesh() throw.
 FineMesh fine_mesh(const Surface& surface, const MeshFineness& fineness);
 
 }  // namespace meniscus

@@ -10,7 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/mesh/creases.h"
-#include "core/mesh/even_sizes.h"
+#include "core/mesh/remesh_tuning.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {
@@ -38,19 +38,20 @@ double TriangleQuality::of(std::uint32_t triangle) const {
 
 double TriangleQuality::score_around(std::uint32_t vertex) const {
   WorstQuality worst;
-  links_.around(vertex, [&](std::uint32_t half) { worst.add(of(half / 3)); });
+  links_.for_each_leaving(vertex, [&](std::uint32_t half) { worst.add(of(half / 3)); });
   return worst.score();
 }
 
 double TriangleQuality::score_around(std::uint32_t vertex, const glm::dvec3& x) const {
   WorstQuality worst;
-  links_.around(vertex, [&](std::uint32_t half) { worst.add(of(vertex, x, links_.to(half), links_.opposite(half))); });
+  links_.for_each_leaving(
+      vertex, [&](std::uint32_t half) { worst.add(of(vertex, x, links_.to(half), links_.opposite(half))); });
   return worst.score();
 }
 
-void TriangleQuality::find_all() {
+void TriangleQuality::compute_all() {
   tbb::parallel_for(std::uint32_t{0}, links_.triangle_count(), [&](std::uint32_t t) {
-    if (links_.lives(3 * t)) known_[t] = static_cast<float>(of(t));
+    if (links_.is_alive(3 * t)) known_[t] = static_cast<float>(of(t));
   });
 }
 
@@ -65,7 +66,7 @@ std::vector<std::uint8_t> TriangleQuality::take_stale() {
   return stale;
 }
 
-void TriangleQuality::make_room() {
+void TriangleQuality::extend() {
   known_.resize(links_.triangle_count(), kUnknown);
   stale_.resize(links_.triangle_count(), 1);
 }
@@ -73,7 +74,7 @@ void TriangleQuality::make_room() {
 void TriangleQuality::compact() {
   std::uint32_t living = 0;
   for (std::uint32_t t = 0; t < links_.triangle_count(); ++t) {
-    if (!links_.lives(3 * t)) continue;
+    if (!links_.is_alive(3 * t)) continue;
     known_[living] = known_[t];
     stale_[living++] = stale_[t];
   }
@@ -93,7 +94,7 @@ MeshOnSurface::MeshOnSurface(const Surface& surface, SurfaceWalk& walk, const Tr
   walk.bar(keep);
   tbb::parallel_for(std::size_t{0}, vertices_.size(), [&](std::size_t n) {
     const auto v = static_cast<std::uint32_t>(n);
-    settle(v, {positions_[v], vertex_face[v]}, kNone);
+    update_vertex(v, {positions_[v], vertex_face[v]}, kNone);
   });
   for (std::uint32_t v = 0; v < vertices_.size(); ++v) ++vertex_count_[component(v)];
   mark_creases(surface, walk, base, keep, links_);
@@ -106,8 +107,8 @@ MeshOnSurface::MeshOnSurface(const Surface& surface, SurfaceWalk& walk, const Tr
   }
 }
 
-/// Every number of a vertex that follows from where it is.
-void MeshOnSurface::settle(std::uint32_t vertex, const SurfacePoint& at, std::uint32_t crease) {
+/// Sets all attributes of a vertex that follow from its place.
+void MeshOnSurface::update_vertex(std::uint32_t vertex, const SurfacePoint& at, std::uint32_t crease) {
   MeshVertex& v = vertices_[vertex];
   positions_[vertex] = at.position;
   v.face = at.face;
@@ -131,8 +132,8 @@ bool MeshOnSurface::can_spare(std::uint32_t vertex) const {
   return vertex_count_[component(vertex)] > RemeshTuning::fewest_vertices;
 }
 
-void MeshOnSurface::let_lean(bool as_they_have_to) {
-  may_lean_ = as_they_have_to;
+void MeshOnSurface::allow_lean(bool allowed) {
+  may_lean_ = allowed;
   tbb::parallel_for(std::uint32_t{0}, links_.vertex_count(),
                     [&](std::uint32_t v) { vertices_[v].least_cosine = least_cosine(v); });
   quality_.forget_all();
@@ -144,21 +145,22 @@ void MeshOnSurface::scale_size(std::uint32_t vertex, float factor) {
   vertices_[vertex].least_cosine = least_cosine(vertex);
 }
 
+/// Marks a vertex as changed, forgets the qualities of its triangles, and lists these in the guard.
 void MeshOnSurface::note_changes_around(std::uint32_t vertex) {
   vertices_[vertex].note_change();
-  links_.around(vertex, [&](std::uint32_t half) {
+  links_.for_each_leaving(vertex, [&](std::uint32_t half) {
     quality_.forget(half / 3);
-    if (guard_.watches(vertex)) guard_.add(half / 3);
+    if (guard_.is_guarded(vertex)) guard_.add(half / 3);
   });
 }
 
 void MeshOnSurface::place(std::uint32_t vertex, const SurfacePoint& at) {
-  settle(vertex, at, vertices_[vertex].crease);
+  update_vertex(vertex, at, vertices_[vertex].crease);
   vertices_[vertex].note_change();
 }
 
 void MeshOnSurface::move(std::uint32_t vertex, const SurfacePoint& at) {
-  settle(vertex, at, vertices_[vertex].crease);
+  update_vertex(vertex, at, vertices_[vertex].crease);
   note_changes_around(vertex);
 }
 
@@ -174,14 +176,14 @@ void MeshOnSurface::poke(std::uint32_t triangle, const SurfacePoint& at) {
   add_vertex(v[0], v[1], at, kNone);
 }
 
-/// The numbers of the last vertex, which has come between a and b.
+/// Sets the attributes of the last vertex, which lies between a and b.
 void MeshOnSurface::add_vertex(std::uint32_t a, std::uint32_t b, const SurfacePoint& at, std::uint32_t crease) {
   const std::uint32_t m = links_.vertex_count() - 1;
   positions_.emplace_back();
   vertices_.emplace_back().scale = 0.5f * (vertices_[a].scale + vertices_[b].scale);
   guard_.add_vertex(a, b);
-  quality_.make_room();
-  settle(m, at, crease);
+  quality_.extend();
+  update_vertex(m, at, crease);
   ++vertex_count_[component(m)];
   note_changes_around(m);
 }
@@ -205,16 +207,16 @@ void MeshOnSurface::flip(std::uint32_t half) {
 void MeshOnSurface::flip(std::uint32_t half, const std::array<double, 2>& qualities) {
   links_.flip(half);
   const std::array<std::uint32_t, 2> triangles{half / 3, links_.twin(half) / 3};
-  bool watched = false;
+  bool is_guarded = false;
   for (std::size_t n = 0; n < 2; ++n) {
     quality_.remember(triangles[n], qualities[n]);
-    quality_.make_stale(triangles[n]);
+    quality_.mark_stale(triangles[n]);
     for (const std::uint32_t v : links_.corners(triangles[n])) {
       vertices_[v].note_change();
-      watched = watched || guard_.watches(v);
+      is_guarded = is_guarded || guard_.is_guarded(v);
     }
   }
-  if (watched)
+  if (is_guarded)
     for (const std::uint32_t t : triangles) guard_.add(t);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh whose vertices lie on an exact surface and move along it during remeshing, and the quality of its
+// A mesh with vertices that lie on an exact surface and move along it during remeshing, and the quality of its
 // triangles.
 #pragma once
 
@@ -23,37 +23,37 @@ namespace meniscus {
 
 struct TriangleMesh;
 
-/// What a vertex of a mesh on a surface has beside its position.
+/// The attributes of a vertex of a mesh on a surface, except for its position.
 struct MeshVertex {
-  glm::dvec3 normal{0.0};        ///< of the surface
-  std::uint32_t face = kNone;    ///< of the surface
-  std::uint32_t crease = kNone;  ///< the border that it moves along, or kNone
-  float size = 0.0f;             ///< Å, edges wanted around it
-  float scale = 1.0f;            ///< what refinements made of that
-  float least_cosine = 0.0f;     ///< triangles whose normals have a smaller one with the vertex's are folded over
-  bool pinned = false;           ///< stays: creases end or meet here, or it was put here for good
-  bool frozen = false;           ///< stays, as edges between two such ones do, but for mending
-  bool active = true;            ///< passes change what is around it
-  bool changed = true;           ///< since nearness was asked last
-  bool unchecked = true;         ///< since crossings were searched for last
+  glm::dvec3 normal{0.0};        ///< unit normal of the surface
+  std::uint32_t face = kNone;    ///< face of the surface that the vertex lies on
+  std::uint32_t crease = kNone;  ///< border that the vertex moves along, or kNone
+  float size = 0.0f;             ///< wanted length (Å) of edges around the vertex
+  float scale = 1.0f;            ///< factor of that length due to refinements
+  float least_cosine = 0.0f;  ///< triangles with a smaller cosine between their normal and the vertex's are folded over
+  bool pinned = false;        ///< true if the vertex stays: creases end or meet here, or it was put here for good
+  bool frozen = false;        ///< true if the vertex, and edges between two such ones, stay except for mending
+  bool active = true;         ///< true if passes change the neighbourhood of the vertex
+  bool changed = true;        ///< true if changed since distances were last measured
+  bool unchecked = true;      ///< true if changed since crossings were last searched for
 
   void note_change() { changed = unchecked = true; }
 
-  /// The surface has no single normal here.
+  /// True if the surface has no single normal here.
   bool on_crease() const { return crease != kNone || pinned; }
 };
 
-/// What a quality falls by if the triangle is folded over.
+/// The amount by which the quality of a triangle falls if it is folded over.
 inline constexpr double kFold = 2.0;
 
-/// Of some triangles how many are folded over, and the worst quality.
+/// The number of folded triangles among several, and their worst quality.
 class WorstQuality {
  public:
   void add(double quality) {
     if (quality < 0.0) ++folded_, quality += kFold;
     worst_ = std::min(worst_, quality);
   }
-  /// The more the better; folds count before anything else.
+  /// Returns a number that is higher for better triangles; folds count before anything else.
   double score() const { return worst_ - folded_; }
 
  private:
@@ -61,36 +61,37 @@ class WorstQuality {
   double worst_ = 1.0;
 };
 
-/// Qualities of triangles, remembered as long as nothing around them changes.
+/// The qualities of triangles (remesh_tuning.h), cached as long as nothing around them changes.
 class TriangleQuality {
  public:
-  /// All three have to live as long.
+  /// All three arguments must outlive this object.
   TriangleQuality(const HalfEdges& links, const std::vector<glm::dvec3>& positions,
                   const std::vector<MeshVertex>& vertices)
       : links_(links), positions_(positions), vertices_(vertices) {
-    make_room();
+    extend();
   }
 
-  /// Of a triangle of these vertices, the first of them at x; less kFold if it is folded over.
+  /// Returns the quality of a triangle of these vertices, the first of them at x; less kFold if the triangle is folded
+  /// over.
   double of(std::uint32_t a, const glm::dvec3& x, std::uint32_t b, std::uint32_t c) const;
-  /// The same of a triangle as it is.
+  /// Returns the quality of a triangle as it is.
   double of(std::uint32_t triangle) const;
-  /// Of all triangles around a vertex; as if it were at x.
+  /// Returns the score of all triangles around a vertex, as it is or moved to x.
   double score_around(std::uint32_t vertex) const;
   double score_around(std::uint32_t vertex, const glm::dvec3& x) const;
 
-  /// Finds and remembers all of them.
-  void find_all();
+  /// Computes and caches the qualities of all triangles.
+  void compute_all();
   void remember(std::uint32_t triangle, double quality) { known_[triangle] = static_cast<float>(quality); }
   void forget(std::uint32_t triangle) { known_[triangle] = kUnknown, stale_[triangle] = 1; }
   void forget_all();
-  /// Marks what has to be asked again whether its edges should be flipped.
-  void make_stale(std::uint32_t triangle) { stale_[triangle] = 1; }
-  /// Per triangle whether it was stale; none is from now on.
+  /// Marks a triangle with edges that have to be checked for flips again.
+  void mark_stale(std::uint32_t triangle) { stale_[triangle] = 1; }
+  /// Returns the marks, true for each stale triangle, and clears them.
   std::vector<std::uint8_t> take_stale();
-  /// For triangles that were added.
-  void make_room();
-  /// Before HalfEdges::compact().
+  /// Makes room for triangles that were added.
+  void extend();
+  /// Renumbers triangles; to be called before HalfEdges::compact().
   void compact();
 
  private:
@@ -100,20 +101,20 @@ class TriangleQuality {
   const HalfEdges& links_;
   const std::vector<glm::dvec3>& positions_;
   const std::vector<MeshVertex>& vertices_;
-  std::vector<float> known_;  ///< per triangle, or kUnknown
-  std::vector<std::uint8_t> stale_;
+  std::vector<float> known_;         ///< per triangle: its quality, or kUnknown
+  std::vector<std::uint8_t> stale_;  ///< per triangle: 1 if its edges have to be checked for flips
 };
 
-/// The edge length (Å) wanted at a place of a face.
+/// The edge length (Å) wanted at a point of a face.
 using EdgeLength = std::function<double(const SurfacePoint&)>;
 
-/// Changes keep the numbers of vertices and triangles, what is known of qualities, and the guard in step. Whether they
-/// may be made is for others to ask.
+/// A mesh on a surface. Changes keep vertex and triangle numbers, cached qualities and the guard in step. They are not
+/// checked: callers decide which changes are valid.
 class MeshOnSurface {
  public:
-  /// base: closed, its vertices on the surface; vertex_face: per vertex a face that it lies on. keep: per border of the
-  /// surface, whether edges follow it; the walk is barred from crossing those. The surface and the walk have to live as
-  /// long.
+  /// `base` is closed, and its vertices lie on the surface; `vertex_face` has for each vertex a face that it lies on.
+  /// `keep` is true for each border of the surface that edges follow; the walk is barred from crossing these. `surface`
+  /// and `walk` must outlive the mesh.
   MeshOnSurface(const Surface& surface, SurfaceWalk& walk, const TriangleMesh& base,
                 std::span<const std::uint32_t> vertex_face, const std::vector<bool>& keep, EdgeLength edge);
   MeshOnSurface(const MeshOnSurface&) = delete;
@@ -129,11 +130,11 @@ class MeshOnSurface {
   double length(std::uint32_t half) const {
     return glm::distance(positions_[links_.from(half)], positions_[links_.to(half)]);
   }
-  /// The length (Å) wanted of an edge.
+  /// Returns the wanted length (Å) of an edge.
   double wanted(std::uint32_t half) const {
     return 0.5 * (vertices_[links_.from(half)].size + vertices_[links_.to(half)].size);
   }
-  /// Has its component more vertices than it needs?
+  /// True if the component of the vertex has more vertices than it needs.
   bool can_spare(std::uint32_t vertex) const;
   PlacedTriangle placed(std::uint32_t triangle) const { return guard_.placed(triangle); }
   TriangleQuality& quality() { return quality_; }
@@ -141,25 +142,27 @@ class MeshOnSurface {
   CrossingGuard& guard() { return guard_; }
   const CrossingGuard& guard() const { return guard_; }
 
-  /// Puts a vertex elsewhere; what is known of the triangles around it is left to the caller.
+  /// Moves a vertex and leaves the cached qualities of the triangles around it to the caller.
   void place(std::uint32_t vertex, const SurfacePoint& at);
   void move(std::uint32_t vertex, const SurfacePoint& at);
   void split(std::uint32_t half, const SurfacePoint& at);
   void poke(std::uint32_t triangle, const SurfacePoint& at);
   void collapse(std::uint32_t half);
   void flip(std::uint32_t half);
-  /// Of triangles whose new qualities are known: that of the half-edge's, and that of its twin's.
+  /// Flips an edge if the qualities of both new triangles are known: that of the half-edge's triangle, and that of its
+  /// twin's.
   void flip(std::uint32_t half, const std::array<double, 2>& qualities);
-  /// Takes the places of vertices and triangles that are gone.
+  /// Renumbers vertices and triangles so that those that were removed leave no gaps.
   void compact();
 
-  /// From now on triangles lean as they have to, or as little as the edges wanted let them.
-  void let_lean(bool as_they_have_to);
-  /// Asks for shorter or longer edges around a vertex; what is known of qualities is left to the caller.
+  /// If true, triangles may lean as far as RemeshTuning::least_cosine; otherwise as little as the wanted edges let
+  /// them.
+  void allow_lean(bool allowed);
+  /// Multiplies the wanted length of edges around a vertex, and leaves cached qualities to the caller.
   void scale_size(std::uint32_t vertex, float factor);
 
  private:
-  void settle(std::uint32_t vertex, const SurfacePoint& at, std::uint32_t crease);
+  void update_vertex(std::uint32_t vertex, const SurfacePoint& at, std::uint32_t crease);
   void add_vertex(std::uint32_t a, std::uint32_t b, const SurfacePoint& at, std::uint32_t crease);
   void note_changes_around(std::uint32_t vertex);
   float least_cosine(std::uint32_t vertex) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Asks for the sky at vertices, and takes means over the triangles of atoms.
+// Computes the visibility of the sky at vertices, and its means over the triangles of atoms.
 #include "core/mesh/open_sky.h"
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a surface sees of the sky, at the vertices of its mesh and as means over atoms: ambient occlusion as numbers.
+// Ambient occlusion as numbers: how much of the sky a surface sees at the vertices of its mesh, and means of it over
+// atoms.
 #pragma once
 
 #include <vector>
@@ -9,10 +10,11 @@ namespace meniscus {
 struct Surface;
 struct TriangleMesh;
 
-/// sky_visibility() at each vertex of a mesh of the surface.
+/// Returns sky_visibility() at each vertex of a mesh of the surface.
 std::vector<float> vertex_open_sky(const Surface& surface, const TriangleMesh& mesh);
 
-/// For each of Surface::atoms the mean of that over its triangles, by area; 0 where it has none.
+/// Returns for each of Surface::atoms the mean of that over its triangles, weighted by area; 0 for atoms without
+/// triangles.
 std::vector<double> atom_open_sky(const Surface& surface, const TriangleMesh& mesh);
 
 }  // namespace meniscus

@@ -41,7 +41,7 @@ PlanarTriangulation::PlanarTriangulation() {
 
 int PlanarTriangulation::locate(GridPoint point) const {
   int t = last_;
-  // A walk through a constrained triangulation may circle; after a while look everywhere instead.
+  // A walk through a constrained triangulation may go in circles; after a while all triangles are tried instead.
   for (std::size_t step = 0; step < 2 * triangles_.size() + 8; ++step) {
     const Triangle& triangle = triangles_[t];
     int go = -1;
@@ -63,7 +63,7 @@ int PlanarTriangulation::locate(GridPoint point) const {
       return last_ = int(i);
     }
   }
-  refuse();  // outside the grid, or no number at all
+  refuse();  // outside of the grid, or not a number
 }
 
 void PlanarTriangulation::set(int triangle, std::array<int, 3> vertex, std::array<int, 3> neighbor,
@@ -103,7 +103,7 @@ void PlanarTriangulation::split_edge(Edge edge, int vertex) {
   const Triangle a = triangles_[t];
   const int u = a.neighbor[k];
   const int p = a.vertex[k], q = a.vertex[next(k)], r = a.vertex[previous(k)];
-  if (u < 0) {  // the rim of the box; nobody inserts there
+  if (u < 0) {  // the rim of the box, where no point is inserted
     split_triangle(t, vertex);
     return;
   }
@@ -112,7 +112,7 @@ void PlanarTriangulation::split_edge(Edge edge, int vertex) {
   while (b.neighbor[j] != t) ++j;
   const int s = b.vertex[j];
   const int t1 = add_triangle(), u1 = add_triangle();
-  // p above the edge q-r, s below it.
+  // p is above the edge q-r, s below it.
   const int a_pq = a.neighbor[previous(k)], a_rp = a.neighbor[next(k)];
   const int b_qs = b.neighbor[next(j)], b_sr = b.neighbor[previous(j)];
   const int seg_pq = a.segment[previous(k)], seg_rp = a.segment[next(k)];
@@ -142,23 +142,23 @@ void PlanarTriangulation::flip(Edge edge) {
 }
 
 std::vector<int> PlanarTriangulation::star(int vertex) const {
-  std::vector<int> around;
+  std::vector<int> triangles;
   const int first = triangle_of_[vertex];
   int t = first;
   do {
-    around.push_back(t);
+    triangles.push_back(t);
     int i = 0;
     while (triangles_[t].vertex[i] != vertex) ++i;
     t = triangles_[t].neighbor[next(i)];
   } while (t >= 0 && t != first);
-  if (t == first) return around;
+  if (t == first) return triangles;
   t = first;  // a corner of the box: walk the other way too
   while (true) {
     int i = 0;
     while (triangles_[t].vertex[i] != vertex) ++i;
     t = triangles_[t].neighbor[previous(i)];
-    if (t < 0) return around;
-    around.push_back(t);
+    if (t < 0) return triangles;
+    triangles.push_back(t);
   }
 }
 
@@ -178,7 +178,7 @@ std::optional<PlanarTriangulation::Edge> PlanarTriangulation::find_edge(int a, i
 }
 
 void PlanarTriangulation::legalize(std::vector<std::array<int, 2>>& edges) {
-  // Each flip makes the triangulation more Delaunay, so flips end; were they ever not to, the caller is told.
+  // Each flip makes the triangulation more Delaunay, so flips end; refuse() throws if they ever do not.
   const std::size_t most_flips = 64 + 16 * triangles_.size();
   for (std::size_t flips = 0; !edges.empty();) {
     const auto [a, b] = edges.back();
@@ -200,7 +200,7 @@ void PlanarTriangulation::legalize(std::vector<std::array<int, 2>>& edges) {
 
 std::optional<int> PlanarTriangulation::insert(GridPoint point) {
   for (const std::int64_t c : {point.x, point.y})
-    if (c < -kGridLimit || c > kGridLimit) refuse();  // a point that was no number lies far outside
+    if (c < -kGridLimit || c > kGridLimit) refuse();  // a point that was not a number lies far outside
   const int t = locate(point);
   const Triangle triangle = triangles_[t];
   int on = -1;

@@ -9,7 +9,7 @@
 
 namespace meniscus {
 
-/// A point of the grid; coordinates must lie within +-kGridLimit so that the in-circle test fits 128 bits.
+/// A point of the grid. Its coordinates must lie within +-kGridLimit so that the in-circle test fits into 128 bits.
 struct GridPoint {
   std::int64_t x = 0;
   std::int64_t y = 0;
@@ -17,24 +17,24 @@ struct GridPoint {
 };
 inline constexpr std::int64_t kGridLimit = std::int64_t{1} << 28;
 
-/// Twice the signed area of a, b, c: positive when counter-clockwise. Exact.
+/// Returns twice the signed area of a, b, c: positive when counter-clockwise. Exact.
 std::int64_t orientation(GridPoint a, GridPoint b, GridPoint c);
 
-/// True when d lies strictly inside the circle through the counter-clockwise a, b, c. Exact.
+/// True if d lies strictly inside the circle through the counter-clockwise a, b, c. Exact.
 bool inside_circle(GridPoint a, GridPoint b, GridPoint c, GridPoint d);
 
-/// Incremental Delaunay triangulation (Lawson 1977) with constrained edges recovered by flips (Sloan 1993).
-/// Vertices 0..3 are the corners of a box around the grid; those of the caller follow.
-/// No call runs for ever: points off the grid, or figures that no flips untangle, are an OpenSurfaceError.
+/// An incremental Delaunay triangulation (Lawson 1977) with constrained edges recovered by flips (Sloan 1993). Vertices
+/// 0..3 are the corners of a box around the grid; those of the caller follow. Every call ends: points off the grid, and
+/// figures that no flips untangle, cause an OpenSurfaceError.
 class PlanarTriangulation {
  public:
   struct Triangle {
     std::array<int, 3> vertex{};
-    std::array<int, 3> neighbor{-1, -1, -1};  ///< across the edge opposite vertex k
+    std::array<int, 3> neighbor{-1, -1, -1};  ///< across the edge opposite vertex k, or -1
     std::array<int, 3> segment{-1, -1, -1};   ///< the constraint on the edge opposite vertex k, or -1
-    bool inside = false;
+    bool inside = false;                      ///< true if fill() marked the triangle
   };
-  /// Why a constraint cannot be drawn: it meets another one (`segment`) or runs through a vertex.
+  /// The reason why a constraint cannot be drawn: it meets another one (`segment`), or it runs through a vertex.
   struct Conflict {
     int segment = -1;
     int vertex = -1;
@@ -42,14 +42,16 @@ class PlanarTriangulation {
 
   PlanarTriangulation();
 
-  /// Adds a point and returns its vertex, or the vertex that already lies there.
-  /// Returns nothing if it lies on a constrained edge.
+  /// Inserts a point and returns its vertex, or the vertex that already lies there. Returns nothing if the point lies
+  /// on a constrained edge.
   std::optional<int> insert(GridPoint point);
 
-  /// Makes the straight edge from a to b part of the triangulation, named `segment` (>= 0).
+  /// Makes the straight edge from a to b part of the triangulation, named `segment` (>= 0). Returns a conflict if that
+  /// is impossible.
   std::optional<Conflict> constrain(int a, int b, int segment);
 
-  /// Marks what lies left of the directed edges, up to the constrained ones. False if that spills over one of them.
+  /// Marks the triangles left of the directed edges, up to the constrained ones. Returns false if they spill over one
+  /// of these edges.
   bool fill(const std::vector<std::array<int, 2>>& directed_edges);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
@@ -75,9 +77,9 @@ class PlanarTriangulation {
   std::optional<Conflict> crossed_edges(int a, int b, std::vector<std::array<int, 2>>& edges) const;
 
   std::vector<GridPoint> points_;
-  std::vector<int> triangle_of_;  ///< one triangle at each vertex
+  std::vector<int> triangle_of_;  ///< a triangle at each vertex
   std::vector<Triangle> triangles_;
-  mutable int last_ = 0;
+  mutable int last_ = 0;  ///< the triangle where the last search ended
 };
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Passes that give a mesh on a surface the wanted edge lengths and even triangles.
+// Passes over a mesh on a surface that bring edges to the wanted lengths and make triangles even.
 #pragma once
 
 #include <cstdint>
@@ -9,25 +9,28 @@
 
 namespace meniscus {
 
-/// Splits, collapses, flips and moves of vertices (Botsch & Kobbelt, "A remeshing approach to multiresolution
-/// modeling", 2004, section 4). Where the mesh is watched, no pass lets triangles pass through others.
+/// Remeshes by splits, collapses, flips and moves of vertices (Botsch & Kobbelt, "A remeshing approach to
+/// multiresolution modeling", 2004, section 4). Around guarded vertices (CrossingGuard) no pass lets triangles pass
+/// through others.
 class Remesher {
  public:
-  /// mesh: has to live as long.
+  /// `mesh` must outlive the remesher.
   explicit Remesher(MeshOnSurface& mesh) : mesh_(mesh) {}
 
-  /// From triangles coarser than wanted: splits and collapses until few edges are too long or too short.
+  /// Refines triangles coarser than wanted: splits and collapses edges until few are too long or too short.
   void approach();
-  /// Splits long edges, collapses short ones, flips and relaxes, `rounds` times.
+  /// Splits long edges, collapses short ones, flips edges and relaxes vertices, `rounds` times.
   void even_out(int rounds);
-  /// Asks for edges shorter by `factor` around these triangles, and confines what follows to their neighbourhood.
+  /// Shortens the wanted edges around these triangles by `factor`, and confines later passes to their neighbourhood.
   void refine(std::span<const std::uint32_t> triangles, double factor);
 
  private:
-  bool busy(std::uint32_t half) const;
-  /// Edges longer than this times the length wanted; how many.
+  /// True if passes may change the edge.
+  bool is_changeable(std::uint32_t half) const;
+  /// Splits the edges longer than `limit` times the wanted length; returns how many.
   std::uint32_t split_long(double limit);
   bool split(std::uint32_t half);
+  /// Collapses the edges that are too short; returns how many.
   std::uint32_t collapse_short();
   bool try_collapse(std::uint32_t half);
   void flip_edges();

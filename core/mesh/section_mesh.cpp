@@ -20,7 +20,7 @@ namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-/// Shares of a point in a triangle's corners.
+/// Returns the barycentric coordinates of a point in a triangle.
 glm::dvec3 shares_in(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 normal = glm::cross(b - a, c - a);
   const double area = glm::dot(normal, normal);
@@ -30,7 +30,7 @@ glm::dvec3 shares_in(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3&
   return {1.0 - of_b - of_c, of_b, of_c};
 }
 
-/// Puts the parts of a cut mesh into tables of their own.
+/// Copies the parts of a cut mesh into tables of their own.
 class Sorter {
  public:
   Sorter(const TriangleMesh& mesh, const Solid& solid) : mesh_(mesh), solid_(solid) {}
@@ -74,7 +74,7 @@ class Sorter {
     to.atom.push_back(mesh_.atom[piece.source]);
   }
 
-  /// Normals of a triangle at a cusp are its own, between those of its corners.
+  /// Adds the normals of a triangle at a cusp, which are its own: interpolated between those of its corners.
   void add_sharp_corners(const SolidPiece& piece) {
     TriangleMesh& to = result_.surface;
     const auto first = sharp_.lower_bound(3 * piece.source);
@@ -137,7 +137,7 @@ void append(CapMesh& whole, const CapMesh& part) {
   whole.atom.insert(whole.atom.end(), part.atom.begin(), part.atom.end());
 }
 
-/// Whether each atom of placed_balls(objects) is shown.
+/// Returns true for each atom of placed_balls(objects) that is shown.
 std::vector<bool> shown_atoms(std::span<const SurfaceObject> objects) {
   std::vector<bool> shown;
   for (const SurfaceObject& object : objects)
@@ -158,8 +158,8 @@ void drop_hidden(CapMesh& caps, const std::vector<bool>& shown) {
   caps = std::move(kept);
 }
 
-/// For each atom of placed_balls(objects), the number of its look: atoms of one colour, opacity and hiddenness are a
-/// part. one_color: only opacity and hiddenness count.
+/// Returns the part of each atom of placed_balls(objects): atoms of one colour, opacity and visibility are a part. With
+/// `one_color`, only opacity and visibility count.
 std::vector<std::uint32_t> cap_parts(std::span<const SurfaceObject> objects, bool one_color) {
   std::map<std::tuple<float, float, float, float>, std::uint32_t> known;
   std::vector<std::uint32_t> parts;
@@ -204,7 +204,8 @@ CapMesh section_caps(std::span<const SurfaceObject> objects, std::span<const Cli
 
 namespace {
 
-/// The caps' positions as vertices of the mesh: those on rims are there already.
+/// Adds the positions of caps as vertices of the mesh, which has those on rims already; returns the vertex of each
+/// position.
 std::vector<std::uint32_t> add_vertices(TriangleMesh& mesh, const CapMesh& caps, std::span<const ClipPlane> planes) {
   std::vector<std::uint32_t> vertex = caps.rim;
   for (std::size_t t = 0; t < caps.triangles.size(); ++t)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The solid of a closed mesh cut by planes: what is left of its surface, the caps that close it again, and both as one
+// Cuts the solid of a closed mesh by planes: the rest of its surface, the caps that close it again, and both as one
 // mesh.
 #pragma once
 
@@ -19,44 +19,46 @@ namespace meniscus {
 
 struct SurfaceObject;
 
-/// Plain arrays of flat triangles.
+/// Caps as plain arrays of flat triangles.
 struct CapMesh {
   std::vector<glm::dvec3> positions;  ///< Å
   std::vector<std::uint32_t> rim;     ///< per position: the vertex of CutMesh::surface at this place, or kNone
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from where the solid was cut away
-  std::vector<std::uint32_t> plane;                     ///< per triangle: into the planes; their normals are the caps'
-  std::vector<std::uint32_t> atom;                      ///< per triangle: of CapAtoms, whose colour is shown
+  std::vector<std::uint32_t> plane;  ///< per triangle: the plane that it lies in and has the normal of
+  std::vector<std::uint32_t> atom;   ///< per triangle: the atom (of CapAtoms) that gives it its colour
 };
 
-/// A solid that planes cut. Surface and caps together are closed as the mesh was: their rims are the same vertices.
+/// A solid cut by planes. Surface and caps together are closed if the mesh was; their rims have the same vertices.
 struct CutMesh {
-  TriangleMesh surface;  ///< of what is left; partly_hidden where anything was cut away
+  TriangleMesh surface;  ///< the rest of the surface; partly_hidden if anything was cut away
   CapMesh caps;
 };
 
-/// Cuts a closed mesh by all planes, each of which cuts the caps of those before. Rims are where the mesh crosses the
-/// plane: its distance from the surface is the mesh's tolerance divided by the sine between surface and plane. Borders
-/// of parts are straight over lengths on which an arc of radius 1 Å is flat to the tolerance; a part that is narrower
-/// may be lost. A plane that meets the mesh in such a way that its section cannot be triangulated is moved, by less
-/// than 1e-5 Å. Throws OpenSurfaceError if that does not help.
+/// Cuts a closed mesh by all planes, each of which also cuts the caps of those before it. Rims lie where the mesh
+/// crosses the plane; their distance from the surface is the mesh's tolerance divided by the sine of the angle between
+/// surface and plane. Borders of parts are straight over lengths on which an arc of radius 1 Å is flat to within the
+/// tolerance, and a narrower part may be lost. A plane that meets the mesh in such a way that its section cannot be
+/// triangulated is moved by less than 1e-5 Å. Throws OpenSurfaceError if that does not help.
 CutMesh cut_mesh(TriangleMesh mesh, std::span<const ClipPlane> planes, const CapAtoms& atoms);
 
-/// The caps of all copies of all objects, of meshes of this tolerance (Å). CapMesh::atom: into placed_balls(objects);
-/// CapMesh::rim is empty. Triangles of hidden atoms are left out. Where solids of copies overlap, so do their caps,
-/// which have the same colours there. Throws as tessellate() and cut_mesh() do.
+/// Returns the caps of all copies of all objects, from meshes of this tolerance (Å). CapMesh::atom is an index into
+/// placed_balls(objects); CapMesh::rim is empty. `one_color` is as in capped_mesh(). Triangles of hidden atoms are left
+/// out. Where solids of copies overlap, so do their caps, which have the same colours there. Throws what tessellate()
+/// and cut_mesh() throw.
 CapMesh section_caps(std::span<const SurfaceObject> objects, std::span<const ClipPlane> planes, bool one_color,
                      double tolerance);
 
-/// What is shown of the surface, and behind its triangles those of caps: these have atoms, but no face or patch
-/// (convex, kNone), and component 0. Along rims vertices are shared; corners of caps are sharp. Closed but where hidden
-/// atoms leave holes.
+/// The shown triangles of a surface, followed by those of its caps. The triangles of caps have atoms, component 0, and
+/// no face or patch (convex, kNone). Surface and caps share the vertices along rims; the corners of caps are sharp. The
+/// mesh is closed except for holes that hidden atoms leave.
 struct CappedMesh {
   TriangleMesh mesh;
-  std::vector<std::uint32_t> cap_plane;  ///< of the last triangles: into the planes
+  std::vector<std::uint32_t> cap_plane;  ///< per cap triangle, the last ones of the mesh: its plane
 };
 
-/// No planes: the whole surface. Else the object must be in one place, not moved. one_color: caps have no borders
-/// where colours of atoms change. tolerance: Å. Throws as tessellate() and cut_mesh() do.
+/// Returns the mesh of an object cut by planes, or of its whole surface if there are none. With planes, the object must
+/// have a single copy that is not moved. With `one_color`, caps have no borders where colours of atoms change.
+/// `tolerance` is in Å. Throws what tessellate() and cut_mesh() throw.
 CappedMesh capped_mesh(const SurfaceObject& object, std::span<const ClipPlane> planes, bool one_color,
                        double tolerance);
 

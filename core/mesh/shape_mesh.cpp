@@ -21,13 +21,14 @@
 namespace meniscus {
 namespace {
 
-/// Into how many parts a circle is divided, so that what is spanned between points `parts` times as far apart as those
-/// next to each other is within the tolerance of its sphere (root 2) or cylinder (1).
+/// Returns the number of parts that a circle is divided into. What is spanned between points that are `parts` times as
+/// far apart as neighbours is then within the tolerance of its sphere (root 2) or cylinder (1).
 int divisions(double radius, double tolerance, double parts) {
   const double angle = std::acos(std::max(0.0, 1.0 - tolerance / radius));
   return std::max(8, static_cast<int>(std::ceil(parts * std::numbers::pi / angle)));
 }
 
+/// Adds the triangles of shapes to a mesh.
 class ShapeMesher {
  public:
   ShapeMesher(TriangleMesh& mesh, double tolerance) : mesh_(mesh), tolerance_(tolerance) {}
@@ -100,7 +101,7 @@ class ShapeMesher {
     mesh_.atom.push_back(atom);
   }
 
-  /// Between two rings, the second farther along the axis around which both go counterclockwise.
+  /// Adds the band between two rings, the second farther along the axis around which both go counter-clockwise.
   void band(std::uint32_t low, std::uint32_t high, std::uint32_t count, std::uint32_t atom) {
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t after = (k + 1) % count;
@@ -109,6 +110,7 @@ class ShapeMesher {
     }
   }
 
+  /// Adds the fan between a tip and a ring, at the beginning or the end of the axis.
   void fan(std::uint32_t tip, std::uint32_t ring, std::uint32_t count, bool at_begin, std::uint32_t atom) {
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t here = ring + k, after = ring + (k + 1) % count;
@@ -120,6 +122,7 @@ class ShapeMesher {
   double tolerance_;
 };
 
+/// Fills the columns of a mesh that have no meaning for shapes.
 void fill_unused(TriangleMesh& mesh, double tolerance) {
   mesh.face.assign(mesh.triangles.size(), kNone);
   mesh.kind.assign(mesh.triangles.size(), PatchKind::convex);
@@ -166,7 +169,7 @@ ShapeObject shape_object(std::span<const Atom> atoms, const ColoredShapes& shape
 ShapeObject joined(const SurfaceObject& object, TriangleMesh mesh, const ShapeObject& second) {
   ShapeObject whole{object, std::move(mesh)};
   SurfaceObject& both = whole.object;
-  if (both.coloring.kind) {  // three atoms each, one a kind
+  if (both.coloring.kind) {  // three atoms for each, one per kind
     const auto count = static_cast<std::uint32_t>(both.atom.size());
     for (std::size_t t = 0; t < whole.mesh.triangles.size(); ++t)
       whole.mesh.atom[t] += count * static_cast<std::uint32_t>(whole.mesh.kind[t]);
@@ -203,10 +206,11 @@ ShapeObject joined(const SurfaceObject& object, TriangleMesh mesh, const ShapeOb
 
 namespace {
 
+/// Reverses the orientation of all triangles, and their normals.
 void turn_over(TriangleMesh& mesh) {
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   for (glm::dvec3& normal : mesh.normals) normal = -normal;
-  // Corners are numbered along their triangles, and stay in ascending order.
+  // Corners are numbered along their triangles and must stay in ascending order.
   for (std::size_t n = 0; n < mesh.sharp_corners.size(); ++n) {
     mesh.sharp_corner_normals[n] = -mesh.sharp_corner_normals[n];
     if (mesh.sharp_corners[n] % 3 == 0) continue;

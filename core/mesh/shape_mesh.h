@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes beside a surface, and pockets, as objects with meshes, for exporters that write only meshes.
+// Meshes of shapes and of pockets as objects, for exporters that write only meshes.
 #pragma once
 
 #include <span>
@@ -15,26 +15,26 @@ struct Atom;
 struct ColoredShapes;
 struct TriangleMesh;
 
-/// An object without patches: its atoms are those that shapes have, their colours in `object.coloring`; one outer
-/// component with the measures of the mesh, which consists of closed bodies. Triangles have `atom`; kind, face and
-/// patch say nothing (convex, kNone).
+/// Shapes as an object without patches. Its atoms are those of the shapes, with their colours in `object.coloring`. It
+/// has one outer component with the measures of the mesh, which consists of closed bodies. The triangles have `atom`,
+/// but no kind, face or patch (convex, kNone).
 struct ShapeObject {
   SurfaceObject object;
   TriangleMesh mesh;
 };
 
-/// Tessellates spheres and cylinders, these with ends, no farther than `tolerance` (Å) from what they are; a mesh stays
-/// as it is. Cylinders change their atom in the middle, triangles of a mesh have the atom of their first vertex.
-/// Vertices lie on the shapes. atoms: the shown atoms (core/scene/representations.h).
+/// Tessellates spheres, and cylinders with their ends, to within `tolerance` (Å); a mesh stays as it is. Vertices lie
+/// on the shapes. Cylinders change their atom in the middle, and triangles of a mesh have the atom of their first
+/// vertex. `atoms` are the shown atoms (core/scene/representations.h).
 ShapeObject shape_object(std::span<const Atom> atoms, const ColoredShapes& shapes, double tolerance);
 
-/// One object of both, with one copy each. In `second` indices of faces and patches say nothing.
-/// The kinds of the first keep their colours if it is coloured by them.
+/// Returns one object with the triangles of both, with one copy each. Triangles of `second` have no valid faces or
+/// patches. The patch kinds of the first keep their colours if it is coloured by them.
 ShapeObject joined(const SurfaceObject& object, TriangleMesh mesh, const ShapeObject& second);
 
-/// All of them in one mesh. Normals point out of the pockets, whose volumes are positive; `component` is the place in
-/// Pockets::pockets, `atom` says nothing. tolerance: Å. Throws what tessellate throws, CapacityError, RequestError if
-/// there are no pockets.
+/// Returns all pockets as one mesh. Normals point out of the pockets, and their volumes are positive. `component` is
+/// the place in Pockets::pockets; `atom` has no meaning. `tolerance` is in Å. Throws what tessellate() throws,
+/// CapacityError, and RequestError if there are no pockets.
 TriangleMesh pocket_mesh(const Pockets& pockets, double tolerance);
 
 }  // namespace meniscus

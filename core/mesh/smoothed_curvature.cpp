@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures the curvature of a mesh at each vertex, and averages it over the vertices around.
+// Measures the curvature of a mesh at each vertex, and averages it over the vertices around it.
 #include "core/mesh/smoothed_curvature.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -16,46 +16,48 @@
 namespace meniscus {
 namespace {
 
-/// Integrals over the part of the mesh that is a vertex's.
+/// Integrals over the part of the mesh that belongs to a vertex.
 struct Measure {
   double area = 0.0, mean = 0.0, gaussian = 0.0;
 };
 
+/// Measures the curvature at each vertex of a mesh, and averages these measures.
 class Smoothing {
  public:
   explicit Smoothing(const TriangleMesh& mesh) : mesh_(mesh), measures_(mesh.positions.size()) {
-    link();
+    link_edges();
     for (Measure& m : measures_) m.gaussian = 2.0 * std::numbers::pi;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) measure(t);
   }
 
-  Curvature around(std::uint32_t vertex, double radius, std::vector<std::uint32_t>& seen,
-                   std::vector<std::uint32_t>& walk) const {
+  /// Returns the mean curvature within `radius` of a vertex. `seen` and `queue` are scratch memory of the caller.
+  Curvature average_around(std::uint32_t vertex, double radius, std::vector<std::uint32_t>& seen,
+                           std::vector<std::uint32_t>& queue) const {
     Measure sum;
-    walk.assign(1, vertex);
+    queue.assign(1, vertex);
     seen[vertex] = vertex;
-    for (std::size_t n = 0; n < walk.size(); ++n) {
-      const Measure& m = measures_[walk[n]];
+    for (std::size_t n = 0; n < queue.size(); ++n) {
+      const Measure& m = measures_[queue[n]];
       sum.area += m.area;
       sum.mean += m.mean;
       sum.gaussian += m.gaussian;
-      for (std::uint32_t i = first_[walk[n]]; i < first_[walk[n] + 1]; ++i) {
+      for (std::uint32_t i = first_[queue[n]]; i < first_[queue[n] + 1]; ++i) {
         const std::uint32_t next = end_[i].vertex;
         if (seen[next] == vertex || glm::distance(mesh_.positions[next], mesh_.positions[vertex]) > radius) continue;
         seen[next] = vertex;
-        walk.push_back(next);
+        queue.push_back(next);
       }
     }
     return {sum.mean / sum.area, sum.gaussian / sum.area};
   }
 
  private:
-  /// An edge that leaves a vertex, and the triangle at its left.
+  /// An edge that leaves a vertex, and the triangle on its left.
   struct End {
     std::uint32_t vertex, triangle;
   };
 
-  void link() {
+  void link_edges() {
     first_.assign(mesh_.positions.size() + 1, 0);
     for (const auto& t : mesh_.triangles)
       for (const std::uint32_t v : t) ++first_[v];
@@ -71,7 +73,8 @@ class Smoothing {
     return glm::cross(x[b] - x[a], x[c] - x[a]);
   }
 
-  std::uint32_t across(std::uint32_t from, std::uint32_t to) const {
+  /// Returns the triangle on the other side of an edge, or kNone.
+  std::uint32_t triangle_across(std::uint32_t from, std::uint32_t to) const {
     for (std::uint32_t i = first_[to]; i < first_[to + 1]; ++i)
       if (end_[i].vertex == from) return end_[i].triangle;
     return kNone;
@@ -86,7 +89,7 @@ class Smoothing {
       const glm::dvec3 &x = mesh_.positions[a], along = mesh_.positions[b] - x;
       measures_[a].area += twice_area / 6.0;
       measures_[a].gaussian -= std::atan2(twice_area, glm::dot(along, mesh_.positions[c] - x));
-      const std::uint32_t other = across(a, b);
+      const std::uint32_t other = triangle_across(a, b);
       if (a > b || other == kNone) continue;
       // Half the angle times the length is the integral of the mean curvature; each end has half of it.
       const glm::dvec3 beyond = cross(other), direction = along / std::max(glm::length(along), 1e-300);
@@ -96,7 +99,7 @@ class Smoothing {
   }
 
   const TriangleMesh& mesh_;
-  std::vector<std::uint32_t> first_;  // per vertex, and one more, into end_
+  std::vector<std::uint32_t> first_;  // per vertex: the start of its edges in end_, followed by their end
   std::vector<End> end_;
   std::vector<Measure> measures_;
 };
@@ -106,15 +109,15 @@ class Smoothing {
 std::vector<Curvature> smoothed_curvatures(const TriangleMesh& mesh, double radius) {
   const Smoothing smoothing(mesh);
   std::vector<Curvature> smoothed(mesh.positions.size());
-  struct Room {
-    std::vector<std::uint32_t> seen, walk;
+  struct Scratch {
+    std::vector<std::uint32_t> seen, queue;
   };
-  tbb::enumerable_thread_specific<Room> rooms([&] { return Room{std::vector(smoothed.size(), kNone), {}}; });
+  tbb::enumerable_thread_specific<Scratch> scratches([&] { return Scratch{std::vector(smoothed.size(), kNone), {}}; });
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(smoothed.size()), 256),
                     [&](const auto& range) {
-                      Room& room = rooms.local();
+                      Scratch& scratch = scratches.local();
                       for (std::uint32_t v = range.begin(); v != range.end(); ++v)
-                        smoothed[v] = smoothing.around(v, radius, room.seen, room.walk);
+                        smoothed[v] = smoothing.average_around(v, radius, scratch.seen, scratch.queue);
                     });
   return smoothed;
 }

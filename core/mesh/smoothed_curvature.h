@@ -10,13 +10,14 @@ namespace meniscus {
 
 struct TriangleMesh;
 
-/// Å: how far around a vertex is averaged.
+/// The radius (Å) around a vertex over which curvature is averaged.
 inline constexpr double kSmoothingRadius = 2.0;
 
-/// One per vertex: curvature measures of the normal cycle (D. Cohen-Steiner and J.-M. Morvan, "Restricted Delaunay
-/// triangulations and normal cycle", SoCG 2003, section 4: angles between triangles along edges, and what is missing of
-/// 2 pi at vertices), added up over the vertices that lie within `radius` (Å) and can be reached along edges that do,
-/// and divided by their area. Cusps count, too, with their angles. The mesh is closed. Runs on all cores TBB may use.
+/// Returns the averaged curvature at each vertex of a closed mesh. The curvature measures of the normal cycle (D.
+/// Cohen-Steiner and J.-M. Morvan, "Restricted Delaunay triangulations and normal cycle", SoCG 2003, section 4: angles
+/// between triangles along edges, and angle deficits to 2 pi at vertices) are summed over the vertices that lie within
+/// `radius` (Å) and can be reached along edges between such vertices, and divided by their area. Cusps count, too, with
+/// their angles. Runs on all cores that TBB may use.
 std::vector<Curvature> smoothed_curvatures(const TriangleMesh& mesh, double radius = kSmoothingRadius);
 
 }  // namespace meniscus

@@ -29,8 +29,8 @@ Sphere sphere_of(const Surface& surface, const Face& face) {
   return {patch.center, surface.probe_radius, {surface.planes.data() + patch.first_plane, patch.plane_count()}};
 }
 
-/// The direction outside the patch that is farthest from the rim: the middle of a cap that a plane cuts off, or the
-/// direction opposite the rim.
+/// Returns the direction outside the patch that is farthest from the rim: the middle of a cap that a plane cuts off, or
+/// the direction opposite to the rim.
 glm::dvec3 projection_pole(const Sphere& sphere, const std::vector<FacePoint>& rim) {
   std::vector<glm::dvec3> candidates;
   for (const Plane& plane : sphere.planes) candidates.push_back(plane.normal);
@@ -54,7 +54,7 @@ glm::dvec3 projection_pole(const Sphere& sphere, const std::vector<FacePoint>& r
   return best;
 }
 
-/// Lattice points inside all planes, at least `margin` radian from their circles.
+/// Returns the lattice directions inside all planes, at least `margin` radian from their circles.
 std::vector<glm::dvec3> directions_inside(const Sphere& sphere, const SphereLattice& lattice, double margin) {
   std::vector<double> limit;
   for (const Plane& plane : sphere.planes) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Projects a point to the surface: walks from face to face while it is beyond a wall of a face's cell.
+// Projects a point to the surface: walks from face to face while the point is beyond a wall of a face's cell.
 #include "core/mesh/surface_walk.h"
 
 #include <algorithm>
@@ -15,14 +15,17 @@
 namespace meniscus {
 namespace {
 
-/// Å beyond a wall that count as on it: the faces on both sides have one tangent plane there.
+/// A point that is less than this (Å) beyond a wall counts as on it: the faces on both sides have one tangent plane
+/// there.
 constexpr double kOnWall = 1e-9;
-/// Å beyond a plane of a patch that count as on it: planes and borders come from different formulas.
+/// A point that is less than this (Å) beyond a plane of a patch counts as on it: planes and borders come from different
+/// formulas.
 constexpr double kOffPatch = 1e-8;
-/// Faces that one walk visits at most.
+/// The most faces that one walk visits.
 constexpr int kLongestWalk = 40;
 
-/// The angle of x about the axis of an arc's circle from its start, in the turn around the middle of the arc.
+/// Returns the angle (radian) of x about the axis of an arc's circle, from the arc's start, in the turn around the
+/// middle of the arc.
 template <typename Arc>
 double angle_along(const Arc& arc, const glm::dvec3& x) {
   const glm::dvec3 from_center = x - arc.center;
@@ -55,7 +58,7 @@ void SurfaceWalk::list_sides(std::uint32_t f) {
     side.border = b;
     side.beyond = border.face[is_backwards(half) ? 0 : 1];
     if (face.kind != PatchKind::toroidal) {
-      // Seen from outside a sphere its part on the left of a circle is that on the side of the circle's axis.
+      // Seen from outside, the part of a sphere on the left of a circle is on the side of the circle's axis.
       const bool along = is_backwards(half) == (face.kind == PatchKind::convex);
       side.normal = along ? border.axis : -border.axis;
       side.offset = glm::dot(side.normal, border.center);
@@ -76,13 +79,13 @@ void SurfaceWalk::list_sides(std::uint32_t f) {
   });
 }
 
-SurfaceWalk::Look SurfaceWalk::look_at_sphere(const glm::dvec3& x, std::uint32_t face, const glm::dvec3& center,
-                                              double radius) const {
+SurfaceWalk::Projection SurfaceWalk::project_to_sphere(const glm::dvec3& x, std::uint32_t face,
+                                                       const glm::dvec3& center, double radius) const {
   const glm::dvec3 out = x - center;
   const double length = glm::length(out);
-  Look found;
+  Projection found;
   if (!(length > 1e-3 * radius)) {
-    found.lost = true;
+    found.is_lost = true;
     return found;
   }
   found.foot = center + (radius / length) * out;
@@ -94,9 +97,9 @@ SurfaceWalk::Look SurfaceWalk::look_at_sphere(const glm::dvec3& x, std::uint32_t
   return found;
 }
 
-SurfaceWalk::Look SurfaceWalk::look_at_torus(const glm::dvec3& x, std::uint32_t face,
-                                             const ToroidalPatch& torus) const {
-  Look found;
+SurfaceWalk::Projection SurfaceWalk::project_to_torus(const glm::dvec3& x, std::uint32_t face,
+                                                      const ToroidalPatch& torus) const {
+  Projection found;
   const double probe = surface_.probe_radius;
   const glm::dvec3 from_center = x - torus.center;
   const double along = glm::dot(from_center, torus.axis);
@@ -105,9 +108,9 @@ SurfaceWalk::Look SurfaceWalk::look_at_torus(const glm::dvec3& x, std::uint32_t 
   const glm::dvec3 outward = away > 0.0 ? across / away : torus.start;
   const double inwards = torus.radius - away, length = std::hypot(inwards, along);
   if (!(length > 1e-3 * probe)) {
-    found.lost = probe > 0.0;
+    found.is_lost = probe > 0.0;
     found.foot = torus.center + torus.radius * outward;
-    if (found.lost) return found;
+    if (found.is_lost) return found;
   } else {
     found.foot =
         torus.center + (torus.radius - probe * inwards / length) * outward + (probe * along / length) * torus.axis;
@@ -124,22 +127,23 @@ SurfaceWalk::Look SurfaceWalk::look_at_torus(const glm::dvec3& x, std::uint32_t 
     if (beyond > worst) worst = beyond, found.crossed = &side;
   }
   if (found.crossed || !surface_.spindle(torus)) return found;
-  // The tube of a spindle past its axis is not part of the surface, and on its other side is the other piece.
+  // Past its axis the tube of a spindle is not part of the surface; on the other side is the other piece.
   const bool second = torus.piece(face - torus.first_face) == 1;
-  found.lost = (tube > 0.0) != second || torus.radius * length < probe * inwards;
+  found.is_lost = (tube > 0.0) != second || torus.radius * length < probe * inwards;
   return found;
 }
 
-SurfaceWalk::Look SurfaceWalk::look(const glm::dvec3& x, std::uint32_t f) const {
+SurfaceWalk::Projection SurfaceWalk::project(const glm::dvec3& x, std::uint32_t f) const {
   const Face& face = surface_.faces[f];
-  if (face.kind == PatchKind::toroidal) return look_at_torus(x, f, surface_.toroidal[face.patch]);
+  if (face.kind == PatchKind::toroidal) return project_to_torus(x, f, surface_.toroidal[face.patch]);
   if (face.kind == PatchKind::concave)
-    return look_at_sphere(x, f, surface_.concave[face.patch].center, surface_.probe_radius);
+    return project_to_sphere(x, f, surface_.concave[face.patch].center, surface_.probe_radius);
   const Ball& atom = surface_.atoms[surface_.convex[face.patch].atom];
-  return look_at_sphere(x, f, atom.center, atom.radius);
+  return project_to_sphere(x, f, atom.center, atom.radius);
 }
 
-/// The borders of a face are not all that its patch is cut by: beyond others there are other pieces, or nothing.
+/// True if a foot lies on the patch of a face. The borders of the face are not all cuts of its patch: beyond other cuts
+/// there are other pieces, or nothing.
 bool SurfaceWalk::on_patch(const glm::dvec3& foot, std::uint32_t f) const {
   const Face& face = surface_.faces[f];
   if (face.kind == PatchKind::toroidal) return true;
@@ -158,10 +162,11 @@ bool SurfaceWalk::on_patch(const glm::dvec3& foot, std::uint32_t f) const {
 std::optional<SurfacePoint> SurfaceWalk::below(const glm::dvec3& x, std::uint32_t face) const {
   std::uint32_t before = kNone;
   for (int step = 0; step < kLongestWalk; ++step) {
-    const Look here = look(x, face);
-    if (here.lost) return std::nullopt;
-    if (!here.crossed) return on_patch(here.foot, face) ? std::optional(SurfacePoint{here.foot, face}) : std::nullopt;
-    const Side& side = *here.crossed;
+    const Projection projection = project(x, face);
+    if (projection.is_lost) return std::nullopt;
+    if (!projection.crossed)
+      return on_patch(projection.foot, face) ? std::optional(SurfacePoint{projection.foot, face}) : std::nullopt;
+    const Side& side = *projection.crossed;
     if (barred_[side.border]) return std::nullopt;
     if (side.beyond == before) {  // over a shallow cusp, where both spheres point to each other
       const auto at = on_border(x, side.border);
@@ -189,7 +194,7 @@ std::optional<glm::dvec3> SurfaceWalk::on_border(const glm::dvec3& x, std::uint3
 
 std::optional<SurfacePoint> SurfaceWalk::on_near_cusp(const glm::dvec3& x, std::uint32_t face) const {
   std::optional<SurfacePoint> nearest;
-  const auto look_around = [&](std::uint32_t f) {
+  const auto visit_cusps_of = [&](std::uint32_t f) {
     for (std::uint32_t s = first_[f]; s < first_[f + 1]; ++s) {
       const Border& border = surface_.borders[sides_[s].border];
       if (border.kind != BorderKind::cusp) continue;
@@ -199,9 +204,9 @@ std::optional<SurfacePoint> SurfaceWalk::on_near_cusp(const glm::dvec3& x, std::
       if (!nearest || glm::distance(x, at) < glm::distance(x, nearest->position)) nearest = SurfacePoint{at, f};
     }
   };
-  look_around(face);
+  visit_cusps_of(face);
   for (std::uint32_t s = first_[face]; s < first_[face + 1]; ++s)
-    if (!barred_[sides_[s].border]) look_around(sides_[s].beyond);
+    if (!barred_[sides_[s].border]) visit_cusps_of(sides_[s].beyond);
   return nearest;
 }
 

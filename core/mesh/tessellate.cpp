@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes a surface in five steps: sample borders, fill faces, part doubled edges, colour, number the vertices.
+// Meshes a surface in five steps: sample borders, fill faces, split doubled edges, colour, number the vertices.
 #include "core/mesh/tessellate.h"
 
 #include <algorithm>
@@ -29,22 +29,24 @@
 namespace meniscus {
 namespace {
 
-/// More points than any seam has.
+/// The distance between the seam names of two faces: more than the points of any seam.
 constexpr std::uint32_t kSeamNames = 1024;
 /// Normals of neighbouring faces that differ by more than this (radian) make a sharp vertex.
 constexpr double kSharpAngle = 1e-4;
-/// Faces whose rows are made at the same time.
+/// The number of faces with rows that are made at the same time.
 constexpr std::uint32_t kFacesTogether = 1 << 12;
-/// So often, and after no fewer faces, the memory of those that are done goes back: each time the whole heap is walked.
+/// How often, and after how many faces at least, the memory of finished faces is returned: each time the whole heap is
+/// walked.
 constexpr std::uint32_t kTimesFreed = 16, kFacesFreed = 1 << 14;
 
-/// Memory of many small blocks stays with the process after they are freed, unless the allocator is asked.
+/// Returns the memory of small blocks that were freed to the system; otherwise the allocator keeps it.
 void return_free_memory() {
 #ifdef __GLIBC__
   malloc_trim(0);
 #endif
 }
 
+/// Meshes all faces of a surface between shared border samples.
 class Tessellation {
  public:
   Tessellation(const Surface& surface, const MeshOptions& options)
@@ -56,13 +58,13 @@ class Tessellation {
 
   TriangleMesh run() {
     fill_faces();
-    tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t f) { part_doubled_edges(faces_[f]); });
-    part_shared_edges();
+    tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t f) { split_doubled_edges(faces_[f]); });
+    split_shared_edges();
     tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t f) {
       color_face(surface_, surface_.faces[f], faces_[f], options_.split_colors);
       faces_[f].rim_edges = {};
       faces_[f].bridges = {};
-      give_back_room(faces_[f]);
+      shrink_lists(faces_[f]);
     });
     number_vertices();
     add_sharp_edges();
@@ -86,21 +88,22 @@ class Tessellation {
     FaceFilling(surface_, rule_, *samples_).fill(std::move(all), faces_);
   }
 
-  bool on_seam(const FaceMesh& mesh, const std::array<int, 2>& edge) const {
+  /// True if an edge of a rim has an end inside a seam.
+  bool is_on_seam(const FaceMesh& mesh, const std::array<int, 2>& edge) const {
     return mesh.rim[edge[0]].border == kSeam || mesh.rim[edge[1]].border == kSeam;
   }
   std::size_t bridge_count() const {
     std::size_t count = 0;
     for (const FaceMesh& mesh : faces_) {
       count += mesh.bridges.size();
-      for (const auto& edge : mesh.rim_edges) count += on_seam(mesh, edge);
+      for (const auto& edge : mesh.rim_edges) count += is_on_seam(mesh, edge);
     }
     for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) count += samples_->segment_count(b);
     return count;
   }
 
-  /// Two faces may each draw an inner edge between the same two rim points; all such edges get a vertex of their own.
-  void part_shared_edges() {
+  /// Splits inner edges that two faces draw between the same two rim points, so that each gets a vertex of its own.
+  void split_shared_edges() {
     struct Bridge {
       BorderPoint a, b;
       std::uint32_t face;
@@ -112,7 +115,7 @@ class Tessellation {
     auto add = [&](std::uint32_t f, int u, int w, std::uint32_t face, std::uint32_t index) {
       BorderPoint a = faces_[f].rim[u], b = faces_[f].rim[w];
       for (BorderPoint* p : {&a, &b}) {
-        if (p->border == kSeam) p->index += kSeamNames * f;  // names on seams are the face's own
+        if (p->border == kSeam) p->index += kSeamNames * f;  // names on seams are unique only within a face
       }
       bridges.push_back({std::min(a, b), std::max(a, b), face, index});
     };
@@ -122,7 +125,7 @@ class Tessellation {
         add(f, u, w, f, i);
       }
       for (const auto& edge : faces_[f].rim_edges) {
-        if (on_seam(faces_[f], edge)) add(f, edge[0], edge[1], kNone, 0);
+        if (is_on_seam(faces_[f], edge)) add(f, edge[0], edge[1], kNone, 0);
       }
     }
     for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {
@@ -144,7 +147,7 @@ class Tessellation {
     }
   }
 
-  /// Vertices: those of the surface that are used, border samples, then each face's own.
+  /// Numbers the vertices: those of the surface that are used, then border samples, then each face's own.
   void number_vertices() {
     std::uint32_t next = 0;
     vertex_number_.assign(surface_.vertices.size(), kNone);
@@ -165,17 +168,17 @@ class Tessellation {
       for (std::uint32_t k = ring ? 0 : 1; k < n; ++k, ++next) mesh_.positions.push_back(samples_->position(b, k));
     }
     mesh_.border_point_count = next - mesh_.corner_count;
-    make_room();
+    reserve_rows();
   }
 
-  /// Vertices that no other face has.
+  /// Returns the number of vertices that no other face has.
   static std::uint32_t own_vertex_count(const FaceMesh& mesh) {
     std::set<std::uint32_t> seam;
     for (const BorderPoint& name : mesh.rim)
       if (name.border == kSeam) seam.insert(name.index);
     return static_cast<std::uint32_t>(mesh.points.size() - mesh.rim.size() + seam.size());
   }
-  void make_room() {
+  void reserve_rows() {
     std::size_t vertices = mesh_.positions.size(), triangles = 0;
     for (const FaceMesh& mesh : faces_) {
       vertices += own_vertex_count(mesh);
@@ -188,6 +191,7 @@ class Tessellation {
     for (std::vector<std::uint32_t>* column : {&mesh_.face, &mesh_.patch, &mesh_.component, &mesh_.atom})
       column->reserve(triangles);
   }
+  /// Calls work(first, last) for ranges of faces, in order.
   template <typename Work>
   void for_each_chunk(const Work& work) const {
     const auto count = static_cast<std::uint32_t>(faces_.size());
@@ -198,7 +202,7 @@ class Tessellation {
     return name.border == kNone ? vertex_number_[name.index] : border_number_[name.border] + name.index;
   }
 
-  /// Is corner v of a face's triangle a vertex that other faces have, too?
+  /// True if corner v of a face's triangles is a vertex that other faces have, too.
   static bool is_shared(const FaceMesh& part, std::uint32_t v) {
     return v < part.rim.size() && part.rim[v].border != kSeam;
   }
@@ -207,17 +211,17 @@ class Tessellation {
     return part.domain->corner_normal(part.points[v[k]], part.points[v[(k + 1) % 3]], part.points[v[(k + 2) % 3]]);
   }
 
-  /// Calls look(triangle, corner, vertex) for the corners of a face's triangles at shared vertices.
-  template <typename Look>
-  void for_each_shared_corner(const FaceMesh& part, const Look& look) const {
+  /// Calls visit(triangle, corner, vertex) for the corners of a face's triangles at shared vertices.
+  template <typename Visit>
+  void for_each_shared_corner(const FaceMesh& part, const Visit& visit) const {
     for (std::size_t t = 0; t < part.triangles.size(); ++t)
       for (int k = 0; k < 3; ++k) {
         const std::uint32_t v = part.triangles[t][k];
-        if (is_shared(part, v)) look(t, k, number(part.rim[v]));
+        if (is_shared(part, v)) visit(t, k, number(part.rim[v]));
       }
   }
 
-  /// Calls note(vertex, normal) for the corners at shared vertices that are wanted, face after face.
+  /// Calls note(vertex, normal) for the corners at shared vertices for which wanted(vertex) is true, face after face.
   template <typename Wanted, typename Note>
   void for_each_shared_normal(const Wanted& wanted, const Note& note) const {
     for_each_chunk([&](std::uint32_t first, std::uint32_t last) {
@@ -232,8 +236,8 @@ class Tessellation {
     });
   }
 
-  /// That of the first corner or, where faces do not agree, the mean of all. Few vertices are sharp, so the sums of
-  /// these alone are worth a second walk.
+  /// Computes the normal of each shared vertex: that of the first corner or, if faces do not agree, the mean of all
+  /// corners. Few vertices are sharp, so a second pass sums up the normals of these alone.
   void find_shared_normals() {
     std::vector<glm::dvec3>& normals = mesh_.normals;
     normals.resize(mesh_.positions.size(), glm::dvec3(0.0));
@@ -251,17 +255,18 @@ class Tessellation {
       if (const double size = glm::length(sum); size > 1e-6) normals[vertex] = sum / size;
   }
 
-  /// Where the rows of a face begin.
+  /// The first rows of a face.
   struct FacePlace {
     std::uint32_t vertex = 0, triangle = 0;
   };
-  /// Corners without a single normal.
+  /// Corners at vertices without a single normal.
   struct SharpCorners {
     std::vector<std::uint32_t> corners;
     std::vector<glm::dvec3> normals;
   };
 
-  /// Moves what faces have into the mesh. Of a large molecule both together would need twice the memory.
+  /// Moves the rows of faces into the mesh and frees them: for a large molecule, keeping both would need twice the
+  /// memory.
   void append_faces(std::uint32_t first, std::uint32_t last) {
     std::vector<FacePlace> places;
     FacePlace next{static_cast<std::uint32_t>(mesh_.positions.size()),
@@ -309,7 +314,7 @@ class Tessellation {
       sharp.normals.push_back(corner_normal(part, t, k));
     });
   }
-  /// The face's own vertices; returns the number of each of its points.
+  /// Adds the face's own vertices; returns the number of each of its points.
   std::vector<std::uint32_t> put_vertices(const FaceMesh& part, std::uint32_t next) {
     std::vector<std::uint32_t> index(part.points.size());
     std::map<std::uint32_t, std::uint32_t> seam;
@@ -344,11 +349,11 @@ class Tessellation {
   const Surface& surface_;
   const MeshOptions& options_;
   const EdgeRule rule_;
-  std::optional<BorderSamples> samples_;  // until vertices are numbered
+  std::optional<BorderSamples> samples_;  // reset once vertices are numbered
   std::vector<FaceMesh> faces_;
   TriangleMesh mesh_;
   std::vector<std::uint32_t> vertex_number_, border_number_;
-  std::vector<bool> sharp_;
+  std::vector<bool> sharp_;  ///< per shared vertex: true if it has no single normal
 };
 
 }  // namespace

@@ -16,10 +16,11 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-// A row on the axis has no length, and the quotient of that and its step is not a number: it has no parts.
+// Rounds up to whole parts. A row on the axis has no length, and the quotient of that and its step is not a number: it
+// has no parts.
 int whole_parts(double parts) { return parts < 1e6 ? static_cast<int>(std::ceil(parts)) : 0; }
 
-/// Collects the rim of a torus face in walking order; every visit of a point is a point of its own.
+/// Collects the rim of a torus face in walking order; each visit of a point adds a point.
 class TorusRim {
  public:
   TorusRim(const Surface& surface, const Face& face, const BorderSamples& samples, const EdgeRule& rule)
@@ -35,7 +36,7 @@ class TorusRim {
   FaceOutline build() {
     if (!patch_.free()) {
       walk_strip();
-    } else if (domain_->spindle()) {
+    } else if (domain_->is_spindle()) {
       walk_drop();
     } else {
       walk_ring();
@@ -47,6 +48,7 @@ class TorusRim {
   }
 
  private:
+  /// A border and the direction in which the rim traverses it.
   struct Half {
     std::uint32_t border;
     bool backwards;
@@ -69,22 +71,24 @@ class TorusRim {
   }
 
   bool is_contact(const Half& half) const { return surface_.borders[half.border].kind == BorderKind::contact; }
-  bool with_axis(std::uint32_t border) const { return glm::dot(surface_.borders[border].axis, patch_.axis) > 0.0; }
-  /// The tube angle of a contact circle: that of the nearer atom's contact.
+  bool runs_with_axis(std::uint32_t border) const { return glm::dot(surface_.borders[border].axis, patch_.axis) > 0.0; }
+  /// Returns the tube angle of a contact circle: that of the nearer atom's contact.
   double contact_tube(std::uint32_t border) const {
     const double tube = tube_angle(patch_, arc_point(surface_.borders[border], 0.0));
     return std::abs(tube - angles_[0]) < std::abs(tube - angles_[1]) ? angles_[0] : angles_[1];
   }
-  /// Theta along a contact arc of a strip, which spans the whole sweep.
+  /// Returns theta along a contact arc of a strip, which spans the whole sweep.
   double strip_theta(std::uint32_t border, double t) const {
     const double share = t / surface_.borders[border].sweep;
-    return patch_.sweep * (with_axis(border) ? share : 1.0 - share);
+    return patch_.sweep * (runs_with_axis(border) ? share : 1.0 - share);
   }
+  /// Returns theta at the start or the end of a contact arc of a strip.
   double end_theta(const Half& half, bool at_end) const {
     const bool far = half.backwards != at_end;
     return strip_theta(half.border, far ? surface_.borders[half.border].sweep : 0.0);
   }
 
+  /// Collects the rim of a patch between two fixed probes, or of a part of it.
   void walk_strip() {
     const auto halves = loop(0);
     const std::size_t count = halves.size();
@@ -110,7 +114,7 @@ class TorusRim {
         } else {
           point.angles = {theta, tube_angle(patch_, point.position)};
           if (k == 0 && is_contact(before)) point.angles.y = contact_tube(before.border);
-          if (k == 0 && !is_contact(before) && domain_->spindle()) point.angles.y = domain_->tip_angle();
+          if (k == 0 && !is_contact(before) && domain_->is_spindle()) point.angles.y = domain_->tip_angle();
         }
         add(name, point, {half.border, std::min(from, to)});
       }
@@ -124,22 +128,24 @@ class TorusRim {
     high_ = std::max(high_, tube);
   }
 
+  /// A sample on a contact circle.
   struct Sample {
     BorderPoint name;
     FacePoint point;
-    Segment segment;  ///< from here to the next, in walking order
+    Segment segment;  ///< from here to the next sample, in walking order
   };
-  /// A full contact circle in walking order with falling or rising theta; the first point is repeated at the end.
+  /// Returns a full contact circle in walking order, from the sample nearest to `near_theta`, with falling or rising
+  /// theta; the first point is repeated at the end.
   std::vector<Sample> circle(const Half& half, double near_theta) const {
     const Border& border = surface_.borders[half.border];
     const std::uint32_t n = samples_.segment_count(half.border);
-    const bool rising = with_axis(half.border) != half.backwards;
+    const bool rising = runs_with_axis(half.border) != half.backwards;
     const double tube = contact_tube(half.border);
     const glm::dvec3 side = glm::cross(patch_.axis, patch_.start);
     const double start = std::atan2(glm::dot(border.start, side), glm::dot(border.start, patch_.start));
     auto theta = [&](std::uint32_t k) {
       const double t = samples_.parameter(half.border, k);
-      return start + (with_axis(half.border) ? t : -t);
+      return start + (runs_with_axis(half.border) ? t : -t);
     };
     auto apart = [&](std::uint32_t k) { return std::remainder(theta(k) - near_theta, kTurn); };
     std::uint32_t first = 0;
@@ -160,21 +166,23 @@ class TorusRim {
     }
     return samples;
   }
-  /// Inner points of the seam from a to b at the given shares of the way; both sides of a seam bear the same names.
+  /// Adds the inner points of the seam from a to b at the given shares of the way; both sides of a seam have the same
+  /// names.
   void add_seam(glm::dvec2 a, glm::dvec2 b, const std::vector<double>& shares) {
     for (std::uint32_t i = 0; i < shares.size(); ++i) {
       const glm::dvec2 angles = a + (b - a) * shares[i];
       add({kSeam, i}, domain_->at(angles.x, angles.y), {});
     }
   }
-  /// The same on the way back.
+  /// Adds the same points on the way back.
   void add_seam_back(glm::dvec2 a, glm::dvec2 b, const std::vector<double>& shares) {
     for (auto i = static_cast<std::uint32_t>(shares.size()); i-- > 0;) {
       const glm::dvec2 angles = a + (b - a) * shares[i];
       add({kSeam, i}, domain_->at(angles.x, angles.y), {});
     }
   }
-  /// At most an edge length apart, and one where the nearest contact changes.
+  /// Returns the shares of a seam's inner points: at most an edge length apart, and one where the nearest contact
+  /// changes.
   std::vector<double> seam_shares(double from, double to) const {
     const double step = rule_.edge(surface_.probe_radius);
     const double change = (0.5 * (angles_[0] + angles_[1]) - from) / (to - from);
@@ -191,6 +199,7 @@ class TorusRim {
     return shares;
   }
 
+  /// Collects the rim of a ring, which is cut open along a seam.
   void walk_ring() {
     Half bottom = loop(0).front(), top = loop(1).front();
     if (contact_tube(bottom.border) > contact_tube(top.border)) std::swap(bottom, top);
@@ -213,6 +222,7 @@ class TorusRim {
     seam_ = {low, high};
   }
 
+  /// Collects the rim of half a free spindle: a drop around its tip, cut open along a seam.
   void walk_drop() {
     const auto rim = circle(loop(0).front(), 0.0);
     const double tip = domain_->tip_angle();
@@ -233,6 +243,7 @@ class TorusRim {
     seam_ = {glm::dvec2(theta, low_), glm::dvec2(theta, high_)};
   }
 
+  /// Adds interior points in rows along the tube.
   void add_interior() {
     const double p = surface_.probe_radius, edge = rule_.edge(p);
     if (!patch_.free()) {
@@ -265,10 +276,10 @@ class TorusRim {
   std::unique_ptr<TorusDomain> domain_;
   FaceOutline outline_;
   double low_ = 10.0, high_ = -10.0;  ///< range of the tube angle
-  /// Where rows of inner points lie, as shares of that range. Those of a face with a seam go through the seam's points,
-  /// so that no edge can join the two sides of the seam.
+  /// The places of rows of inner points, as shares of that range. The rows of a face with a seam go through the seam's
+  /// points, so that no edge can join the two sides of the seam.
   std::vector<double> rows_;
-  std::array<glm::dvec2, 2> seam_{};  ///< the left side, from low to high tube angle
+  std::array<glm::dvec2, 2> seam_{};  ///< the left side of the seam, from low to high tube angle
 };
 
 }  // namespace

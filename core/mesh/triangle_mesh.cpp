@@ -30,12 +30,13 @@ void add(double area, double volume, MeshSums& sums) {
   sums.volume += volume;
 }
 
-/// The directed edges whose lower vertex lies in a range; all of a large mesh would take as much memory as the mesh.
+/// The directed edges with their lower vertex in a range; all edges of a large mesh would take as much memory as the
+/// mesh.
 class EdgeLists {
  public:
   static constexpr std::uint32_t kVertices = 1u << 21;
 
-  /// Of the vertices [first, first + kVertices).
+  /// Lists the edges of the vertices [first, first + kVertices).
   EdgeLists(const TriangleMesh& mesh, std::uint32_t component, std::uint32_t first) : first_(first) {
     const auto last = std::min(std::size_t{first} + kVertices, mesh.positions.size());
     starts_.assign(last - first + 1, 0);
@@ -49,8 +50,8 @@ class EdgeLists {
 
   std::size_t size() const { return ends_.size(); }
 
-  /// Each edge is there once in each direction, and none ends where it begins.
-  bool paired() const {
+  /// True if each edge is there once in each direction, and none ends where it begins.
+  bool is_paired() const {
     for (std::size_t v = 0; v + 1 < starts_.size(); ++v) {
       if ((starts_[v + 1] - starts_[v]) % 2 != 0) return false;
       for (std::size_t i = starts_[v]; i < starts_[v + 1]; i += 2) {
@@ -63,7 +64,7 @@ class EdgeLists {
   }
 
  private:
-  /// The higher vertex, and whether the edge goes there.
+  /// The higher vertex of an edge; `upwards` is 1 if the edge leads to it.
   struct End {
     std::uint32_t vertex : 31, upwards : 1;
     bool operator<(const End& other) const {
@@ -71,21 +72,21 @@ class EdgeLists {
     }
   };
 
-  template <typename Look>
-  void for_each_edge(const TriangleMesh& mesh, std::uint32_t component, const Look& look) const {
+  template <typename Visit>
+  void for_each_edge(const TriangleMesh& mesh, std::uint32_t component, const Visit& visit) const {
     const std::size_t count = starts_.size() - 1;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       if (component != kNone && mesh.component[i] != component) continue;
       const auto& t = mesh.triangles[i];
       for (int k = 0; k < 3; ++k) {
         const std::uint32_t from = t[k], to = t[(k + 1) % 3], lower = std::min(from, to);
-        if (lower >= first_ && lower - first_ < count) look(lower - first_, {std::max(from, to), from < to});
+        if (lower >= first_ && lower - first_ < count) visit(lower - first_, {std::max(from, to), from < to});
       }
     }
   }
 
   std::uint32_t first_;
-  std::vector<std::uint32_t> starts_;  // where the list of each vertex begins, and where the last one ends
+  std::vector<std::uint32_t> starts_;  // per vertex: the start of its list, followed by the end of the last one
   std::vector<End> ends_;
 };
 
@@ -98,7 +99,7 @@ void keep_rows(std::vector<T>& table, const std::vector<bool>& keep) {
   table.resize(next);
 }
 
-/// The new place of each row that is kept, kNone for others.
+/// Returns the new place of each row that is kept, kNone for others.
 std::vector<std::uint32_t> new_places(const std::vector<bool>& keep) {
   std::vector<std::uint32_t> place(keep.size(), kNone);
   std::uint32_t next = 0;
@@ -175,7 +176,7 @@ MeshMeasure measure(const TriangleMesh& mesh, std::uint32_t component) {
   m.closed = true;
   for (std::size_t first = 0; first < mesh.positions.size(); first += EdgeLists::kVertices) {
     const EdgeLists edges(mesh, component, static_cast<std::uint32_t>(first));
-    m.closed = m.closed && edges.paired();
+    m.closed = m.closed && edges.is_paired();
     directed += edges.size();
   }
   m.closed = m.closed && directed > 0;

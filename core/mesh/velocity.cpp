@@ -20,7 +20,7 @@
 namespace meniscus {
 namespace {
 
-/// Normal equations of conditions direction . v = value, and of v being near a guess where they leave it open.
+/// The normal equations of conditions direction . v = value; a guess determines v where these leave it open.
 class LeastSquares {
  public:
   void add(const glm::dvec3& direction, double value, double weight = 1.0) {
@@ -38,17 +38,19 @@ class LeastSquares {
   glm::dvec3 right_{0.0};
 };
 
-/// Decides what conditions leave open, and moves what they do not by less than a part in 10⁹.
+/// The weight of a guess: it decides what conditions leave open, and changes the rest by less than a part in 10⁹.
 constexpr double kOpen = 1e-12;
-/// Vertices at cusps are pulled this much to the mean of their faces, lest thin wedges shoot off.
+/// The weight by which vertices at cusps are pulled to the mean of their faces, so that thin wedges do not shoot off.
 constexpr double kCuspPull = 1e-5;
 
+/// Returns the mean velocity of these atoms.
 glm::dvec3 mean(const std::vector<glm::dvec3>& velocity, std::span<const std::uint32_t> atoms) {
   glm::dvec3 sum(0.0);
   for (const std::uint32_t a : atoms) sum += velocity[a];
   return sum / static_cast<double>(atoms.size());
 }
 
+/// Returns the unit direction from the axis of a torus to x.
 glm::dvec3 radial(const ToroidalPatch& t, const glm::dvec3& x) {
   const glm::dvec3 offset = x - t.center;
   const glm::dvec3 flat = offset - glm::dot(offset, t.axis) * t.axis;
@@ -56,7 +58,7 @@ glm::dvec3 radial(const ToroidalPatch& t, const glm::dvec3& x) {
   return size > 0.0 ? flat / size : t.start;  // a tip lies on the axis, where every direction is as good
 }
 
-/// How far a direction is along the patch's arc, 0 to 1; outside of it the nearer end.
+/// Returns the share of the patch's arc, 0 to 1, at which a direction lies; outside of the arc that of the nearer end.
 double share_of_arc(const ToroidalPatch& t, const glm::dvec3& direction) {
   constexpr double whole = 2.0 * std::numbers::pi;
   const double angle = std::atan2(glm::dot(direction, glm::cross(t.axis, t.start)), glm::dot(direction, t.start));
@@ -73,13 +75,13 @@ SurfaceVelocity::SurfaceVelocity(const Surface& surface, std::span<const glm::dv
   for (const ConcavePatch& c : surface.concave) {
     const std::span atoms(surface.contacts.data() + c.first_contact, c.contact_count);
     const glm::dvec3 guess = mean(atom_, atoms);
-    LeastSquares held;
+    LeastSquares conditions;
     for (const std::uint32_t a : atoms) {
       const glm::dvec3 direction = glm::normalize(c.center - surface.atoms[a].center);
-      held.add(direction, glm::dot(direction, atom_[a] - guess));
+      conditions.add(direction, glm::dot(direction, atom_[a] - guess));
     }
-    held.keep_near(glm::dvec3(0.0), kOpen);
-    probe_.push_back(limited(guess + held.solve(), atoms));
+    conditions.keep_near(glm::dvec3(0.0), kOpen);
+    probe_.push_back(limited(guess + conditions.solve(), atoms));
   }
 }
 
@@ -110,14 +112,14 @@ glm::dvec3 SurfaceVelocity::of_rolling_probe(std::uint32_t toroidal, const glm::
     rolled = at_end[0] + (at_end[1] - at_end[0]) * share_of_arc(t, outward);
   }
   const glm::dvec3 guess = carried(t, s);
-  LeastSquares held;
+  LeastSquares conditions;
   for (const std::uint32_t a : t.atom) {
     const glm::dvec3 direction = glm::normalize(s - surface_.atoms[a].center);
-    held.add(direction, glm::dot(direction, atom_[a] - guess));
+    conditions.add(direction, glm::dot(direction, atom_[a] - guess));
   }
-  held.add(along, rolled);
-  held.keep_near(glm::dvec3(0.0), kOpen);
-  return limited(guess + held.solve(), t.atom);
+  conditions.add(along, rolled);
+  conditions.keep_near(glm::dvec3(0.0), kOpen);
+  return limited(guess + conditions.solve(), t.atom);
 }
 
 glm::dvec3 SurfaceVelocity::on_probe(const glm::dvec3& s, const glm::dvec3& velocity,
@@ -150,10 +152,10 @@ glm::dvec3 SurfaceVelocity::at(PatchKind kind, std::uint32_t patch, const glm::d
 
 namespace {
 
-/// What the faces at the vertices of a mesh say of them.
-class VertexVotes {
+/// Combines the velocities that the faces at each vertex of a mesh have there.
+class VertexVelocities {
  public:
-  VertexVotes(const Surface& surface, const TriangleMesh& mesh, const SurfaceVelocity& velocity)
+  VertexVelocities(const Surface& surface, const TriangleMesh& mesh, const SurfaceVelocity& velocity)
       : mesh_(mesh), limit_(2.0 * surface.probe_radius), mean_(mesh.positions.size(), glm::dvec3(0.0)) {
     std::vector<std::uint32_t> corners(mesh.positions.size(), 0);
     each_corner([&](std::uint32_t v, std::size_t t, const glm::dvec3& normal, bool) {
@@ -177,6 +179,7 @@ class VertexVotes {
   std::vector<glm::dvec3> take() { return std::move(mean_); }
 
  private:
+  /// Calls visit(vertex, triangle, normal, is_sharp) for each corner of each triangle.
   void each_corner(const auto& visit) const {
     std::size_t next = 0;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -197,7 +200,7 @@ class VertexVotes {
 
 std::vector<glm::dvec3> vertex_velocities(const Surface& surface, const TriangleMesh& mesh,
                                           std::span<const glm::dvec3> atom_velocity) {
-  return VertexVotes(surface, mesh, SurfaceVelocity(surface, atom_velocity)).take();
+  return VertexVelocities(surface, mesh, SurfaceVelocity(surface, atom_velocity)).take();
 }
 
 }  // namespace meniscus

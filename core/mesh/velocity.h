@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the points of a surface move when its atoms do: for motion blur, though each frame has a mesh of its own.
+// Computes how the points of a surface move when its atoms do, for motion blur, although each frame has a mesh of its
+// own.
 #pragma once
 
 #include <cstdint>
@@ -15,43 +16,48 @@ struct Surface;
 struct ToroidalPatch;
 struct TriangleMesh;
 
-/// Velocities of the points of one surface, in the unit of those of its atoms (Å per frame).
+/// The velocities of the points of one surface, in the unit of the velocities of its atoms (Å per frame).
 ///
-/// A point of a convex patch moves as its atom. A probe at s that touches atoms c_i keeps |s - c_i| = r_i + p, so
-/// (s - c_i) . (s' - c_i') = 0: three atoms give the velocity s' of a fixed probe (more: least squares). A rolling
-/// probe touches two; the third equation says how it moves along its circle: as the line through the atoms does, plus a
-/// part that goes linearly with the circle's angle between what the fixed probes at its ends have. The directions from
-/// the probe to its contacts turn with the angular velocity w that fits them best, and a point x of the probe's sphere
-/// moves by s' + w x (x - s). The component along the normal is exact; along the surface, where points have no
-/// identity, it is a choice that makes a rigid motion of all atoms a rigid motion of the surface.
+/// A point of a convex patch moves with its atom. A probe at s that touches atoms c_i keeps |s - c_i| = r_i + p, so (s
+/// - c_i) . (s' - c_i') = 0. Three atoms determine the velocity s' of a fixed probe (more: least squares). A rolling
+/// probe touches two; a third equation gives its motion along its circle: that of the line through the atoms, plus a
+/// part that varies linearly with the circle's angle between the values of the fixed probes at its ends. The directions
+/// from the probe to its contacts turn with the angular velocity w that fits them best, and a point x of the probe's
+/// sphere moves by s' + w x (x - s). The component along the normal is exact. Along the surface, where points have no
+/// identity, the velocity is a choice that makes a rigid motion of all atoms a rigid motion of the surface.
 ///
-/// A fixed probe about to slip between its atoms moves without bound; it is taken to move no faster, as seen from its
-/// atoms, than by its diameter in a frame.
+/// A fixed probe about to slip between its atoms moves without bound. Its speed relative to its atoms is limited to its
+/// diameter per frame.
 class SurfaceVelocity {
  public:
-  /// atom_velocity: one per Surface::atoms. Throws Error if there are not as many. `surface` must live as long.
+  /// `atom_velocity` has one entry for each of Surface::atoms; Error is thrown otherwise. `surface` must outlive this
+  /// object.
   SurfaceVelocity(const Surface& surface, std::span<const glm::dvec3> atom_velocity);
 
-  /// Of the point x of a patch, where its normal is `normal`.
+  /// Returns the velocity of the point x of a patch, where the unit normal is `normal`.
   glm::dvec3 at(PatchKind kind, std::uint32_t patch, const glm::dvec3& x, const glm::dvec3& normal) const;
-  /// Of the centre of a fixed probe.
+  /// Returns the velocity of the centre of a fixed probe.
   const glm::dvec3& of_probe(std::uint32_t concave) const { return probe_[concave]; }
-  /// Of the centre s, on its circle, of a rolling probe; at the ends that of the fixed probes.
+  /// Returns the velocity of the centre s, on its circle, of a rolling probe. At the ends of an arc it is that of the
+  /// fixed probes.
   glm::dvec3 of_rolling_probe(std::uint32_t toroidal, const glm::dvec3& s) const;
 
  private:
-  /// Of a rolling probe's centre as the line through its atoms carries it, without rolling.
+  /// Returns the velocity of a rolling probe's centre that moves with the line through its atoms, without rolling.
   glm::dvec3 carried(const ToroidalPatch& t, const glm::dvec3& s) const;
+  /// Returns the velocity of the point x on the sphere of a probe with centre s that touches these atoms.
   glm::dvec3 on_probe(const glm::dvec3& s, const glm::dvec3& velocity, std::span<const std::uint32_t> atoms,
                       const glm::dvec3& x) const;
+  /// Returns a velocity limited, relative to the mean of these atoms, to a probe's diameter per frame.
   glm::dvec3 limited(const glm::dvec3& velocity, std::span<const std::uint32_t> atoms) const;
 
   const Surface& surface_;
-  std::vector<glm::dvec3> atom_;
-  std::vector<glm::dvec3> probe_;  ///< one per Surface::concave
+  std::vector<glm::dvec3> atom_;   ///< velocity of each of Surface::atoms
+  std::vector<glm::dvec3> probe_;  ///< velocity of each of Surface::concave
 };
 
-/// One per vertex of the mesh. Where faces meet at an angle, a vertex keeps the normal component of each of them.
+/// Returns the velocity of each vertex of the mesh. Where faces meet at an angle, a vertex keeps the normal component
+/// of each of them.
 std::vector<glm::dvec3> vertex_velocities(const Surface& surface, const TriangleMesh& mesh,
                                           std::span<const glm::dvec3> atom_velocity);
 

@@ -19,30 +19,31 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// An edge that was flipped leaves one that makes other triangles flat at times.
+/// The most rounds of flips: the edge that a flip makes may in turn make other triangles flat.
 constexpr int kRounds = 12;
+/// The length of fins that are never removed.
 constexpr double kNoFin = -1.0;
 
-/// Half-edges of the triangles at the ends of short edges and at the corners of flat triangles, few of a mesh, answer
-/// all questions about them. Vertices whose triangles do not go around them once stay as they are.
+/// Welds short edges and flat triangles. It links only the triangles at the ends of short edges and at the corners of
+/// flat triangles, which are few in a mesh. Vertices without a single closed fan stay as they are.
 class Welder {
  public:
-  /// scale: a file holds that many times the positions in single precision; 0: the positions as they are. longest_fin:
-  /// Å from what stays to the tip of a fin that goes.
+  /// A file holds `scale` times the positions in single precision; 0: the positions as they are. `longest_fin` is the
+  /// largest distance (Å) from what remains to the tip of a fin that is removed.
   Welder(std::span<const glm::dvec3> positions, std::vector<Triangle>& triangles, double step, double scale,
          double longest_fin)
       : positions_(positions), triangles_(triangles), step_(step), scale_(scale), longest_fin_(longest_fin) {
-    made_.into.resize(positions.size());
-    std::iota(made_.into.begin(), made_.into.end(), 0u);
-    made_.gone.assign(triangles.size(), false);
+    result_.into.resize(positions.size());
+    std::iota(result_.into.begin(), result_.into.end(), 0u);
+    result_.removed.assign(triangles.size(), false);
   }
 
   void join_short_edges() {
     find_short_edges();
     if (short_.empty()) return;
     link_triangles();
-    // A collapse may bring other vertices together, so that an edge that could not go now can. What then is left, fins
-    // may keep.
+    // A collapse may bring other vertices together, so that an edge that could not be collapsed before now can be. The
+    // edges that then are left may be held by fins.
     for (const double longest_fin : {kNoFin, longest_fin_})
       for (bool again = true; again;) {
         again = false;
@@ -51,7 +52,8 @@ class Welder {
     put_back_triangles();
   }
 
-  /// changed(t, from): triangle t now covers what `from` did.
+  /// Flips the longest edges of flat triangles in rounds. Calls changed(t, from) if triangle t now covers what `from`
+  /// did.
   template <typename Changed>
   void flip_flat_triangles(const Changed& changed) {
     for (int round = 0; round < kRounds; ++round) {
@@ -62,34 +64,35 @@ class Welder {
       bool any = false;
       for (const std::uint32_t t : flat_) {
         const auto local = static_cast<std::uint32_t>(std::ranges::lower_bound(part_, t) - part_.begin());
-        if (links_->lives(3 * local)) any = flip(local, changed) || any;
+        if (links_->is_alive(3 * local)) any = flip(local, changed) || any;
       }
       put_back_triangles();
       if (!any) break;
     }
     find_flat_triangles();
-    made_.flat = flat_.size();
+    result_.flat = flat_.size();
   }
 
-  Welding take() { return std::move(made_); }
+  Welding take() { return std::move(result_); }
 
  private:
   struct Edge {
     std::uint32_t keep, drop;
   };
 
-  /// Beside a short edge a triangle (a, b, tip) with two more at its tip, (tip, a, foot) and (b, tip, foot), which lie
-  /// back to back. While it is there, the ends of the edge have three neighbours in common. The foot may be the next
-  /// tip.
+  /// A fin next to a short edge: a triangle (a, b, tip) with two more at its tip, (tip, a, foot) and (b, tip, foot),
+  /// which lie back to back. While it is there, the ends of the edge have three common neighbours. The foot may be the
+  /// next tip.
   struct Fin {
-    std::uint32_t half = 0;           ///< that of the short edge, in the first triangle
+    std::uint32_t half = 0;           ///< half-edge of the short edge, in the first triangle
     std::vector<std::uint32_t> tips;  ///< vertices
-    std::uint32_t foot = 0;           ///< vertex: of the last tip
+    std::uint32_t foot = 0;           ///< vertex at the foot of the last tip
   };
 
+  /// Returns a position as the file holds it.
   glm::vec3 single(std::uint32_t v) const { return glm::vec3(scale_ * positions_[v]); }
 
-  /// Whole numbers, so that what is said of them is exact.
+  /// Returns a position in whole steps, for exact comparisons.
   glm::i64vec3 steps(std::uint32_t v) const {
     const glm::dvec3 written = scale_ > 0.0 ? glm::dvec3(single(v)) / scale_ : positions_[v];
     return glm::i64vec3(glm::round(written / step_));
@@ -121,9 +124,10 @@ class Welder {
   void find_flat_triangles() {
     flat_.clear();
     for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-      if (!made_.gone[t] && is_flat(triangles_[t])) flat_.push_back(t);
+      if (!result_.removed[t] && is_flat(triangles_[t])) flat_.push_back(t);
   }
 
+  /// Links the triangles at short edges and at flat triangles.
   void link_triangles() {
     linked_.assign(positions_.size(), false);
     for (const auto& [a, b] : short_) linked_[a] = linked_[b] = true;
@@ -133,7 +137,7 @@ class Welder {
     std::vector<Triangle> triangles;
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       const auto& [a, b, c] = triangles_[t];
-      if (made_.gone[t] || !(linked_[a] || linked_[b] || linked_[c])) continue;
+      if (result_.removed[t] || !(linked_[a] || linked_[b] || linked_[c])) continue;
       part_.push_back(t);
       triangles.push_back(triangles_[t]);
     }
@@ -141,44 +145,46 @@ class Welder {
     links_ = HalfEdges::of_part(triangles, corners);
     for (const Triangle& t : triangles)
       for (const std::uint32_t v : t)
-        if (linked_[v] && !go_around_once(triangles, corners.at(v))) linked_[v] = false;
+        if (linked_[v] && !is_closed_fan(triangles, corners.at(v))) linked_[v] = false;
   }
 
+  /// Copies the linked triangles back to the mesh.
   void put_back_triangles() {
     for (std::uint32_t local = 0; local < part_.size(); ++local) {
-      if (links_->lives(3 * local))
+      if (links_->is_alive(3 * local))
         triangles_[part_[local]] = links_->corners(local);
       else
-        made_.gone[part_[local]] = true;
+        result_.removed[part_[local]] = true;
     }
   }
 
-  bool may_change(std::uint32_t v) const { return linked_[v] && links_->vertex_lives(v); }
+  bool may_change(std::uint32_t v) const { return linked_[v] && links_->is_vertex_alive(v); }
 
-  /// Whether the mesh stays what it is where two vertices become one that have an edge, or would have one more
-  /// neighbour each (`to_come` 2) if they had one, once so many tips of fins beside it are gone.
+  /// True if the mesh keeps its topology when two vertices are merged, once this many tips of fins next to them are
+  /// removed. `to_come` is 0 for two vertices with an edge; for others it is 2, as an edge would give each of them one
+  /// more neighbour.
   bool can_join(const CommonNeighbors& neighbors, std::size_t to_come, std::size_t tips) const {
-    // Of less than 7 nothing but two triangles back to back would stay.
+    // With a sum below 7, nothing but two triangles back to back would remain.
     return neighbors.common == 2 + tips && neighbors.sum + to_come - 2 * tips >= 7;
   }
 
-  /// At a half-edge of a short edge, with at most so many tips; perhaps none.
+  /// Returns the fin at a half-edge of a short edge, with at most `most` tips and perhaps none.
   Fin fin_at(std::uint32_t half, std::size_t most) const {
     Fin fin{half, {}, links_->opposite(half)};
     std::uint32_t to_tip = HalfEdges::next(half), from_tip = HalfEdges::last(half);
     while (fin.tips.size() < most) {
-      const std::uint32_t beside = links_->twin(to_tip), other = links_->twin(from_tip);
-      const std::uint32_t foot = links_->opposite(beside);
-      if (links_->opposite(other) != foot) break;
+      const std::uint32_t first = links_->twin(to_tip), second = links_->twin(from_tip);
+      const std::uint32_t foot = links_->opposite(first);
+      if (links_->opposite(second) != foot) break;
       fin.tips.push_back(fin.foot);
       fin.foot = foot;
-      to_tip = HalfEdges::next(beside);
-      from_tip = HalfEdges::last(other);
+      to_tip = HalfEdges::next(first);
+      from_tip = HalfEdges::last(second);
     }
     return fin;
   }
 
-  /// How far its tips are at most from what stays, the edge from a to its foot.
+  /// Returns the largest distance (Å) of the tips of a fin from what remains, the edge from a to its foot.
   double length(const Fin& fin, std::uint32_t a) const {
     const glm::dvec3 to_foot = positions_[fin.foot] - positions_[a];
     double longest = 0.0;
@@ -190,6 +196,7 @@ class Welder {
     return longest;
   }
 
+  /// Merges the vertex `drop` into `keep` after removing the fins that prevent it; returns true if it did.
   bool collapse(std::uint32_t keep, std::uint32_t drop, double longest_fin) {
     if (keep == drop || !may_change(keep) || !may_change(drop)) return false;
     const std::uint32_t half = links_->between(drop, keep);
@@ -209,10 +216,10 @@ class Welder {
     for (const Fin& fin : fins)
       for (std::size_t n = 0; n < fin.tips.size(); ++n) links_->unpoke(fin.half);
     links_->collapse(half);
-    made_.fins += tips;
-    made_.into[drop] = keep;
-    ++made_.joined;
-    // What was short between the dropped vertex and a third one is so from here.
+    result_.fins += tips;
+    result_.into[drop] = keep;
+    ++result_.joined;
+    // Edges that were short at the dropped vertex are so at the other one from now on.
     for (auto& [one, other] : short_) {
       if (one == drop) one = keep;
       if (other == drop) other = keep;
@@ -221,7 +228,7 @@ class Welder {
     return true;
   }
 
-  /// Of a triangle the half-edge of its longest edge; of equal ones the first.
+  /// Returns the half-edge of a triangle's longest edge; of equal ones the first.
   std::uint32_t longest_edge(std::uint32_t t) const {
     std::uint32_t longest = 3 * t;
     double most = -1.0;
@@ -235,9 +242,11 @@ class Welder {
     return longest;
   }
 
+  /// Flips the longest edge of a flat triangle if fewer are flat then, or if the new edge can be collapsed; returns
+  /// true if it did.
   template <typename Changed>
   bool flip(std::uint32_t t, const Changed& changed) {
-    if (!is_flat(links_->corners(t))) return false;  // a flip before has mended it
+    if (!is_flat(links_->corners(t))) return false;  // an earlier flip has mended it
     const std::uint32_t half = longest_edge(t), other = links_->twin(half);
     const std::uint32_t a = links_->from(half), b = links_->to(half), c = links_->opposite(half);
     if (!may_change(a) || !may_change(b) || !may_change(c) || !links_->can_flip(half)) return false;
@@ -251,28 +260,29 @@ class Welder {
     if (had_area && (glm::dot(normal(first), normal(before)) <= 0.0 || glm::dot(normal(second), normal(before)) <= 0.0))
       return false;
     links_->flip(half);
-    links_->put_first(HalfEdges::last(half));  // the triangles as they are above: what is written depends on it
+    // Corners in the order of `first` and `second`: what is written depends on it.
+    links_->put_first(HalfEdges::last(half));
     links_->put_first(HalfEdges::next(other));
     changed(part_[t], part_[other / 3]);
     if (joins)
       collapse(std::min(c, d), std::max(c, d), kNoFin);
     else
-      ++made_.flipped;
+      ++result_.flipped;
     return true;
   }
 
   std::span<const glm::dvec3> positions_;
   std::vector<Triangle>& triangles_;
   double step_, scale_, longest_fin_;
-  Welding made_;
+  Welding result_;
   std::vector<Edge> short_;
   std::vector<std::uint32_t> flat_;
-  std::vector<std::uint32_t> part_;  ///< the triangles that are linked, ascending
-  std::optional<HalfEdges> links_;   ///< of these; vertices have the numbers that they have in the mesh
-  std::vector<bool> linked_;         ///< per vertex: all of its triangles are, and go around it once
+  std::vector<std::uint32_t> part_;  ///< the linked triangles, ascending
+  std::optional<HalfEdges> links_;   ///< half-edges of these; vertices have their numbers in the mesh
+  std::vector<bool> linked_;         ///< per vertex: true if all its triangles are linked and form a closed fan
 };
 
-/// To the vertex at the end of the chain.
+/// Replaces each vertex by the one at the end of its chain.
 void follow(std::vector<std::uint32_t>& into) {
   for (std::uint32_t& v : into)
     while (into[v] != v) v = into[v];
@@ -303,7 +313,7 @@ Welding weld(TriangleMesh& mesh, double step, double scale) {
   for (auto& edge : mesh.sharp_edges)
     for (std::uint32_t& v : edge) v = made.into[v];
   std::erase_if(mesh.sharp_edges, [](const auto& edge) { return edge[0] == edge[1]; });
-  std::vector<bool> keep = made.gone;
+  std::vector<bool> keep = made.removed;
   keep.flip();
   const std::vector<std::uint32_t> place = keep_triangles(mesh, keep, flipped);
   for (std::uint32_t& v : made.into) v = place[v];

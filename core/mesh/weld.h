@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Removes edges too short and triangles too flat for the numbers of a file; the mesh stays closed.
+// Removes edges that are too short and triangles that are too flat for the numbers of a file, and keeps the mesh
+// closed.
 #pragma once
 
 #include <array>
@@ -14,29 +15,34 @@ namespace meniscus {
 
 struct TriangleMesh;
 
-/// What became of vertices and triangles.
+/// What welding did to vertices and triangles.
 struct Welding {
-  std::vector<std::uint32_t> into;  ///< per vertex: itself, or the one that it was joined with; kNone: it is gone
-  std::vector<bool> gone;           ///< per triangle
-  std::size_t joined = 0;           ///< edges whose ends are one vertex now
-  std::size_t fins = 0;             ///< that went before, by their tips
-  std::size_t flipped = 0;          ///< edges that went to the other diagonal
-  std::size_t flat = 0;             ///< triangles that stayed without area
+  /// Per vertex: itself, or the vertex that it was merged into; kNone: it was removed.
+  std::vector<std::uint32_t> into;
+  std::vector<bool> removed;  ///< per triangle: true if it was removed
+  std::size_t joined = 0;     ///< number of edges with ends that were merged
+  std::size_t fins = 0;       ///< number of tips of fins that were removed first
+  std::size_t flipped = 0;    ///< number of edges that were flipped
+  std::size_t flat = 0;       ///< number of triangles that remain without area
 };
 
-/// Joins the ends of edges shorter than `step` (Å), or whose ends are the same point in multiples of it, at the end
-/// with the lower number; their two triangles vanish. An edge stays where joining its ends would leave the mesh open or
-/// change its genus: where they have another common neighbour than the two corners across from the edge.
+/// Merges the ends of edges that are shorter than `step` (Å), or whose ends are the same point in multiples of it, at
+/// the end with the lower number; the two triangles of such an edge vanish. An edge remains where merging its ends
+/// would leave the mesh open or change its genus: where they have a common neighbour other than the two corners
+/// opposite to the edge.
 Welding weld_short_edges(std::span<const glm::dvec3> positions, std::vector<std::array<std::uint32_t, 3>>& triangles,
                          double step);
 
-/// The same of what a file holds, `scale` times the positions in single precision; an edge whose ends have that third
-/// neighbour because of a fin goes, too: two triangles back to back, no farther apart than the edge is long, with a tip
-/// that is within the mesh's tolerance of what stays, or several such, one behind the other. Then triangles without
-/// area, their corners taken in multiples of `step` or in single precision, lose their longest edge to the other
-/// diagonal of the two triangles at it, and where that is too short its ends are joined. Both triangles take what they
-/// belong to from the one that had an area. A closed mesh stays closed, with the genus it had, and no vertex moves.
-/// Returns what was done; `into` has the new place of each vertex.
+/// Welds a mesh for a file that holds `scale` times its positions in single precision.
+///
+/// Short edges are merged as by weld_short_edges(). An edge whose ends have a third common neighbour only because of a
+/// fin is merged, too. A fin is two triangles back to back, no farther apart than the edge is long, with a tip that is
+/// within the mesh's tolerance of what remains; there may be several such, one behind the other.
+///
+/// Then each triangle without area, its corners taken in multiples of `step` or in single precision, has its longest
+/// edge flipped. If the new edge is too short, its ends are merged. Both triangles take the attributes of the one that
+/// had an area. A closed mesh stays closed, with the same genus, and no vertex moves. Returns what was done;
+/// Welding::into has the new number of each vertex.
 Welding weld(TriangleMesh& mesh, double step, double scale);
 
 }  // namespace meniscus

@@ -27,8 +27,8 @@ Hull::Hull(Surface surface) : whole_(std::move(surface)), anywhere_(whole_) {
   outside_.emplace(*part_);
 }
 
-// From where a probe may be, the nearest place where it touches an atom is reached without leaving such places: if it
-// is not one of the outside's, the point lies in a cavity.
+// If a probe may be at the point, it gets to the nearest place where it touches an atom without leaving such places. If
+// that is not a place of the outside, the point lies in a cavity.
 double Hull::to_probe(const glm::dvec3& point) const {
   const bool in_sas = anywhere_.in_sas(point);
   if (!outside_) return in_sas ? anywhere_.to_probe(point) : 0.0;
@@ -38,11 +38,13 @@ double Hull::to_probe(const glm::dvec3& point) const {
 
 namespace {
 
+/// Adds the wanted centres of fixed probes.
 void add_fixed(const Surface& s, const NearWanted& wanted, std::vector<glm::dvec3>& places) {
   for (const ConcavePatch& patch : s.concave)
     if (wanted(patch.center, 0.0)) places.push_back(patch.center);
 }
 
+/// Adds wanted places along arcs, at most `step` (Å) apart.
 void add_on_arcs(const Surface& s, double step, const NearWanted& wanted, std::vector<glm::dvec3>& places) {
   for (const ToroidalPatch& t : s.toroidal) {
     if (!wanted(t.center, t.radius)) continue;
@@ -56,12 +58,14 @@ void add_on_arcs(const Surface& s, double step, const NearWanted& wanted, std::v
   }
 }
 
-/// The first direction of a spiral that may reach a height, of a sphere at height 0. All later ones are higher.
+/// Returns the first direction of a spiral of `count` directions that may lie above a height over a sphere's centre;
+/// all later ones are higher.
 std::size_t first_above(double height, double radius, std::size_t count) {
   const double n = 0.5 * (height / radius + 1.0) * static_cast<double>(count) - 2.0;  // one more, for rounding
   return n <= 0.0 ? 0 : n >= static_cast<double>(count) ? count : static_cast<std::size_t>(n);
 }
 
+/// Adds wanted places on the faces of the SAS.
 void add_on_faces(const Surface& s, const PlaceSteps& steps, const Box& bounds, const NearWanted& wanted,
                   std::vector<glm::dvec3>& places) {
   for (const ConvexPatch& patch : s.convex) {
@@ -83,7 +87,7 @@ void add_on_faces(const Surface& s, const PlaceSteps& steps, const Box& bounds, 
   }
 }
 
-/// Without those that are where an earlier one does.
+/// Returns the places without those that coincide with an earlier one.
 std::vector<glm::dvec3> without_doubles(const std::vector<glm::dvec3>& places) {
   const BallGrid grid(places, 1.0);
   std::vector<bool> kept(places.size(), true);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The solid that a large probe rolls over: the depth of a point in it, and positions of that probe around a molecule.
+// The solid that a large probe rolls over: the depth of points in it, and places of that probe around a molecule.
 #pragma once
 
 #include <functional>
@@ -16,47 +16,48 @@ namespace meniscus {
 
 struct Surface;
 
-/// The solid of a solvent-excluded surface with its cavities filled. A larger probe has a larger hull, for a ball is a
-/// union of smaller ones. Probes that overlap one outside count as outside, though they may be behind a door that is
+/// The solid of a solvent-excluded surface with its cavities filled. A larger probe has a larger hull, because a ball
+/// is a union of smaller ones. Probes that overlap one outside count as outside, although a door between the two may be
 /// too narrow for them.
 class Hull {
  public:
-  /// surface: closed, with at least one atom and a probe above 0, with listed clip planes.
+  /// `surface` is closed, with at least one atom, a probe radius above 0, and listed clip planes.
   explicit Hull(Surface surface);
   Hull(const Hull&) = delete;
   Hull& operator=(const Hull&) = delete;
 
   double volume() const { return volume_; }  ///< Å³, exact
-  /// Whether some were filled.
+  /// True if some cavities were filled.
   bool has_cavities() const { return part_.has_value(); }
-  /// Of the hull; its atoms are those that a probe touches which is in no cavity.
+  /// Returns the surface of the hull; its atoms are those that a probe outside of cavities touches.
   const Surface& surface() const { return part_ ? *part_ : whole_; }
 
-  /// Å, from the point to the nearest place where the centre of a probe may be that is in no cavity; 0 in such a place.
-  /// Points of the hull are those for which this is the probe's radius or more; how much more is their depth.
+  /// Returns the distance (Å) from the point to the nearest place of the centre of a probe that is in no cavity; 0 at
+  /// such a place. Points of the hull are those with a distance of at least the probe's radius; the excess is their
+  /// depth.
   double to_probe(const glm::dvec3& point) const;
 
  private:
   Surface whole_;
   SurfaceDistance anywhere_;
-  std::optional<Surface> part_;  ///< without cavities, if there are any
+  std::optional<Surface> part_;  ///< the surface without cavities, if there are any
   std::optional<SurfaceDistance> outside_;
   double volume_ = 0.0;
 };
 
-/// Whether places of the probe's centre may be wanted that are no farther than `reach` (Å) from a point.
+/// True if places of the probe's centre within `reach` (Å) of a point may be needed.
 using NearWanted = std::function<bool(const glm::dvec3& point, double reach)>;
 
-/// Å between places, at most: along an arc, and on the sphere of an atom of this radius, where no point is farther from
-/// the nearest place than 0.77 of that (spiral.h).
+/// The largest distances (Å) between places along an arc, and on the sphere of an atom of a given radius. On a sphere
+/// no point is farther from the nearest place than 0.77 of that distance (spiral.h).
 struct PlaceSteps {
   double on_arcs;
   std::function<double(double atom_radius)> on_sphere;
 };
 
-/// Every fixed probe, and places along arcs and on faces of the SAS, each of which exactly touches its atoms. Left out
-/// are places that are not wanted, and all but the first of those closer than kSamePlace. In the order of the surface's
-/// patches. bounds: around all places that are wanted.
+/// Returns every fixed probe, and places along arcs and on faces of the SAS, in the order of the surface's patches.
+/// Each of them touches its atoms exactly. Left out are places that are not `wanted`, and all but the first of places
+/// closer than kSamePlace. `bounds` encloses all wanted places.
 std::vector<glm::dvec3> probe_places(const Surface& surface, const PlaceSteps& steps, const Box& bounds,
                                      const NearWanted& wanted);
 

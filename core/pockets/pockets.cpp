@@ -24,12 +24,13 @@
 namespace meniscus {
 namespace {
 
-/// How dense places of the large probe must be so that a small one's centre x that is kept from them by `clearance`,
-/// and touches no atom, is kept from all places by clearance - tolerance. Let y be the place nearest to x, D away.
-///  * On an arc or a sphere with a place z beside y, which bulges towards x: |x - z|² <= D² + |y - z|².
-///  * If y touches atom a alone, x lies on the line to its centre, so it reaches into a unless D <= R - r, or D is
-///  larger
-///    than 2 r_a + R + r: places on such spheres need only keep out what is between the hull and the large probe.
+/// Returns how dense places of the large probe must be so that a small probe's centre x that is kept from it by
+/// `clearance`, and touches no atom, is kept from all places by clearance - tolerance. Let y be the place nearest to x,
+/// at the distance D.
+///  * If y is on an arc or a sphere with a place z next to it, which bulges towards x: |x - z|² <= D² + |y - z|².
+///  * If y touches atom a alone, x lies on the line to its centre, so it overlaps a unless D <= R - r, or D is larger
+///    than 2 r_a + R + r. Places on such spheres therefore need only keep out what is between the hull and the large
+///    probe.
 /// A point of a face has a place of the sphere within 0.77 of its step, or beyond the face's border, which is nearer
 /// then and has a place half a step away.
 PlaceSteps place_steps(const PocketRequest& request, double clearance) {
@@ -42,12 +43,13 @@ PlaceSteps place_steps(const PocketRequest& request, double clearance) {
           [=](double atom_radius) { return ((trim < 2 * atom_radius ? far : near) - half_step) / 0.77; }};
 }
 
-/// A part before it is cut out.
+/// A pocket before it is cut out of the surface.
 struct Part {
   Cavity cavity;
-  std::vector<std::uint32_t> components;  // its own, then those of what floats in it
+  std::vector<std::uint32_t> components;  // its own component, then those of what floats in it
 };
 
+/// Finds the pockets as cavities of a surface with closed mouths.
 class PocketFinder {
  public:
   PocketFinder(std::span<const Ball> atoms, const PocketRequest& request, const ComputeSurface& compute)
@@ -55,12 +57,12 @@ class PocketFinder {
         request_(request),
         compute_(compute),
         clearance_(request.large_probe_radius + request.trim + request.probe_radius),
-        hull_(closed(request.large_probe_radius)),
+        hull_(closed_surface(request.large_probe_radius)),
         cells_(atoms, request.probe_radius, hull_, clearance_ - request.tolerance - kSamePlace) {}
 
   Pockets run() {
     found_.request = request_;
-    found_.between_volume = hull_.volume() - closed(request_.probe_radius).volume;
+    found_.between_volume = hull_.volume() - closed_surface(request_.probe_radius).volume;
     if (cells_.count() == 0) return std::move(found_);
     close_mouths();
     const std::vector<Part> parts = list_parts();
@@ -70,13 +72,15 @@ class PocketFinder {
   }
 
  private:
-  Surface closed(double probe_radius) const {
+  /// Returns the closed surface of the molecule for a probe radius (Å).
+  Surface closed_surface(double probe_radius) const {
     Surface surface = compute_(atoms_, probe_radius);
     require_closed(surface);
     return surface;
   }
 
-  /// Balls that can touch a probe in a pocket, or one that overlaps such a probe; all others change nothing about it.
+  /// Computes the surface with closed mouths. It has the balls that can touch a probe in a pocket, or a probe that
+  /// overlaps such a one; all others change nothing about the pockets.
   void close_mouths() {
     const double r = request_.probe_radius;
     std::vector<Ball> balls;
@@ -100,7 +104,8 @@ class PocketFinder {
                   first_probe_, found_.probe_count));
   }
 
-  /// A bounded part of the solvent is a pocket if probes in it are where pockets can be. Elsewhere balls are missing.
+  /// Returns the pockets, the largest first. A bounded part of the solvent is a pocket if probes in it are where
+  /// pockets can be; elsewhere balls are missing.
   std::vector<Part> list_parts() const {
     const Surface& s = found_.surface;
     const std::vector<Cavity> cavities = cavities_of(s);
@@ -117,27 +122,27 @@ class PocketFinder {
     return parts;
   }
 
-  /// Atoms that float in a pocket are not part of it.
+  /// Adds atoms that float in a pocket, and takes their volume from it.
   void add_islands(std::vector<Part>& parts) const {
     const Surface& s = found_.surface;
     const std::vector<bool> reached = reached_from_outside(s);
     for (std::uint32_t c = 0; c < s.components.size(); ++c) {
       if (reached[c] || s.components[c].kind != ComponentKind::outer) continue;
       const std::vector<std::uint32_t> atoms = atoms_of(c);
-      Part* around = nullptr;
+      Part* enclosing = nullptr;
       for (Part& part : parts)
         if (winding_number(s, part.components.front(), s.atoms[atoms.front()].center) != 0 &&
-            (!around || part.cavity.volume < around->cavity.volume))
-          around = &part;
-      if (!around) continue;
-      around->components.push_back(c);
-      around->cavity.volume -= s.components[c].volume;
-      around->cavity.area += s.components[c].area;
-      around->cavity.atoms.insert(around->cavity.atoms.end(), atoms.begin(), atoms.end());
+            (!enclosing || part.cavity.volume < enclosing->cavity.volume))
+          enclosing = &part;
+      if (!enclosing) continue;
+      enclosing->components.push_back(c);
+      enclosing->cavity.volume -= s.components[c].volume;
+      enclosing->cavity.area += s.components[c].area;
+      enclosing->cavity.atoms.insert(enclosing->cavity.atoms.end(), atoms.begin(), atoms.end());
     }
   }
 
-  /// Those with a contact patch on the component. An outer one has some (components.h).
+  /// Returns the atoms with a contact patch on the component. An outer one has some (components.h).
   std::vector<std::uint32_t> atoms_of(std::uint32_t component) const {
     std::vector<std::uint32_t> atoms;
     for (const ConvexPatch& patch : found_.surface.convex)
@@ -147,6 +152,7 @@ class PocketFinder {
     return atoms;
   }
 
+  /// Cuts a pocket out of the surface, and measures it.
   Pocket pocket_of(const Part& part) const {
     Pocket pocket;
     pocket.cavity = part.cavity;
@@ -173,11 +179,11 @@ class PocketFinder {
   std::span<const Ball> atoms_;
   const PocketRequest& request_;
   const ComputeSurface& compute_;
-  double clearance_;  // of the small probe's centre from the large one's
+  double clearance_;  // Å, of the small probe's centre from the large one's
   Hull hull_;
   ProbeCells cells_;
   std::uint32_t first_probe_ = 0;
-  std::vector<std::uint32_t> atom_;  // per ball of found_.surface: of those given; kNone: a large probe
+  std::vector<std::uint32_t> atom_;  // per ball of found_.surface: index of the given atom; kNone: a large probe
   Pockets found_;
 };
 
@@ -207,7 +213,7 @@ Pockets find_pockets(std::span<const Ball> atoms, const PocketRequest& request, 
 
 namespace {
 
-/// Whether each face touches large probes only.
+/// Returns true for each face that touches large probes only.
 std::vector<bool> faces_of_mouths(const Surface& s, const std::vector<bool>& is_probe) {
   const auto probe = [&](std::uint32_t atom) -> bool { return is_probe[atom]; };
   std::vector<bool> of_mouth(s.faces.size());
@@ -261,9 +267,9 @@ PocketLocator::PocketLocator(const Pockets& pockets) : probe_radius_(pockets.req
   for (const Pocket& pocket : pockets.pockets) each_.emplace_back(pocket.surface);
 }
 
-// Where a probe may be, the nearest place where it touches something is one of its own pocket; elsewhere the point lies
-// in the pockets whose probes are near enough. Distances to places of a pocket are those to places of all pockets to
-// the last digit, as they come from the same numbers.
+// If a probe may be at the point, the nearest place where it touches something is one of its own pocket. Elsewhere the
+// point lies in the pockets with probes that are near enough. Distances to places of one pocket equal those to places
+// of all pockets to the last digit, as they come from the same numbers.
 std::optional<std::size_t> PocketLocator::operator()(const glm::dvec3& point) const {
   if (!anywhere_) return std::nullopt;
   const bool in_sas = anywhere_->in_sas(point);

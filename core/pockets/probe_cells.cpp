@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drops cubes that lie inside one grown ball or too near to the large probe; far from all atoms many at once.
+// Drops cubes that lie inside one grown ball or too near to the large probe; far from all atoms it drops many at once.
 #include "core/pockets/probe_cells.h"
 
 #include <algorithm>
@@ -21,18 +21,19 @@ namespace meniscus {
 namespace {
 
 constexpr double kFinest = 0.25, kCoarsest = 2.0;  // Å, half edges of cells and of the cubes that they come from
-constexpr int kRegion = 8;                         // such cubes along an edge of what is looked at first
-constexpr double kRounding = 1e-6;                 // Å, far above that of coordinates
+constexpr int kRegion = 8;                         // coarsest cubes along an edge of a region
+constexpr double kRounding = 1e-6;                 // Å, far above the rounding error of coordinates
 
-/// A cube and the atoms that matter within it.
+/// A cube, and the atoms that matter within it.
 struct Region {
   glm::dvec3 middle;
   double half;
   std::vector<std::uint32_t> near;
 
-  double reach() const { return half * std::numbers::sqrt3; }  // of its corners
+  double reach() const { return half * std::numbers::sqrt3; }  // Å, from the middle to a corner
 };
 
+/// Finds the cells by dividing cubes.
 class CellFinder {
  public:
   CellFinder(std::span<const Ball> atoms, double probe_radius, const Hull& hull, double clearance)
@@ -45,13 +46,13 @@ class CellFinder {
       high = glm::max(high, atom.center);
     }
     // The hull is no larger than the convex hull of the balls.
-    low -= largest();
-    const glm::ivec3 size = glm::ivec3(glm::ceil((high + largest() - low) / (2 * kCoarsest)));
+    low -= largest_radius();
+    const glm::ivec3 size = glm::ivec3(glm::ceil((high + largest_radius() - low) / (2 * kCoarsest)));
     int edge = kRegion;
     while (edge < std::max({size.x, size.y, size.z})) edge *= 2;
     std::vector<std::uint32_t> all(atoms_.size());
     std::iota(all.begin(), all.end(), 0u);
-    std::vector<Corner> regions;
+    std::vector<CubeRange> regions;
     divide({low, glm::ivec3(0), size}, edge, all, regions);
     std::vector<std::vector<Box>> found(regions.size());
     tbb::parallel_for(std::size_t{0}, regions.size(),
@@ -62,30 +63,33 @@ class CellFinder {
   }
 
  private:
-  /// Cubes of half edge kCoarsest, counted from a corner of space.
-  struct Corner {
+  /// A range of cubes of half edge kCoarsest, counted from the low corner of the searched space.
+  struct CubeRange {
     glm::dvec3 low;
-    glm::ivec3 first, size;  // of the cube at the corner; how many there are in all
+    glm::ivec3 first, size;  // the first cube of the range; the number of cubes in all
     std::vector<std::uint32_t> near = {};
 
     glm::dvec3 middle(const glm::dvec3& cubes) const { return low + 2 * kCoarsest * (glm::dvec3(first) + cubes); }
   };
 
-  static Corner eighth_of(const Corner& corner, int edge, int n) {
+  /// Returns eighth n of a range with `edge` cubes along each axis.
+  static CubeRange eighth_of(const CubeRange& corner, int edge, int n) {
     return {corner.low, corner.first + edge / 2 * glm::ivec3(n & 1, n >> 1 & 1, n >> 2), corner.size};
   }
 
-  double largest() const {
+  /// Returns the largest SAS radius (Å).
+  double largest_radius() const {
     double radius = 0.0;
     for (const Ball& atom : atoms_) radius = std::max(radius, atom.radius);
     return radius + probe_radius_;
   }
 
-  /// Into regions in which there may be cells, with the atoms near them. A ball far larger than others makes space so
-  /// large that most of it must be left out as a whole.
-  void divide(const Corner& corner, int edge, std::span<const std::uint32_t> near, std::vector<Corner>& regions) const {
+  /// Divides a range into regions in which there may be cells, with the atoms near them. A ball far larger than others
+  /// makes the space so large that most of it must be left out as a whole.
+  void divide(const CubeRange& corner, int edge, std::span<const std::uint32_t> near,
+              std::vector<CubeRange>& regions) const {
     if (glm::any(glm::greaterThanEqual(corner.first, corner.size))) return;
-    const Region region = part_of(near, corner, edge, 2 * hull_.surface().probe_radius);
+    const Region region = region_of(near, corner, edge, 2 * hull_.surface().probe_radius);
     if (holds_no_cell(region)) return;
     if (edge == kRegion) {
       regions.push_back(corner);
@@ -95,8 +99,9 @@ class CellFinder {
     for (int n = 0; n < 8; ++n) divide(eighth_of(corner, edge, n), edge / 2, region.near, regions);
   }
 
-  /// So many cubes along an edge, and those of the atoms that are no farther from them.
-  Region part_of(std::span<const std::uint32_t> atoms, const Corner& corner, int edge, double away) const {
+  /// Returns the region of a range with `edge` cubes along each axis, and those of the atoms that are no farther than
+  /// `away` from it.
+  Region region_of(std::span<const std::uint32_t> atoms, const CubeRange& corner, int edge, double away) const {
     Region region{corner.middle(glm::dvec3(0.5 * edge)), kCoarsest * edge, {}};
     const double far = region.reach() + away + kRounding;
     std::ranges::copy_if(atoms, std::back_inserter(region.near), [&](std::uint32_t a) {
@@ -105,31 +110,35 @@ class CellFinder {
     return region;
   }
 
-  /// Whether visit() is certain to find nothing in it, for a reason that holds in all of it.
+  /// True if visit() would certainly find nothing in a region, for a reason that holds in all of it.
   bool holds_no_cell(const Region& region) const {
     const double reach = region.reach() + kRounding;
     for (const std::uint32_t a : region.near)
       if (glm::distance(region.middle, atoms_[a].center) < atoms_[a].radius + probe_radius_ - reach) return true;
-    // A small probe that touches no atom is no farther from a large one that is on the only atom near than by the
-    // difference of their radii, and none from one if no atom is near. Cells reach farther by the finest's diagonal.
+    // If only one atom is near, a small probe that touches no atom is no farther from a large probe on that atom than
+    // the difference of their radii; if no atom is near, its distance from a large one is 0. Cells extend farther by
+    // the finest's diagonal.
     const double large = hull_.surface().probe_radius;
     return region.near.size() <= 1 && !hull_.has_cavities() &&
            large - probe_radius_ + 2 * kFinest * std::numbers::sqrt3 + kRounding < clearance_;
   }
 
-  void visit_cubes(const Corner& corner, int edge, std::span<const std::uint32_t> near, std::vector<Box>& found) const {
+  /// Visits the cubes of a range with `edge` cubes along each axis.
+  void visit_cubes(const CubeRange& corner, int edge, std::span<const std::uint32_t> near,
+                   std::vector<Box>& found) const {
     if (glm::any(glm::greaterThanEqual(corner.first, corner.size))) return;
-    const Region region = part_of(near, corner, edge, probe_radius_);
+    const Region region = region_of(near, corner, edge, probe_radius_);
     if (edge == 1) return visit(region, found);
     for (int n = 0; n < 8; ++n) visit_cubes(eighth_of(corner, edge, n), edge / 2, region.near, found);
   }
 
+  /// Adds the cells of a cube, which is divided if only a part of it may belong to cells.
   void visit(const Region& cube, std::vector<Box>& found) const {
     const double reach = cube.reach();
-    if (in_one_ball(cube)) return;
+    if (is_in_one_ball(cube)) return;
     const double away = hull_.to_probe(cube.middle);
     if (away < clearance_ - reach) return;
-    if (cube.half <= kFinest || (away >= clearance_ + reach && in_no_ball(cube))) {
+    if (cube.half <= kFinest || (away >= clearance_ + reach && is_in_no_ball(cube))) {
       found.push_back({cube.middle - cube.half, cube.middle + cube.half});
       return;
     }
@@ -139,13 +148,15 @@ class CellFinder {
             found);
   }
 
-  bool in_one_ball(const Region& cube) const {
+  /// True if one grown ball covers the cube.
+  bool is_in_one_ball(const Region& cube) const {
     return std::ranges::any_of(cube.near, [&](std::uint32_t a) {
       return glm::distance(cube.middle, atoms_[a].center) < atoms_[a].radius + probe_radius_ - cube.reach();
     });
   }
 
-  bool in_no_ball(const Region& cube) const {
+  /// True if no grown ball meets the cube.
+  bool is_in_no_ball(const Region& cube) const {
     return std::ranges::all_of(cube.near, [&](std::uint32_t a) {
       return glm::distance(cube.middle, atoms_[a].center) > atoms_[a].radius + probe_radius_ + cube.reach();
     });

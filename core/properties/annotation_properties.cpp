@@ -10,98 +10,75 @@ namespace {
 constexpr unsigned kShared = in_scene | in_bundle;
 constexpr std::string_view kLegend = "Legend", kLabels = "Labels";
 
-constexpr auto kTable = of_commands(
-    for_render | for_preview,
-    std::to_array<Property>({
-        flag("legend.shown", "--legend", "Show a legend of the colours, at the right or, in tall pictures, below")
-            .in(kLegend, kShared | live)
-            .of(kForPictures)
-            .in_short_help(),
-        new_file("legend.file", "--legend-file", "FILE", "Write the legend as a separate picture")
-            .in(kLegend, in_scene)
-            .of(for_render),
-        text("legend.title", "--legend-title", "TEXT", "Title of the legend; '' for none")
-            .initially("by the colours")
-            .in(kLegend, kShared | live)
-            .of(kForPictures),
-        text("legend.size", "--legend-size", "SIZE", "Height of the letters: pixels, 8pt or 3mm")
-            .from(6, 1000)
-            .initially("that of @letter-size@, or a thirtieth of the shorter side")
-            .in(kLegend, kShared | live)
-            .of(kForPictures),
-        text("legend.names", "--legend-name", "ENTRY=TEXT",
-             "Write TEXT instead of an entry of the legend, as in 'A=Alpha' for chain A. Repeatable")
-            .in(kLegend, kShared | repeatable)
-            .of(kForPictures),
-        word("legend.place", "--legend-place", "WORD", "Place of the legend: auto, right or below")
-            .one_of("auto|right|below")
-            .initially("auto")
-            .in(kLegend, kShared | live | rare)
-            .of(kForPictures),
+constexpr auto kTable = std::to_array<Property>({
+    flag("legend.shown", "--legend", "Show a legend of the colours, at the right or, in tall pictures, below")
+        .in(kLegend, kShared | live | in_short_help),
+    new_file("legend.file", "--legend-file", "FILE", "Write the legend as a separate picture").in(kLegend, in_scene),
+    text("legend.title", "--legend-title", "TEXT", "Title of the legend; '' for none")
+        .initially("by the colours")
+        .in(kLegend, kShared | live),
+    text("legend.size", "--legend-size", "SIZE", "Height of the letters: pixels, 8pt or 3mm")
+        .from(6, 1000)
+        .initially("that of @letter-size@, or a thirtieth of the shorter side")
+        .in(kLegend, kShared | live),
+    text("legend.names", "--legend-name", "ENTRY=TEXT",
+         "Write TEXT instead of an entry of the legend, as in 'A=Alpha' for chain A. Repeatable")
+        .in(kLegend, kShared | repeatable),
+    word("legend.place", "--legend-place", "WORD", "Place of the legend: auto, right or below")
+        .one_of("auto|right|below")
+        .initially("auto")
+        .in(kLegend, kShared | live | rare),
 
-        text("annotations.panel", "--panel", "TEXT", "Letter of the panel, such as a, at the top left")
-            .in(kLabels, kShared)
-            .in_short_help(),
-        text("annotations.title", "--title", "TEXT", "Title of the picture, at the top")
-            .in(kLabels, kShared)
-            .in_short_help(),
-        text("annotations.scale_bar", "--scale-bar", "Å",
-             "Draw a scale bar of this length, or of a round one (auto). With a perspective camera it is true at the "
-             "camera's target")
-            .proposes("auto")
-            .initially("auto")
-            .in(kLabels, kShared | value_optional)
-            .in_short_help(),
-        text("annotations.letter_size", "--letter-size", "SIZE",
-             "Height of all letters that have no size of their own: pixels, 8pt or 3mm")
-            .from(6, 1000)
-            .initially("by the size of the picture")
-            .in(kLabels, kShared)
-            .of(kForPictures)
-            .in_short_help(),
-        text("annotations.label_size", "--label-size", "SIZE", "Height of the letters of labels")
-            .from(6, 1000)
-            .initially("that of @letter-size@")
-            .in(kLabels, kShared)
-            .needs("annotations.labels"),
-        text("annotations.scale_bar_size", "--scale-bar-size", "SIZE", "Height of the letters of the scale bar")
-            .from(6, 1000)
-            .initially("that of @letter-size@")
-            .in(kLabels, kShared)
-            .needs("annotations.scale_bar"),
-        text("annotations.panel_size", "--panel-size", "SIZE", "Height of the letter of the panel")
-            .from(6, 1000)
-            .initially("1.5 times @letter-size@")
-            .in(kLabels, kShared)
-            .needs("annotations.panel"),
-        text("annotations.letter_color", "--letter-color", "COLOR",
-             "Colour of letters, lines and bars: auto, or a colour. auto: dark or light, as @background@ needs; dark "
-             "if it is transparent")
-            .proposes("auto|white|black")
-            .initially("auto")
-            .in(kLabels, kShared)
-            .of(kForPictures)
-            .in_short_help(),
-        text("annotations.labels", "--label", "EXPR=TEXT",
-             "Write TEXT at these atoms, with a line to their centre. Repeatable")
-            .in(kLabels, kShared | repeatable)
-            .of(for_render | for_preview | for_page)
-            .in_short_help(),
-        flag("annotations.time_stamp", "--time-stamp",
-             "Write the time of each frame in ps, ns or µs, or else its number")
-            .in(kLabels, kShared)
-            .of(for_render),
-        file("annotations.curve", "--curve", "FILE.csv",
-             "Draw a curve of the run from a CSV table, with a mark at each frame. Such tables are written by "
-             "@csv-series@ of meniscus surface")
-            .in(kLabels, kShared)
-            .of(for_render),
-        text("annotations.curve_column", "--curve-column", "NAME", "Column of the table to draw")
-            .initially("the first after the time")
-            .in(kLabels, kShared | rare)
-            .of(for_render)
-            .needs("annotations.curve"),
-    }));
+    text("annotations.panel", "--panel", "TEXT", "Letter of the panel, such as a, at the top left")
+        .in(kLabels, kShared | in_short_help),
+    text("annotations.title", "--title", "TEXT", "Title of the picture, at the top")
+        .in(kLabels, kShared | in_short_help),
+    text("annotations.scale_bar", "--scale-bar", "Å",
+         "Draw a scale bar of this length, or of a round one (auto). With a perspective camera it is true at the "
+         "camera's target")
+        .proposes("auto")
+        .initially("auto")
+        .in(kLabels, kShared | value_optional | in_short_help),
+    text("annotations.letter_size", "--letter-size", "SIZE",
+         "Height of all letters that have no size of their own: pixels, 8pt or 3mm")
+        .from(6, 1000)
+        .initially("by the size of the picture")
+        .in(kLabels, kShared | in_short_help),
+    text("annotations.label_size", "--label-size", "SIZE", "Height of the letters of labels")
+        .from(6, 1000)
+        .initially("that of @letter-size@")
+        .in(kLabels, kShared)
+        .needs("annotations.labels"),
+    text("annotations.scale_bar_size", "--scale-bar-size", "SIZE", "Height of the letters of the scale bar")
+        .from(6, 1000)
+        .initially("that of @letter-size@")
+        .in(kLabels, kShared)
+        .needs("annotations.scale_bar"),
+    text("annotations.panel_size", "--panel-size", "SIZE", "Height of the letter of the panel")
+        .from(6, 1000)
+        .initially("1.5 times @letter-size@")
+        .in(kLabels, kShared)
+        .needs("annotations.panel"),
+    text("annotations.letter_color", "--letter-color", "COLOR",
+         "Colour of letters, lines and bars: auto, or a colour. auto: dark or light, as @background@ needs; dark "
+         "if it is transparent")
+        .proposes("auto|white|black")
+        .initially("auto")
+        .in(kLabels, kShared | in_short_help),
+    text("annotations.labels", "--label", "EXPR=TEXT",
+         "Write TEXT at these atoms, with a line to their centre. Repeatable")
+        .in(kLabels, kShared | repeatable | in_short_help),
+    flag("annotations.time_stamp", "--time-stamp", "Write the time of each frame in ps, ns or µs, or else its number")
+        .in(kLabels, kShared),
+    file("annotations.curve", "--curve", "FILE.csv",
+         "Draw a curve of the run from a CSV table, with a mark at each frame. Such tables are written by "
+         "@csv-series@ of meniscus surface")
+        .in(kLabels, kShared),
+    text("annotations.curve_column", "--curve-column", "NAME", "Column of the table to draw")
+        .initially("the first after the time")
+        .in(kLabels, kShared | rare)
+        .needs("annotations.curve"),
+});
 
 }  // namespace
 

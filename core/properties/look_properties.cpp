@@ -9,136 +9,115 @@ namespace {
 
 constexpr unsigned kShared = in_scene | in_bundle;
 constexpr unsigned kLook = kShared | live;
-constexpr unsigned kPictures = for_render | for_preview | for_page;
 constexpr std::string_view kLight = "Light", kLines = "Lines";
 
-constexpr auto kTable = of_commands(
-    kPictures,
-    std::to_array<Property>({
-        word("look.preset", "--preset", "WORD",
-             "Look: publication, cover, flat, soft or classic. publication: shade, thin lines, colours as given; "
-             "cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic: studio "
-             "light alone. Other options of light and lines change single values of it. Where colours show numbers or "
-             "a legend explains them, light changes only their lightness")
-            .one_of("publication|cover|flat|soft|classic")
-            .initially("publication")
-            .of(kPictures | for_mesh)
-            .in(kLight, kLook)
-            .in_short_help(),
-        text("look.light", "--light", "X,Y,Z", "Direction towards the lamp, as X,Y,Z: right, up, to the viewer")
-            .initially("-0.45,0.65,0.75")
-            .in(kLight, kLook),
-        number("look.light_strength", "--light-strength", "F", "Strength of the lamp, 0 to 10")
-            .from(0, 10)
-            .initially("1")
-            .slider("Lamp", 2)
-            .in(kLight, kLook),
-        number("look.ambient", "--ambient", "F",
-               "Share of light that comes evenly from all sides, 0 to 1. With 1, colours are exactly those given")
-            .from(0, 1)
-            .in(kLight, kLook | of_objects),
-        number("look.roughness", "--roughness", "F",
-               "Roughness of the material, from 0 (wax, darker at edges) to 1 (chalk)")
-            .from(0, 1)
-            .in(kLight, kLook | of_objects),
-        number("look.specular", "--specular", "F", "Strength of highlights, 0 (none) to 1")
-            .from(0, 1)
-            .of(kPictures | for_mesh)
-            .in(kLight, kLook | of_objects),
-        number("look.shininess", "--shininess", "F", "Specular exponent, 1 to 1000; larger gives smaller highlights")
-            .from(1, 1000)
-            .of(kPictures | for_mesh)
-            .in(kLight, kLook | of_objects),
-        number("look.ambient_occlusion", "--ambient-occlusion", "F",
-               "Shade in pockets and clefts, 0 (none) to 1. Only what the picture shows casts shade")
-            .from(0, 1)
-            .slider("Shade", 1)
-            .in(kLight, kLook)
-            .in_short_help(),
-        number("look.ambient_occlusion_radius", "--ambient-occlusion-radius", "Å",
-               "Largest distance at which shade is cast, in Å")
-            .from(0.1, 1000)
-            .in(kLight, kLook),
-        number("look.ambient_occlusion_rays", "--ambient-occlusion-rays", "N",
-               "Rays a pixel that find shade, such as 64. All that is drawn casts it then, shown or not, and it stays "
-               "where it is in films. 0: from the picture alone")
-            .from(0, 4096)
-            .initially("0")
-            .of(for_render | for_preview)
-            .in(kLight, kLook),
-        number("look.shadows", "--shadows", "F",
-               "Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts none")
-            .from(0, 1)
-            .initially("0")
-            .slider("Shadows", 1)
-            .of(for_render | for_preview | for_povray | for_blender)
-            .in(kLight, kLook)
-            .in_short_help(),
-        number("look.shadow_softness", "--shadow-softness", "DEGREES",
-               "Half the angle at which the lamp is seen, 0 (sharp shadows) to 45")
-            .from(0, 45)
-            .initially("0")
-            .of(for_render | for_preview | for_povray | for_blender)
-            .in(kLight, kLook),
-        text("look.silhouettes", "--silhouettes", "WIDTH",
-             "Width of black outlines: pixels, 0.5pt or 0.2mm; 0: no lines. They are drawn around whatever is in "
-             "front, and between chains")
-            .from(0, 16)
-            .slider("Lines", 6)
-            .in(kLines, kLook)
-            .in_short_help(),
-        text("look.outer_lines", "--outer-lines", "WIDTH", "Width of the outline around the whole molecule")
-            .from(0, 16)
-            .initially("@silhouettes@")
-            .in(kLines, kLook | rare),
-        text("look.inner_lines", "--inner-lines", "WIDTH", "Width of lines where one part is in front of another")
-            .from(0, 16)
-            .initially("@silhouettes@")
-            .in(kLines, kLook | rare),
-        text("look.part_lines", "--part-lines", "WIDTH", "Width of lines where chains meet")
-            .from(0, 16)
-            .initially("@silhouettes@")
-            .in(kLines, kLook | rare),
-        text("look.patch_lines", "--patch-lines", "WIDTH", "Width of the lines around @patches@; 0: no lines")
-            .from(0, 16)
-            .initially("2.5 pixels of a picture of 960, wider in larger ones")
-            .of(for_render | for_preview | for_page)
-            .in(kLines, kLook),
-        text("look.patch_line_color", "--patch-line-color", "COLOR", "Colour of the lines around @patches@")
-            .initially("black")
-            .of(for_render | for_preview | for_page)
-            .in(kLines, kLook),
-        number("look.depth_cue", "--depth-cue", "F",
-               "Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white. "
-               "Presets do not fade where colours show numbers, a legend explains them, or a surface is seen through "
-               "or cut for atoms to be seen (@look-into@)")
-            .from(0, 1)
-            .slider("Depth", 1)
-            .in(kLight, kLook),
-        flag("look.linear_alpha", "--linear-alpha",
-             "Make transparent edges for programs that blend in linear light. Without it .png and .tif pictures look "
-             "right on a page")
-            .of(for_render | for_preview)
-            .in("Picture", kLook | rare),
-        text("look.material", "--material", "WORD", "Material of the surface")
-            .in(kLight, kShared)
-            .of(for_povray | for_path_tracers),
-        flag("look.comments", "--comments", "Write a comment before each patch: its kind and its atoms")
-            .in("Output", kShared)
-            .of(for_povray),
-        word("povray.material", "--material", "WORD",
-             "Material at first: opaque, ghost, glass, wax or flat. The scene contains all of them")
-            .one_of("opaque|ghost|glass|wax|flat")
-            .initially("opaque")
-            .in(kLight)
-            .of(for_povray),
-        word("path_tracers.material", "--material", "WORD",
-             "Material of the surface: matte, plastic, glass or wax. Shapes beside it are matte")
-            .one_of("matte|plastic|glass|wax")
-            .initially("matte")
-            .in(kLight)
-            .of(for_path_tracers),
-    }));
+constexpr auto kTable = std::to_array<Property>({
+    word("look.preset", "--preset", "WORD",
+         "Look: publication, cover, flat, soft or classic. publication: shade, thin lines, colours as given; "
+         "cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic: studio "
+         "light alone. Other options of light and lines change single values of it. Where colours show numbers or "
+         "a legend explains them, light changes only their lightness")
+        .one_of("publication|cover|flat|soft|classic")
+        .initially("publication")
+        .in(kLight, kLook | in_short_help),
+    text("look.light", "--light", "X,Y,Z", "Direction towards the lamp, as X,Y,Z: right, up, to the viewer")
+        .initially("-0.45,0.65,0.75")
+        .in(kLight, kLook),
+    number("look.light_strength", "--light-strength", "F", "Strength of the lamp, 0 to 10")
+        .from(0, 10)
+        .initially("1")
+        .slider("Lamp", 2)
+        .in(kLight, kLook),
+    number("look.ambient", "--ambient", "F",
+           "Share of light that comes evenly from all sides, 0 to 1. With 1, colours are exactly those given")
+        .from(0, 1)
+        .in(kLight, kLook | of_objects),
+    number("look.roughness", "--roughness", "F",
+           "Roughness of the material, from 0 (wax, darker at edges) to 1 (chalk)")
+        .from(0, 1)
+        .in(kLight, kLook | of_objects),
+    number("look.specular", "--specular", "F", "Strength of highlights, 0 (none) to 1")
+        .from(0, 1)
+        .in(kLight, kLook | of_objects),
+    number("look.shininess", "--shininess", "F", "Specular exponent, 1 to 1000; larger gives smaller highlights")
+        .from(1, 1000)
+        .in(kLight, kLook | of_objects),
+    number("look.ambient_occlusion", "--ambient-occlusion", "F",
+           "Shade in pockets and clefts, 0 (none) to 1. Only what the picture shows casts shade")
+        .from(0, 1)
+        .slider("Shade", 1)
+        .in(kLight, kLook | in_short_help),
+    number("look.ambient_occlusion_radius", "--ambient-occlusion-radius", "Å",
+           "Largest distance at which shade is cast, in Å")
+        .from(0.1, 1000)
+        .in(kLight, kLook),
+    number("look.ambient_occlusion_rays", "--ambient-occlusion-rays", "N",
+           "Rays a pixel that find shade, such as 64. All that is drawn casts it then, shown or not, and it stays "
+           "where it is in films. 0: from the picture alone")
+        .from(0, 4096)
+        .initially("0")
+        .in(kLight, kLook),
+    number("look.shadows", "--shadows", "F",
+           "Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts none")
+        .from(0, 1)
+        .initially("0")
+        .slider("Shadows", 1)
+        .in(kLight, kLook | in_short_help),
+    number("look.shadow_softness", "--shadow-softness", "DEGREES",
+           "Half the angle at which the lamp is seen, 0 (sharp shadows) to 45")
+        .from(0, 45)
+        .initially("0")
+        .in(kLight, kLook),
+    text("look.silhouettes", "--silhouettes", "WIDTH",
+         "Width of black outlines: pixels, 0.5pt or 0.2mm; 0: no lines. They are drawn around whatever is in "
+         "front, and between chains")
+        .from(0, 16)
+        .slider("Lines", 6)
+        .in(kLines, kLook | in_short_help),
+    text("look.outer_lines", "--outer-lines", "WIDTH", "Width of the outline around the whole molecule")
+        .from(0, 16)
+        .initially("@silhouettes@")
+        .in(kLines, kLook | rare),
+    text("look.inner_lines", "--inner-lines", "WIDTH", "Width of lines where one part is in front of another")
+        .from(0, 16)
+        .initially("@silhouettes@")
+        .in(kLines, kLook | rare),
+    text("look.part_lines", "--part-lines", "WIDTH", "Width of lines where chains meet")
+        .from(0, 16)
+        .initially("@silhouettes@")
+        .in(kLines, kLook | rare),
+    text("look.patch_lines", "--patch-lines", "WIDTH", "Width of the lines around @patches@; 0: no lines")
+        .from(0, 16)
+        .initially("2.5 pixels of a picture of 960, wider in larger ones")
+        .in(kLines, kLook),
+    text("look.patch_line_color", "--patch-line-color", "COLOR", "Colour of the lines around @patches@")
+        .initially("black")
+        .in(kLines, kLook),
+    number("look.depth_cue", "--depth-cue", "F",
+           "Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white. "
+           "Presets do not fade where colours show numbers, a legend explains them, or a surface is seen through "
+           "or cut for atoms to be seen (@look-into@)")
+        .from(0, 1)
+        .slider("Depth", 1)
+        .in(kLight, kLook),
+    flag("look.linear_alpha", "--linear-alpha",
+         "Make transparent edges for programs that blend in linear light. Without it .png and .tif pictures look "
+         "right on a page")
+        .in("Picture", kLook | rare),
+    text("look.material", "--material", "WORD", "Material of the surface").in(kLight, kShared),
+    flag("look.comments", "--comments", "Write a comment before each patch: its kind and its atoms")
+        .in("Output", kShared),
+    word("povray.material", "--material", "WORD",
+         "Material at first: opaque, ghost, glass, wax or flat. The scene contains all of them")
+        .one_of("opaque|ghost|glass|wax|flat")
+        .initially("opaque")
+        .in(kLight),
+    word("path_tracers.material", "--material", "WORD",
+         "Material of the surface: matte, plastic, glass or wax. Shapes beside it are matte")
+        .one_of("matte|plastic|glass|wax")
+        .initially("matte")
+        .in(kLight),
+});
 
 }  // namespace
 

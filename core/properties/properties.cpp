@@ -12,12 +12,23 @@
 
 namespace meniscus {
 
+namespace {
+
+std::vector<std::span<const Property>>& tables() {
+  static std::vector<std::span<const Property>> all{
+      molecule_properties(), frame_properties(),      surface_properties(), look_properties(),
+      picture_properties(),  annotation_properties(), mesh_properties(),    report_properties()};
+  return all;
+}
+
+}  // namespace
+
+PropertyTable::PropertyTable(std::span<const Property> table) { tables().push_back(table); }
+
 std::span<const Property* const> properties() {
   static const std::vector<const Property*> all = [] {
     std::vector<const Property*> joined;
-    for (const auto& table :
-         {molecule_properties(), frame_properties(), surface_properties(), look_properties(), picture_properties(),
-          annotation_properties(), mesh_properties(), report_properties(), farm_properties()})
+    for (const std::span<const Property>& table : tables())
       for (const Property& property : table) joined.push_back(&property);
     return joined;
   }();

@@ -3,8 +3,6 @@
 // it.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -35,32 +33,9 @@ enum Trait : unsigned {
   negated = 64,         ///< the scene key is false where the option is given
   rare = 128,           ///< few need it: the help has no words about its option; --set has its key
   of_objects = 256,     ///< each object beside the surface has its own
-  of_surfaces = 512     ///< each such object that is a surface has its own
+  of_surfaces = 512,    ///< each such object that is a surface has its own
+  in_short_help = 1024  ///< --help shows its option even where a command has very many
 };
-
-/// Which commands have an option for a property; combined by |.
-enum CommandBit : unsigned {
-  for_surface = 1,
-  for_pockets = 2,
-  for_render = 4,
-  for_preview = 8,
-  for_povray = 16,
-  for_blender = 32,
-  for_path_tracers = 64,
-  for_mesh = 128,
-  for_atoms = 256,
-  for_info = 512,
-  for_bench = 1024,
-  for_panels = 2048,
-  for_morph = 4096,
-  for_film = 8192,
-  for_vdb = 16384,
-  for_page = 32768
-};
-inline constexpr unsigned kForExports = for_povray | for_blender | for_path_tracers;  ///< of figures
-inline constexpr unsigned kForFigures = for_render | for_preview | kForExports | for_page;
-inline constexpr unsigned kForPictures = for_render | for_preview | for_panels | for_film;
-inline constexpr unsigned kForRuns = for_surface | for_pockets | kForFigures | for_mesh | for_atoms | for_vdb;
 
 /// The highest value of a property that has no upper limit.
 inline constexpr double kUnlimited = 1e18;
@@ -80,10 +55,8 @@ struct Property {
   std::string_view initial{};          ///< the default, which the help shows in brackets; empty: it shows none
   std::string_view label{};            ///< of its slider in the preview; empty: it has none
   double slider_end = 0.0;             ///< the largest value that the slider reaches
-  unsigned commands = 0;               ///< those that have the option; 0: one that adds it by itself
   std::string_view excluded{};         ///< keys that are not given beside it: "image.size|camera.from"
   std::string_view needed{};           ///< a key without which it means nothing
-  bool common = false;                 ///< --help shows its option even where a command has very many
 
   /// A copy with another value of one member.
   template <auto member>
@@ -98,7 +71,6 @@ struct Property {
   constexpr Property one_of(std::string_view all) const { return with<&Property::words>(all); }
   constexpr Property proposes(std::string_view some) const { return one_of(some); }
   constexpr Property initially(std::string_view shown) const { return with<&Property::initial>(shown); }
-  constexpr Property of(unsigned all_commands) const { return with<&Property::commands>(all_commands); }
   constexpr Property excludes(std::string_view keys) const { return with<&Property::excluded>(keys); }
   constexpr Property needs(std::string_view other_key) const { return with<&Property::needed>(other_key); }
   constexpr Property slider(std::string_view name, double end) const {
@@ -108,7 +80,6 @@ struct Property {
   constexpr Property in(std::string_view title, unsigned all_traits = 0) const {
     return with<&Property::heading>(title).with<&Property::traits>(all_traits);
   }
-  constexpr Property in_short_help() const { return with<&Property::common>(true); }
 
   constexpr bool has(Trait trait) const { return (traits & trait) != 0; }
   constexpr bool has_range() const { return lowest < highest; }
@@ -145,14 +116,6 @@ constexpr Property new_file(std::string_view key, std::string_view option, std::
 constexpr Property camera(std::string_view key, std::string_view option, std::string_view value,
                           std::string_view help) {
   return {ValueType::camera, key, option, value, help};
-}
-
-/// The table, its rows that name no commands given these.
-template <std::size_t size>
-constexpr std::array<Property, size> of_commands(unsigned commands, std::array<Property, size> table) {
-  for (Property& property : table)
-    if (property.commands == 0) property.commands = commands;
-  return table;
 }
 
 /// What the value of a property looks like in a scene file, and as words of a command line.

@@ -10,21 +10,18 @@ namespace {
 constexpr std::string_view kOutput = "Output", kSession = "Session", kPanels = "Picture", kStoryboard = "Film";
 
 constexpr auto kTable = std::to_array<Property>({
-    flag("report.json", "--json", "Print JSON instead of a table").in(kOutput).in_short_help(),
+    flag("report.json", "--json", "Print JSON instead of a table").in(kOutput, in_short_help),
     new_file("report.csv_atoms", "--csv", "FILE", "Write areas, one row per atom. -: to standard output")
-        .in(kOutput)
-        .in_short_help(),
+        .in(kOutput, in_short_help),
     flag("report.open_sky", "--open-sky",
          "Add the share of the sky that each atom sees to @csv@, 0 to 1. It is what ambient occlusion leaves")
         .in(kOutput),
     new_file("report.csv_residues", "--csv-residues", "FILE",
              "Write areas, one row per residue, with its relative accessibility. -: to standard output")
-        .in(kOutput)
-        .in_short_help(),
+        .in(kOutput, in_short_help),
     new_file("report.csv_series", "--csv-series", "FILE",
              "Write areas, volume and cavities of a run, one row per frame. -: to standard output")
-        .in(kOutput)
-        .in_short_help(),
+        .in(kOutput, in_short_help),
     new_file("report.csv_cavities", "--csv-cavities", "FILE",
              "Write the cavities of a run, one row per cavity and frame. Columns: number, birth and end, volume, area, "
              "place, residues around; -: to standard output")
@@ -47,21 +44,18 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kOutput),
     text("report.context", "--context", "EXPR", "Report the area of @select@ that these atoms bury").in(kOutput),
     new_file("report.csv_pockets", "--csv", "FILE", "Write one row per pocket. -: to standard output")
-        .in(kOutput)
-        .in_short_help(),
+        .in(kOutput, in_short_help),
     new_file("report.pocket_mesh", "--mesh", "FILE",
              "Write the pockets as closed meshes, each in its colour. Endings: .ply, .obj, .glb, .3mf, .stl, .off, "
              ".vtp; for frames with # for the number")
-        .in(kOutput)
-        .in_short_help(),
+        .in(kOutput, in_short_help),
     new_file("report.pocket_figure", "--figure", "FILE",
              "Write a scene that colours the atoms around pockets. For render, export and preview; ligands are sticks")
         .in(kOutput),
 
     text("preview.serve", "--serve", "[PORT]",
          "Serve a web page instead of a window, on 127.0.0.1. PORT: by default any free one")
-        .in(kSession, live | value_optional)
-        .in_short_help(),
+        .in(kSession, live | value_optional | in_short_help),
     file("preview.token_file", "--token-file", "FILE",
          "Take the token of the page's address from this file. The address then stays; the token has 16 to 128 letters "
          "and digits. Without this option the variable MENISCUS_TOKEN is read")
@@ -78,8 +72,7 @@ constexpr auto kTable = std::to_array<Property>({
     count("panels.columns", "--columns", "N", "Number of panels in a row")
         .from(1, 100)
         .initially("up to three in one row, else a square")
-        .in(kPanels)
-        .in_short_help(),
+        .in(kPanels, in_short_help),
     text("panels.gap", "--gap", "LENGTH", "Space between panels: pixels, 3mm or 8pt")
         .from(0, 10000)
         .initially("a fiftieth of the width of a panel")
@@ -87,15 +80,12 @@ constexpr auto kTable = std::to_array<Property>({
     word("panels.letters", "--letters", "WORD", "Letters of panels whose scenes have none: upper, lower or none")
         .one_of("upper|lower|none")
         .initially("upper")
-        .in(kPanels)
-        .in_short_help(),
+        .in(kPanels, in_short_help),
     flag("panels.one_camera", "--one-camera",
          "See all panels with the camera of the first. Unless its scene names a camera, it shows what is in any panel")
-        .in(kPanels)
-        .in_short_help(),
+        .in(kPanels, in_short_help),
     flag("panels.one_scale", "--one-scale", "Colour all panels by one range, from the least number to the greatest")
-        .in(kPanels)
-        .in_short_help(),
+        .in(kPanels, in_short_help),
 
     file("storyboard.scenes", "SCENE", "", "Scene files, or pictures of meniscus render, in their order")
         .in(kStoryboard),
@@ -103,33 +93,28 @@ constexpr auto kTable = std::to_array<Property>({
          "Time that each scene is shown. One number, or one for each scene, with commas between. A scene with a run of "
          "frames shows each of them once instead")
         .initially("2")
-        .in(kStoryboard)
-        .in_short_help(),
+        .in(kStoryboard, in_short_help),
     text("storyboard.transition", "--transition", "SECONDS",
          "Time from each scene to the next. One number, or one for each transition; 0 is a cut")
         .initially("2")
-        .in(kStoryboard)
-        .in_short_help(),
+        .in(kStoryboard, in_short_help),
     word("storyboard.to", "--to", "WORD",
          "What is made. pictures: a film, or numbered pictures; povray: a folder with a scene for POV-Ray whose frames "
          "are the film's; blender: a folder that Blender imports as scenes and keys")
         .one_of("pictures|povray|blender")
         .initially("pictures")
-        .in(kStoryboard)
-        .in_short_help(),
+        .in(kStoryboard, in_short_help),
     word("storyboard.ease", "--ease", "WORD", "Pace of transitions. smooth: starts and ends slowly; even: steady")
         .one_of("smooth|even")
         .initially("smooth")
-        .in(kStoryboard)
-        .in_short_help(),
+        .in(kStoryboard, in_short_help),
 
     file("morph.files", "MOLECULE", "", "Structures of one molecule, or of alike ones, in the order of the path")
         .in("Path"),
     count("morph.steps", "--steps", "N", "Number of steps from each structure to the next")
         .from(1, 100000)
         .initially("50")
-        .in("Path")
-        .in_short_help(),
+        .in("Path", in_short_help),
 
     count("bench.runs", "--runs", "N", "Number of timed runs; the median is shown")
         .from(1, 1e6)

@@ -9,259 +9,187 @@ namespace {
 
 constexpr unsigned kShared = in_scene | in_bundle;
 constexpr unsigned kSeen = in_scene | in_bundle | needs_support;
-constexpr unsigned kForParts = for_surface | for_render | kForExports | for_mesh | for_page;
-constexpr unsigned kForColours = kForFigures | for_mesh | for_atoms;
 constexpr std::string_view kSurface = "Surface", kColour = "Colour", kFigure = "Figure", kBeside = "Beside the surface",
                            kDevice = "Computing";
 
-constexpr auto kTable = of_commands(
-    kForFigures,
-    std::to_array<Property>({
-        flag("surface.shown", "--hide-surface", "Hide the surface; show only what is beside it")
-            .in(kFigure, kSeen | live | negated),
-        text("surface.interface", "--interface", "A:B",
-             "Open the contact of two groups like a book: A:B, A,C:B or EXPR:EXPR. Both sides face the viewer and are "
-             "coloured by buried area")
-            .in(kSurface, kSeen)
-            .in_short_help()
-            .of((kForFigures & ~for_preview) | for_mesh),
-        word("surface.kind", "--surface", "KIND",
-             "Kind of surface: ses, sas or vdw. ses: solvent-excluded; sas: solvent-accessible; vdw: van der Waals, "
-             "without a probe")
-            .one_of("ses|sas|vdw")
-            .initially("ses")
-            .in(kSurface, kSeen | live | of_surfaces)
-            .of((kForRuns & ~for_pockets) | for_bench),
-        text("surface.probe", "--probe", "RADIUS", "Radius of the probe in Å; 0 gives the van der Waals surface")
-            .from(0, 1000)
-            .initially("1.4")
-            .in(kSurface, kShared | live | of_surfaces)
-            .in_short_help()
-            .of(kForRuns | for_bench),
-        text("surface.show", "--show", "EXPR",
-             "Show only the surface of these atoms. It is still computed with all atoms")
-            .in(kSurface, kShared | live | of_surfaces)
-            .in_short_help()
-            .of(kForFigures | for_mesh | for_pockets),
-        text("surface.patches", "--patches", "EXPR",
-             "Contiguous areas of these atoms, as a table or outlined in pictures. Such as "
-             "'hydrophobicity > 1.5' or 'charge < -0.3'")
-            .in(kSurface, kSeen | live)
-            .in_short_help()
-            .of(for_surface | for_render | for_preview | for_page),
-        number("surface.min_patch", "--min-patch", "Å²", "Smallest area of a patch that is listed or outlined")
-            .from(0, 1e9)
-            .initially("10")
-            .in(kSurface, kShared | live)
-            .of(for_surface | for_render | for_preview | for_page),
-        text("surface.by", "--by", "WORD",
-             "Split into objects: by chain, model, class, residue or component. chain, model, class (polymer, ligand, "
-             "...), residue: each has a surface as if it were alone; component: each closed part of the one surface")
-            .proposes("chain|model|class|residue|component")
-            .in(kSurface, kSeen)
-            .in_short_help()
-            .of(kForParts),
-        word("surface.cavities", "--cavities", "WORD",
-             "Cavities: keep, drop or only. drop: leave out what cannot be reached from outside; only: cavities and "
-             "what lies in them")
-            .one_of("keep|drop|only")
-            .initially("keep")
-            .in(kSurface, kSeen)
-            .of(kForParts),
-        text("surface.device", "--device", "DEVICE",
-             "Device: auto, gpu, gpu:N, software or cpu. auto: a GPU if there is one, else cpu; N: a number, UUID or "
-             "PCI address; software: OpenGL without a GPU")
-            .proposes("auto|gpu|software|cpu")
-            .initially("auto")
-            .in(kDevice)
-            .in_short_help()
-            .of(kForRuns | for_bench | for_panels | for_film),
-        flag("surface.require_gpu", "--require-gpu",
-             "Fail with exit code 4 if there is no hardware GPU. Without it the CPU or software OpenGL is used")
-            .in(kDevice)
-            .of(kForRuns | for_bench | for_panels | for_film),
-        count("surface.threads", "--threads", "N", "Number of CPU threads")
-            .from(1, 4096)
-            .initially("all")
-            .in(kDevice)
-            .of((kForRuns & ~for_preview) | for_bench | for_panels | for_film),
-        flag("surface.verify", "--verify", "Compute on GPU and CPU, and report every difference")
-            .in(kDevice, in_bundle)
-            .of(for_surface | for_render | kForExports | for_mesh | for_atoms | for_vdb | for_page | for_bench),
+constexpr auto kTable = std::to_array<Property>({
+    flag("surface.shown", "--hide-surface", "Hide the surface; show only what is beside it")
+        .in(kFigure, kSeen | live | negated),
+    text("surface.interface", "--interface", "A:B",
+         "Open the contact of two groups like a book: A:B, A,C:B or EXPR:EXPR. Both sides face the viewer and are "
+         "coloured by buried area")
+        .in(kSurface, kSeen | in_short_help),
+    word("surface.kind", "--surface", "KIND",
+         "Kind of surface: ses, sas or vdw. ses: solvent-excluded; sas: solvent-accessible; vdw: van der Waals, "
+         "without a probe")
+        .one_of("ses|sas|vdw")
+        .initially("ses")
+        .in(kSurface, kSeen | live | of_surfaces),
+    text("surface.probe", "--probe", "RADIUS", "Radius of the probe in Å; 0 gives the van der Waals surface")
+        .from(0, 1000)
+        .initially("1.4")
+        .in(kSurface, kShared | live | of_surfaces | in_short_help),
+    text("surface.show", "--show", "EXPR", "Show only the surface of these atoms. It is still computed with all atoms")
+        .in(kSurface, kShared | live | of_surfaces | in_short_help),
+    text("surface.patches", "--patches", "EXPR",
+         "Contiguous areas of these atoms, as a table or outlined in pictures. Such as "
+         "'hydrophobicity > 1.5' or 'charge < -0.3'")
+        .in(kSurface, kSeen | live | in_short_help),
+    number("surface.min_patch", "--min-patch", "Å²", "Smallest area of a patch that is listed or outlined")
+        .from(0, 1e9)
+        .initially("10")
+        .in(kSurface, kShared | live),
+    text("surface.by", "--by", "WORD",
+         "Split into objects: by chain, model, class, residue or component. chain, model, class (polymer, ligand, "
+         "...), residue: each has a surface as if it were alone; component: each closed part of the one surface")
+        .proposes("chain|model|class|residue|component")
+        .in(kSurface, kSeen | in_short_help),
+    word("surface.cavities", "--cavities", "WORD",
+         "Cavities: keep, drop or only. drop: leave out what cannot be reached from outside; only: cavities and "
+         "what lies in them")
+        .one_of("keep|drop|only")
+        .initially("keep")
+        .in(kSurface, kSeen),
+    text("surface.device", "--device", "DEVICE",
+         "Device: auto, gpu, gpu:N, software or cpu. auto: a GPU if there is one, else cpu; N: a number, UUID or "
+         "PCI address; software: OpenGL without a GPU")
+        .proposes("auto|gpu|software|cpu")
+        .initially("auto")
+        .in(kDevice, in_short_help),
+    flag("surface.require_gpu", "--require-gpu",
+         "Fail with exit code 4 if there is no hardware GPU. Without it the CPU or software OpenGL is used")
+        .in(kDevice),
+    count("surface.threads", "--threads", "N", "Number of CPU threads").from(1, 4096).initially("all").in(kDevice),
+    flag("surface.verify", "--verify", "Compute on GPU and CPU, and report every difference").in(kDevice, in_bundle),
 
-        text("surface.color", "--color", "SCHEME",
-             "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker), "
-             "chain, copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's "
-             "confidence), snfg (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor, "
-             "occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), "
-             "relative-accessibility, index, rainbow (along each chain), radial (for capsids). EXPR=COLOR colours some "
-             "atoms, as in 'ligand=orange'; 'ligand=orange:ATP' names them in the legend. Repeatable; the last one "
-             "counts. meniscus colors explains the schemes")
-            .initially("element")
-            .in(kColour, kSeen | live | repeatable | of_objects)
-            .in_short_help()
-            .of(kForColours),
-        file("surface.color_by_file", "--color-by-file", "NUMBERS",
-             "Colour by numbers from a file. One number per atom of FILE or per atom used; lines of chain, residue and "
-             "number; or a table with a header, such as @csv-residues@ of meniscus surface writes, or resid,score for "
-             "one chain. Commas, semicolons, tabs or blanks; nan, ? and - mean missing. Grades from 1 to 9: @color "
-             "conservation@")
-            .in(kColour, kSeen | live)
-            .in_short_help()
-            .of(kForColours),
-        text("surface.color_column", "--color-column", "NAME", "Column of the table of @color-by-file@")
-            .in(kColour, kSeen | live)
-            .of(kForColours)
-            .needs("surface.color_by_file"),
-        file("surface.color_map_file", "--color-map-file", "FILE",
-             "Colour by a volume map, such as a potential from APBS. Formats: OpenDX (.dx), Gaussian cube, CCP4/MRC. "
-             "Needs @color-range@; the default @map@ is red-white-blue")
-            .in(kColour, kSeen)
-            .in_short_help()
-            .of(kForColours)
-            .excludes("surface.color_by_file"),
-        number(
-            "surface.map_offset", "--map-offset", "Å",
-            "Distance outside the surface at which the map is sampled, in Å. Centres of solvent molecules lie at 1.4")
-            .from(-20, 20)
-            .initially("0")
-            .in(kColour, kSeen | rare)
-            .of(kForColours)
-            .needs("surface.color_map_file"),
-        text("surface.map", "--map", "MAP",
-             "Colour map for numbers, such as viridis or blue-white-red. Others: cividis, magma, red-white-blue "
-             "(default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), rainbow, "
-             "categorical (each number has its own colour). blue-white-red is the default for hydrophobicity")
-            .initially("viridis")
-            .in(kColour, kSeen | live | of_objects)
-            .in_short_help()
-            .of(kForColours),
-        file("surface.map_file", "--map-file", "FILE",
-             "File of a colour map: one colour per line, or a position and a colour. A JSON list of them is read, too")
-            .in(kColour, kSeen | live)
-            .of(kForColours),
-        text("surface.color_range", "--color-range", "LO:HI",
-             "Numbers at the ends of the colour map, or auto. auto: the smallest and the largest; for charge symmetric "
-             "about 0, for hydrophobicity -4.5:4.5")
-            .initially("auto")
-            .in(kColour, kSeen | live | of_objects)
-            .in_short_help()
-            .of(kForColours),
-        text("surface.missing_color", "--missing-color", "COLOR",
-             "Colour of atoms without a number and points outside the map")
-            .initially("#808080; cividis #cc79a7; consurf #ffff96")
-            .in(kColour, kSeen | live | of_objects)
-            .of(kForColours),
-        text("surface.color_title", "--color-title", "TEXT", "Title of the colour scale in the legend")
-            .in(kColour, kShared)
-            .of(kForColours),
-        text("surface.color_unit", "--color-unit", "TEXT", "Unit of the colour scale, such as kT/e")
-            .in(kColour, kShared)
-            .of(kForColours),
-        text("surface.opacity", "--opacity", "EXPR=N",
-             "Opacity from 0 (hidden) to 1: a number, or EXPR=0.4 for some atoms. Repeatable; the last one counts")
-            .in(kFigure, kSeen | live | repeatable | of_objects)
-            .in_short_help()
-            .of(kForFigures | for_mesh),
-        flag("surface.film_opacity", "--film-opacity",
-             "Make transparent surfaces denser at grazing angles, like a thin film")
-            .in(kFigure, kSeen | live | of_surfaces),
-        text("surface.clip", "--clip", "PLANE",
-             "Cut by a plane with exact caps: x<20, 1,1,0>35 or depth>0.5. The part where this holds is kept. depth "
-             "runs along the line of sight from 0 (nearest) to 1 (farthest). 'through EXPR' goes through the middle of "
-             "these atoms, 'before EXPR' is as deep as it must be for them to be seen. Repeatable; all apply")
-            .in(kFigure, kSeen | live | repeatable | of_surfaces)
-            .in_short_help(),
-        flag("surface.clip_all", "--clip-all",
-             "Cut sticks, balls, tubes and all else beside the surface by @clip@, too")
-            .in(kFigure, kSeen)
-            .of(for_render | for_preview),
-        text("surface.cap_color", "--cap-color", "COLOR",
-             "Colour of caps: atom (that of the nearest) or a colour (red, #rrggbb)")
-            .initially("atom")
-            .in(kFigure, kSeen | live | of_surfaces),
-        number("surface.cap_hatching", "--cap-hatching", "Å", "Distance of dark lines on caps, in Å; 0: no lines")
-            .from(0, 1000)
-            .initially("0")
-            .in(kFigure, kSeen | live | of_surfaces),
+    text("surface.color", "--color", "SCHEME",
+         "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker), "
+         "chain, copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's "
+         "confidence), snfg (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor, "
+         "occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), "
+         "relative-accessibility, index, rainbow (along each chain), radial (for capsids). EXPR=COLOR colours some "
+         "atoms, as in 'ligand=orange'; 'ligand=orange:ATP' names them in the legend. Repeatable; the last one "
+         "counts. meniscus colors explains the schemes")
+        .initially("element")
+        .in(kColour, kSeen | live | repeatable | of_objects | in_short_help),
+    file("surface.color_by_file", "--color-by-file", "NUMBERS",
+         "Colour by numbers from a file. One number per atom of FILE or per atom used; lines of chain, residue and "
+         "number; or a table with a header, such as @csv-residues@ of meniscus surface writes, or resid,score for "
+         "one chain. Commas, semicolons, tabs or blanks; nan, ? and - mean missing. Grades from 1 to 9: @color "
+         "conservation@")
+        .in(kColour, kSeen | live | in_short_help),
+    text("surface.color_column", "--color-column", "NAME", "Column of the table of @color-by-file@")
+        .in(kColour, kSeen | live)
+        .needs("surface.color_by_file"),
+    file("surface.color_map_file", "--color-map-file", "FILE",
+         "Colour by a volume map, such as a potential from APBS. Formats: OpenDX (.dx), Gaussian cube, CCP4/MRC. "
+         "Needs @color-range@; the default @map@ is red-white-blue")
+        .in(kColour, kSeen | in_short_help)
+        .excludes("surface.color_by_file"),
+    number("surface.map_offset", "--map-offset", "Å",
+           "Distance outside the surface at which the map is sampled, in Å. Centres of solvent molecules lie at 1.4")
+        .from(-20, 20)
+        .initially("0")
+        .in(kColour, kSeen | rare)
+        .needs("surface.color_map_file"),
+    text("surface.map", "--map", "MAP",
+         "Colour map for numbers, such as viridis or blue-white-red. Others: cividis, magma, red-white-blue "
+         "(default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), rainbow, "
+         "categorical (each number has its own colour). blue-white-red is the default for hydrophobicity")
+        .initially("viridis")
+        .in(kColour, kSeen | live | of_objects | in_short_help),
+    file("surface.map_file", "--map-file", "FILE",
+         "File of a colour map: one colour per line, or a position and a colour. A JSON list of them is read, too")
+        .in(kColour, kSeen | live),
+    text("surface.color_range", "--color-range", "LO:HI",
+         "Numbers at the ends of the colour map, or auto. auto: the smallest and the largest; for charge symmetric "
+         "about 0, for hydrophobicity -4.5:4.5")
+        .initially("auto")
+        .in(kColour, kSeen | live | of_objects | in_short_help),
+    text("surface.missing_color", "--missing-color", "COLOR",
+         "Colour of atoms without a number and points outside the map")
+        .initially("#808080; cividis #cc79a7; consurf #ffff96")
+        .in(kColour, kSeen | live | of_objects),
+    text("surface.color_title", "--color-title", "TEXT", "Title of the colour scale in the legend")
+        .in(kColour, kShared),
+    text("surface.color_unit", "--color-unit", "TEXT", "Unit of the colour scale, such as kT/e").in(kColour, kShared),
+    text("surface.opacity", "--opacity", "EXPR=N",
+         "Opacity from 0 (hidden) to 1: a number, or EXPR=0.4 for some atoms. Repeatable; the last one counts")
+        .in(kFigure, kSeen | live | repeatable | of_objects | in_short_help),
+    flag("surface.film_opacity", "--film-opacity",
+         "Make transparent surfaces denser at grazing angles, like a thin film")
+        .in(kFigure, kSeen | live | of_surfaces),
+    text("surface.clip", "--clip", "PLANE",
+         "Cut by a plane with exact caps: x<20, 1,1,0>35 or depth>0.5. The part where this holds is kept. depth "
+         "runs along the line of sight from 0 (nearest) to 1 (farthest). 'through EXPR' goes through the middle of "
+         "these atoms, 'before EXPR' is as deep as it must be for them to be seen. Repeatable; all apply")
+        .in(kFigure, kSeen | live | repeatable | of_surfaces | in_short_help),
+    flag("surface.clip_all", "--clip-all", "Cut sticks, balls, tubes and all else beside the surface by @clip@, too")
+        .in(kFigure, kSeen),
+    text("surface.cap_color", "--cap-color", "COLOR",
+         "Colour of caps: atom (that of the nearest) or a colour (red, #rrggbb)")
+        .initially("atom")
+        .in(kFigure, kSeen | live | of_surfaces),
+    number("surface.cap_hatching", "--cap-hatching", "Å", "Distance of dark lines on caps, in Å; 0: no lines")
+        .from(0, 1000)
+        .initially("0")
+        .in(kFigure, kSeen | live | of_surfaces),
 
-        text("figure.sticks", "--sticks", "EXPR", "Draw these atoms as sticks, also outside @select@. Repeatable")
-            .in(kBeside, in_bundle | live | repeatable)
-            .in_short_help()
-            .of(kForFigures | for_mesh),
-        text("figure.balls", "--balls", "EXPR", "Draw these atoms as balls and sticks")
-            .in(kBeside, in_bundle | live | repeatable)
-            .in_short_help()
-            .of(kForFigures | for_mesh),
-        text("figure.spheres", "--spheres", "EXPR", "Draw these atoms as spheres of their van der Waals radii")
-            .in(kBeside, in_bundle | live | repeatable)
-            .in_short_help()
-            .of(kForFigures | for_mesh),
-        text("figure.tube", "--tube", "EXPR",
-             "Draw the backbone of these atoms as a cartoon: tubes, ribbons, arrows. Helices are ribbons, strands are "
-             "arrows")
-            .in(kBeside, in_bundle | live | repeatable)
-            .in_short_help()
-            .of(kForFigures | for_mesh),
-        text("figure.bases", "--bases", "EXPR",
-             "Draw the bases of these nucleotides as filled rings. Rungs lead to the tube")
-            .in(kBeside, in_bundle | live | repeatable)
-            .in_short_help()
-            .of(kForFigures | for_mesh),
-        text("figure.glycans", "--glycans", "EXPR",
-             "Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours: @color snfg@")
-            .in(kBeside, in_bundle | live | repeatable)
-            .in_short_help()
-            .of(kForFigures | for_mesh),
-        number("shapes.stick_radius", "--stick-radius", "Å", "Radius of sticks in Å, also of bases and between glycans")
-            .from(0.001, 10)
-            .initially("0.25; 0.15 between balls")
-            .in(kBeside, kSeen | live)
-            .of(kForFigures | for_mesh),
-        number("shapes.tube_radius", "--tube-radius", "Å", "Radius of tubes in Å. Ribbons and arrows scale with it")
-            .from(0.001, 10)
-            .initially("0.3")
-            .in(kBeside, kSeen | live)
-            .of(kForFigures | for_mesh),
-        text("figure.object", "--object", "JSON",
-             "Draw one more object with its own look, as JSON of a scene file. Such as '{\"representation\": "
-             "\"surface\", \"selection\": \"chain B\", \"color\": \"red\"}'. Repeatable")
-            .in(kBeside, in_bundle | live | repeatable),
+    text("figure.sticks", "--sticks", "EXPR", "Draw these atoms as sticks, also outside @select@. Repeatable")
+        .in(kBeside, in_bundle | live | repeatable | in_short_help),
+    text("figure.balls", "--balls", "EXPR", "Draw these atoms as balls and sticks")
+        .in(kBeside, in_bundle | live | repeatable | in_short_help),
+    text("figure.spheres", "--spheres", "EXPR", "Draw these atoms as spheres of their van der Waals radii")
+        .in(kBeside, in_bundle | live | repeatable | in_short_help),
+    text("figure.tube", "--tube", "EXPR",
+         "Draw the backbone of these atoms as a cartoon: tubes, ribbons, arrows. Helices are ribbons, strands are "
+         "arrows")
+        .in(kBeside, in_bundle | live | repeatable | in_short_help),
+    text("figure.bases", "--bases", "EXPR",
+         "Draw the bases of these nucleotides as filled rings. Rungs lead to the tube")
+        .in(kBeside, in_bundle | live | repeatable | in_short_help),
+    text("figure.glycans", "--glycans", "EXPR",
+         "Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours: @color snfg@")
+        .in(kBeside, in_bundle | live | repeatable | in_short_help),
+    number("shapes.stick_radius", "--stick-radius", "Å", "Radius of sticks in Å, also of bases and between glycans")
+        .from(0.001, 10)
+        .initially("0.25; 0.15 between balls")
+        .in(kBeside, kSeen | live),
+    number("shapes.tube_radius", "--tube-radius", "Å", "Radius of tubes in Å. Ribbons and arrows scale with it")
+        .from(0.001, 10)
+        .initially("0.3")
+        .in(kBeside, kSeen | live),
+    text("figure.object", "--object", "JSON",
+         "Draw one more object with its own look, as JSON of a scene file. Such as '{\"representation\": "
+         "\"surface\", \"selection\": \"chain B\", \"color\": \"red\"}'. Repeatable")
+        .in(kBeside, in_bundle | live | repeatable),
 
-        // Beyond the largest probe every atom neighbours every other; large probes in mouths become more with the
-        // inverse of their tolerance.
-        number("pockets.large_probe", "--large-probe", "Å",
-               "Radius of the probe that rolls over the mouths, in Å. A larger one finds wider, shallower pockets")
-            .from(1e-3, 100)
-            .initially("4")
-            .in(kSurface)
-            .of(for_pockets),
-        number("pockets.trim", "--trim", "Å",
-               "Depth at which pockets begin below the large probe's surface, in Å. More separates neighbours that "
-               "meet there")
-            .from(0, 100)
-            .initially("1")
-            .in(kSurface)
-            .of(for_pockets),
-        number("pockets.min_volume", "--min-volume", "Å³", "Smallest volume of a pocket")
-            .from(0, 1e9)
-            .initially("30: one molecule of water")
-            .in(kSurface)
-            .in_short_help()
-            .of(for_pockets),
-        number("pockets.mouth_tolerance", "--mouth-tolerance", "Å",
-               "Largest error of a mouth's position, in Å; less takes longer")
-            .from(1e-3, 1)
-            .initially("0.1")
-            .in(kSurface)
-            .of(for_pockets),
-        text("pockets.ligand", "--ligand", "EXPR",
-             "Atoms to take out first, whose places are reported; none: leave all in")
-            .initially("ligand")
-            .in(kSurface)
-            .in_short_help()
-            .of(for_pockets),
-    }));
+    // Beyond the largest probe every atom neighbours every other; large probes in mouths become more with the
+    // inverse of their tolerance.
+    number("pockets.large_probe", "--large-probe", "Å",
+           "Radius of the probe that rolls over the mouths, in Å. A larger one finds wider, shallower pockets")
+        .from(1e-3, 100)
+        .initially("4")
+        .in(kSurface),
+    number("pockets.trim", "--trim", "Å",
+           "Depth at which pockets begin below the large probe's surface, in Å. More separates neighbours that "
+           "meet there")
+        .from(0, 100)
+        .initially("1")
+        .in(kSurface),
+    number("pockets.min_volume", "--min-volume", "Å³", "Smallest volume of a pocket")
+        .from(0, 1e9)
+        .initially("30: one molecule of water")
+        .in(kSurface, in_short_help),
+    number("pockets.mouth_tolerance", "--mouth-tolerance", "Å",
+           "Largest error of a mouth's position, in Å; less takes longer")
+        .from(1e-3, 1)
+        .initially("0.1")
+        .in(kSurface),
+    text("pockets.ligand", "--ligand", "EXPR", "Atoms to take out first, whose places are reported; none: leave all in")
+        .initially("ligand")
+        .in(kSurface, in_short_help),
+});
 
 }  // namespace
 

@@ -16,6 +16,5 @@ std::span<const Property> picture_properties();
 std::span<const Property> annotation_properties();
 std::span<const Property> mesh_properties();
 std::span<const Property> report_properties();
-std::span<const Property> farm_properties();
 
 }  // namespace meniscus

@@ -17,7 +17,7 @@ std::vector<AtomPatch> atom_patches(const Surface& surface, const std::vector<bo
   UnionFind joined(all.shares.size());
   for (const auto& [a, b] : all.meetings)
     if (chosen[all.shares[a].atom] && chosen[all.shares[b].atom]) joined.unite(a, b);
-  std::map<std::uint32_t, std::map<std::uint32_t, double>> areas;  // by patch, by atom
+  std::map<std::uint32_t, std::map<std::uint32_t, double>> areas;  // Å², by patch and by atom
   for (std::uint32_t n = 0; n < all.shares.size(); ++n) {
     const AtomShare& share = all.shares[n];
     if (chosen[share.atom] && share.area > 0.0) areas[joined.find(n)][share.atom] += share.area;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contiguous areas of a surface that belong to some of its atoms: hydrophobic patches, charged ones.
+// Finds the contiguous areas of a surface that belong to some of its atoms, such as hydrophobic or charged patches.
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,22 @@ namespace meniscus {
 
 struct Surface;
 
-/// Points that take the colours of the chosen atoms (coloring.h), all of which a path joins that leaves them at no
-/// point.
+/// A maximal connected set of points that take the colours of the chosen atoms (coloring.h).
 struct AtomPatch {
-  double area = 0.0;                 ///< Å², exact
-  std::vector<std::uint32_t> atoms;  ///< of Surface::atoms, rising; an atom may have parts of several patches
-  std::vector<double> areas;         ///< Å², what each of them has of it
+  double area = 0.0;  ///< Å², exact
+  /// Indices into Surface::atoms, ascending; an atom may have parts of several patches.
+  std::vector<std::uint32_t> atoms;
+  std::vector<double> areas;  ///< Å², the part of the patch that each of these atoms has
 };
 
-/// All of them, the largest first; of equal ones that of the first atom. chosen: one per Surface::atoms. Faces of one
-/// re-entrant patch count as joined (atom_shares). Their areas add up to those of the chosen atoms. Needs the surface's
-/// faces measured.
+/// Returns all patches, the largest first; equally large ones in the order of their first atoms. `chosen` has one entry
+/// for each of Surface::atoms. Faces of one re-entrant patch count as joined (atom_shares). The areas of the patches
+/// add up to those of the chosen atoms. The faces of the surface must be measured.
 std::vector<AtomPatch> atom_patches(const Surface& surface, const std::vector<bool>& chosen);
 
-/// Of the chosen atoms those that have a part of a patch of at least `least` Å², for pictures, which know of each point
-/// no more than its atom. An atom may have parts of several patches: a smaller one is taken too, whole, if an atom of
-/// it is. Likewise.
+/// Returns true for the chosen atoms that have a part of a patch of at least `least` Å². It is for pictures, which know
+/// only the atom of each point: an atom may have parts of several patches, and a smaller patch is taken, too, as a
+/// whole, if one of its atoms is. The conditions of atom_patches() apply.
 std::vector<bool> atoms_of_patches(const Surface& surface, std::vector<bool> chosen, double least);
 
 }  // namespace meniscus

@@ -15,6 +15,7 @@
 namespace meniscus {
 namespace {
 
+/// Returns the smallest distance (Å) between a point of each list.
 double smallest_distance(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
   double least = std::numeric_limits<double>::infinity();
   for (const glm::dvec3& x : a)
@@ -22,6 +23,7 @@ double smallest_distance(const std::vector<glm::dvec3>& a, const std::vector<glm
   return std::sqrt(least);
 }
 
+/// Returns the number of lining atoms that two cavities have in common.
 std::size_t shared_atoms(const Cavity& a, const Cavity& b) {
   std::vector<std::uint32_t> shared;
   std::ranges::set_intersection(a.atoms, b.atoms, std::back_inserter(shared));
@@ -63,6 +65,7 @@ const char* event_word(CavityEvent event) {
   return kWords[static_cast<std::size_t>(event)];
 }
 
+/// Returns the pairs of overlapping cavities of the last frame and this one, the best first.
 std::vector<CavityTracks::Pair> CavityTracks::overlapping(const std::vector<Cavity>& cavities) const {
   std::vector<Pair> pairs;
   for (std::size_t before = 0; before < known_.size(); ++before)
@@ -94,7 +97,7 @@ std::vector<CavityStep> CavityTracks::follow(const std::vector<Cavity>& cavities
   for (CavityStep& step : steps) {
     if (step.id != 0) continue;
     step.id = next_id_++;
-    const auto parent = std::ranges::find(pairs, step.cavity, &Pair::now);  // the best one
+    const auto parent = std::ranges::find(pairs, step.cavity, &Pair::now);  // the best one comes first
     if (parent == pairs.end()) continue;
     step.event = CavityEvent::split;
     step.other = known_[parent->before].id;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Follows cavities from one surface to the next: which cavity is which.
+// Follows cavities from one surface to the next and tells which cavity is which.
 #pragma once
 
 #include <cstddef>
@@ -13,54 +13,56 @@
 
 namespace meniscus {
 
-/// A void that the probe cannot get out of.
+/// A void that the probe cannot leave.
 struct Cavity {
-  double area = 0.0;                 ///< Å²
-  double volume = 0.0;               ///< Å³, positive
-  std::vector<std::uint32_t> atoms;  ///< Surface::atoms that line it, which a probe in it can touch; ascending
-  std::vector<glm::dvec3> probes;    ///< Å, centres of the probes at rest in it: each touches three atoms or more
+  double area = 0.0;    ///< Å²
+  double volume = 0.0;  ///< Å³, positive
+  /// Indices into Surface::atoms of the atoms that a probe in the cavity can touch; ascending.
+  std::vector<std::uint32_t> atoms;
+  /// Å, centres of the probes at rest in it, each of which touches three atoms or more.
+  std::vector<glm::dvec3> probes;
 
-  /// The mean of the probes at rest.
+  /// Returns the mean (Å) of the probes at rest.
   glm::dvec3 middle() const;
 };
 
-/// The cavities of a solvent-excluded surface, the largest area first, as Surface::components has them. Each has four
-/// probes at rest or more: a bounded region outside of balls has no other extreme points. Some of them may be missing
-/// here, those of whose patch others leave nothing.
+/// Returns the cavities of a solvent-excluded surface, the largest area first, as Surface::components has them. Each
+/// cavity has at least four probes at rest, because a bounded region outside of balls has no other extreme points. Some
+/// of them may be missing here: those with a patch of which others leave nothing.
 std::vector<Cavity> cavities_of(const Surface& surface);
 
 enum class CavityEvent {
-  born,    ///< no cavity before was where it is
+  born,    ///< no earlier cavity was at its place
   kept,    ///< it was there before
-  split,   ///< it is a part of one that goes on elsewhere, too: of `other`
-  merged,  ///< it is gone, into `other`
-  closed   ///< it is gone: nothing is where it was
+  split,   ///< it is a part of cavity `other`, which continues elsewhere, too
+  merged,  ///< it is gone, and has become a part of `other`
+  closed   ///< it is gone, and no cavity is at its place
 };
 
-/// "born", "kept", ...
+/// Returns the word for an event: "born", "kept", ...
 const char* event_word(CavityEvent event);
 
-/// What became of a cavity.
+/// What happened to a cavity from one frame to the next.
 struct CavityStep {
-  std::uint32_t id = 0;  ///< from 1, never used again
+  std::uint32_t id = 0;  ///< from 1, never reused
   CavityEvent event = CavityEvent::born;
-  std::optional<std::uint32_t> other;  ///< the id of the one that it comes from, or went into
-  std::size_t cavity = kNone;          ///< among those given; kNone: it is gone
+  std::optional<std::uint32_t> other;  ///< the id of the cavity that it comes from or went into
+  std::size_t cavity = kNone;          ///< its index among the cavities of the frame; kNone: it is gone
 };
 
-/// Follows cavities through frames, whose positions must be comparable: superposed where the molecule drifts.
+/// Follows cavities through frames with comparable positions: superposed ones if the molecule drifts.
 ///
-/// Two cavities of neighbouring frames overlap if probes at rest in them do: if such centres are closer than a probe's
-/// diameter. (Then the voids overlap; voids that overlap elsewhere only, between their probes at rest, are not found
-/// to.) Of those that overlap the pair with most lining atoms in common goes on under one id, then the next, each
-/// cavity once; of equals the pair with the nearest probes.
+/// Two cavities of successive frames overlap if probes at rest in them do, which means that such centres are closer
+/// than a probe's diameter. (The voids then overlap; voids that overlap only between their probes at rest are not
+/// recognised.) Of the overlapping pairs, the one with the most lining atoms in common continues under one id, then the
+/// next one, each cavity at most once; of equal pairs the one with the nearest probes comes first.
 class CavityTracks {
  public:
-  /// probe_radius: Å, above 0.
+  /// `probe_radius` is in Å, above 0.
   explicit CavityTracks(double probe_radius) : probe_radius_(probe_radius) {}
 
-  /// The next frame's: a step for each of them, and for each of those before that is gone; by id. Cavity::atoms must
-  /// mean the same atoms as before.
+  /// Takes the cavities of the next frame. Returns a step for each of them, and for each cavity of the frame before
+  /// that is gone, in the order of ids. Cavity::atoms must mean the same atoms in all frames.
   std::vector<CavityStep> follow(const std::vector<Cavity>& cavities);
 
  private:
@@ -70,14 +72,14 @@ class CavityTracks {
   };
   struct Pair {
     std::size_t before, now;
-    std::size_t shared;  ///< lining atoms
-    double distance;     ///< Å, of the nearest probes
+    std::size_t shared;  ///< number of lining atoms in common
+    double distance;     ///< Å, between the nearest probes
   };
   std::vector<Pair> overlapping(const std::vector<Cavity>& cavities) const;
 
   double probe_radius_;
   std::uint32_t next_id_ = 1;
-  std::vector<Known> known_;  ///< of the frame before
+  std::vector<Known> known_;  ///< the cavities of the frame before
 };
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes beside a surface with their colours, for pictures and exporters.
+// Shapes in addition to a surface, with their colours, for pictures and exporters.
 #pragma once
 
 #include "core/color/coloring.h"
@@ -9,7 +9,7 @@ namespace meniscus {
 
 struct ColoredShapes {
   Shapes shapes;
-  Coloring coloring;  ///< one colour and part for each atom that shapes name; empty without shapes
+  Coloring coloring;  ///< one colour and part for each atom that shapes name; empty if there are no shapes
 
   bool empty() const { return shapes.empty(); }
 };

@@ -13,7 +13,7 @@ namespace meniscus {
 namespace {
 
 constexpr double kLength = 1e-9;  // Å
-constexpr double kShare = 1e-9;   // of areas, volumes, angles
+constexpr double kShare = 1e-9;   // relative, of areas, volumes and angles
 
 bool near(double a, double b) { return std::abs(a - b) <= kShare * std::max({1.0, std::abs(a), std::abs(b)}); }
 bool near(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) <= kLength; }
@@ -54,6 +54,7 @@ class Comparison {
   }
 
  private:
+  /// Compares the rows of two tables.
   template <typename Row, typename Equal>
   void rows(const char* what, const std::vector<Row>& a, const std::vector<Row>& b, Equal&& equal) {
     if (a.size() != b.size()) found_.push_back(fmt::format("{} {}s and {}", a.size(), what, b.size()));

@@ -9,8 +9,9 @@ namespace meniscus {
 
 struct Surface;
 
-/// Every difference in one sentence each: patches that only one of them has, other contacts, cuts, borders, faces or
-/// components, positions further apart than 1e-9 Å, areas and volumes by more than 1e-9 of their size. Empty: equal.
+/// Returns each difference in one sentence: patches that only one surface has; different contacts, cuts, borders, faces
+/// or components; positions more than 1e-9 Å apart; areas and volumes that differ by more than 1e-9 of their size. The
+/// result is empty if the surfaces are equal.
 std::vector<std::string> differences(const Surface& a, const Surface& b);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joins surfaces and their copies into one, and tells whether copies keep clear of each other.
+// Joins surfaces and their copies into one, and searches for copies that come too close to each other.
 #include "core/queries/copies.h"
 
 #include <algorithm>
@@ -29,13 +29,15 @@ bool is_identity(const RigidMotion& motion) {
   return motion.rotation == glm::dmat3(1.0) && motion.translation == glm::dvec3(0.0);
 }
 
-// Half-borders count twice as far as borders; no other table is longer.
+// Throws CapacityError if a table would get too many rows. Half-borders are numbered up to twice the number of borders,
+// and no other table is longer.
 void check_capacity(const Surface& whole, const Surface& part) {
   constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max() / 2;
   if (whole.borders.size() + part.borders.size() < kMost && whole.planes.size() + part.planes.size() < kMost) return;
   throw CapacityError("all surfaces together have too many patches for one picture or mesh; draw fewer copies");
 }
 
+/// Appends the moved rows of a surface to another one.
 class Appender {
  public:
   Appender(Surface& whole, const Surface& part, const RigidMotion& motion)
@@ -88,6 +90,7 @@ class Appender {
     return static_cast<std::uint32_t>(rows.size());
   }
 
+  /// Appends rows, each changed by move(row).
   template <typename Row, typename Move>
   static void add(std::vector<Row>& rows, const std::vector<Row>& more, Move&& move) {
     std::transform(more.begin(), more.end(), std::back_inserter(rows), [&](Row row) {
@@ -96,6 +99,7 @@ class Appender {
     });
   }
 
+  /// Adds to an index unless it is kNone.
   static void shift(std::uint32_t& index, std::uint32_t by) {
     if (index != kNone) index += by;
   }
@@ -133,11 +137,11 @@ class Appender {
   Surface& whole_;
   const Surface& part_;
   const RigidMotion& motion_;
-  // How many rows the tables had before, so how far an index is shifted.
+  // The numbers of rows that the tables had before, by which indices are shifted.
   std::uint32_t atom_, concave_, plane_, vertex_, border_, face_;
 };
 
-/// A column of atoms that stays empty where all have the usual value.
+/// Appends a column of atoms, which stays empty if all have the usual value.
 template <typename Value>
 void append_column(std::vector<Value>& whole, const std::vector<Value>& part, std::size_t atoms_before,
                    std::size_t atoms, Value usual) {
@@ -149,7 +153,7 @@ void append_column(std::vector<Value>& whole, const std::vector<Value>& part, st
 
 void append_coloring(Coloring& whole, const Coloring& part, std::size_t atoms_before, std::size_t atoms) {
   whole.atom.insert(whole.atom.end(), part.atom.begin(), part.atom.end());
-  if (!part.part.empty()) {  // copies and objects are parts of their own
+  if (!part.part.empty()) {  // copies and objects are separate parts
     const std::uint32_t before = whole.part.empty() ? 0 : *std::ranges::max_element(whole.part) + 1;
     std::ranges::transform(part.part, std::back_inserter(whole.part), [&](std::uint32_t n) { return before + n; });
   }
@@ -187,7 +191,7 @@ SurfaceObject merged(std::vector<SurfaceObject> objects) {
       append(whole.surface, object.surface, copy);
       whole.atom.insert(whole.atom.end(), object.atom.begin(), object.atom.end());
     }
-    object = {};  // its memory, before the next one's copies need some
+    object = {};  // frees its memory before the copies of the next object need some
   }
   return whole;
 }
@@ -222,19 +226,20 @@ namespace {
 
 constexpr double kRounding = 1e-6;  // Å
 
-/// The room between two balls, and who they are; the smallest is the closest, ties go to the lowest indices.
+/// The gap between two balls, and their numbers. The smallest pair is the closest; ties go to the lowest numbers.
 struct Pair {
   double gap = 0.0;
   std::uint32_t a = kNone, b = kNone;
   bool operator<(const Pair& other) const { return std::tie(gap, a, b) < std::tie(other.gap, other.a, other.b); }
 };
 
+/// All copies of balls in their places.
 struct PlacedBalls {
   std::vector<CopiedBall> who;
   std::vector<Ball> balls;
 };
 
-PlacedBalls place(std::span<const CopiedBalls> groups) {
+PlacedBalls place_copies(std::span<const CopiedBalls> groups) {
   PlacedBalls placed;
   for (std::uint32_t g = 0; g < groups.size(); ++g) {
     for (std::uint32_t c = 0; c < groups[g].motions.size(); ++c) {
@@ -250,11 +255,11 @@ PlacedBalls place(std::span<const CopiedBalls> groups) {
 }  // namespace
 
 std::optional<CopyContact> closest_contact(std::span<const CopiedBalls> groups, double probe_radius) {
-  const PlacedBalls placed = place(groups);
+  const PlacedBalls placed = place_copies(groups);
   double largest = 0.0;
   for (const Ball& ball : placed.balls) largest = std::max(largest, ball.radius);
   const BallGrid grid(std::span<const Ball>(placed.balls), largest + probe_radius);
-  // Atoms of one group move together: only those of the same motion belong to one copy.
+  // Balls of one group move together, so those with the same motion belong to one copy.
   const auto same_copy = [&](std::uint32_t a, std::uint32_t b) {
     return placed.who[a].group == placed.who[b].group && placed.who[a].copy == placed.who[b].copy;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces and their copies joined into one surface, row by row, and whether copies keep clear of each other.
+// Joins surfaces and their copies into one surface, and finds copies that come too close to each other.
 #pragma once
 
 #include <array>
@@ -20,23 +20,23 @@ namespace meniscus {
 struct RigidMotion;
 struct SurfaceObject;
 
-/// Adds a copy of `part`, moved, to `whole`: its tables follow those of `whole`, areas and volumes add up. Surfaces
-/// stay closed and their own; where they overlap nothing is cut away. Both need the same probe radius, unless `whole`
-/// is still empty. Throws CapacityError when a table gets more rows than an index can count.
+/// Appends a moved copy of `part` to `whole`: its rows follow those of `whole`, and areas and volumes add up. Both
+/// surfaces remain closed and separate; where they overlap nothing is cut away. Both must have the same probe radius,
+/// unless `whole` is still empty. Throws CapacityError if a table gets more rows than an index can count.
 void append(Surface& whole, const Surface& part, const RigidMotion& motion = {});
 
-/// One object with every copy of every given one, in order, standing where they are. A single object with a single
-/// copy that is not moved passes through as it is. Colours, opacities and atoms follow, the hidden stay hidden;
-/// either all objects are coloured by patch kind, alike, or none is. No objects: an empty one. Throws CapacityError.
+/// Returns one object with every copy of all given objects, in order and in place. A single object with a single copy
+/// that is not moved is returned as it is. Colours, opacities and atoms are kept, and hidden atoms stay hidden. Either
+/// all objects are coloured alike by patch kind, or none is. Without objects the result is empty. Throws CapacityError.
 SurfaceObject merged(std::vector<SurfaceObject> objects);
 
-/// Whether copies look different, each by where it is: a map colours points of an object in several places.
+/// True if copies look different depending on their place: a map colours points of an object that has several copies.
 bool copies_differ(std::span<const SurfaceObject> objects);
 
-/// SurfaceObject::atom of an atom of merged(objects), without merging them.
+/// Returns SurfaceObject::atom of an atom of merged(objects) without merging them.
 std::uint32_t merged_atom(std::span<const SurfaceObject> objects, std::size_t atom);
 
-/// The balls of every copy of every object, in the order of merged().surface.atoms.
+/// Returns the balls of every copy of every object, in the order of merged().surface.atoms.
 std::vector<Ball> placed_balls(std::span<const SurfaceObject> objects);
 
 inline Ball moved(Ball ball, const RigidMotion& motion) {
@@ -62,26 +62,27 @@ inline ConcavePatch moved(ConcavePatch patch, const RigidMotion& motion) {
   return patch;
 }
 
-/// Balls that are at several places.
+/// A group of balls and the motions that give its copies.
 struct CopiedBalls {
   std::span<const Ball> balls;
   std::span<const RigidMotion> motions;
 };
 
-/// A ball: which of the groups, which of its motions, which of its balls.
+/// Identifies a ball by its group, the motion of its copy, and its place among the balls of the group.
 struct CopiedBall {
   std::uint32_t group = 0, copy = 0, ball = 0;
 };
 
-/// Two balls of different copies that one probe can touch at once.
+/// Two balls of different copies that one probe can touch at the same time.
 struct CopyContact {
   std::array<CopiedBall, 2> ball;
-  double distance = 0.0;  ///< of the centres, Å
+  double distance = 0.0;  ///< Å, between the centres
 };
 
-/// The closest such pair (by distance minus radii), or nothing: then the surface of all is the union of the surfaces
-/// of each, for a probe in contact with one copy never meets another. Balls closer than r_i + r_j + 2 probe_radius are
-/// in contact; 1e-6 Å is added, as moved coordinates are rounded, so that doubt counts as contact.
+/// Returns the closest such pair (by distance minus radii), or nothing. If there is none, the surface of all copies is
+/// the union of their surfaces, because a probe in contact with one copy never meets another. Balls closer than r_i +
+/// r_j + 2 probe_radius are in contact; 1e-6 Å is added because moved coordinates are rounded, so that a pair in doubt
+/// counts as in contact.
 std::optional<CopyContact> closest_contact(std::span<const CopiedBalls> groups, double probe_radius);
 
 }  // namespace meniscus

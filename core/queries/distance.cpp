@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
+/// The nearest foot so far.
 struct Foot {
   double distance = kFar;
   glm::dvec3 point{0.0};
@@ -31,21 +32,23 @@ struct Foot {
 
 Box box_of_ball(const glm::dvec3& center, double radius) { return {center - radius, center + radius}; }
 
-/// Of a circle, and of all that is within `margin` of it.
+/// Returns the box of a circle and of all that is within `margin` of it.
 Box box_of_circle(const glm::dvec3& center, const glm::dvec3& axis, double radius, double margin) {
   const glm::dvec3 half = radius * glm::sqrt(glm::max(1.0 - axis * axis, glm::dvec3(0.0))) + margin;
   return {center - half, center + half};
 }
 
-/// A point in the cylindrical coordinates of a circle: along its axis, and away from it.
-struct BesideAxis {
+/// A point in the cylindrical coordinates of a circle (Å): along its axis, and away from it.
+struct CylindricalPoint {
   double along, away;
-  glm::dvec3 outward;  ///< unit, across the axis; on the axis itself any direction does, and `start` is taken
+  glm::dvec3 outward;  ///< unit, across the axis; on the axis itself any direction does, and it is `start`
 };
 
-/// Close to the axis what is across it is a difference of nearly equal numbers, whose rounding points anywhere, along
-/// the axis too: so it is taken across once more. If that leaves less than half of it, it was rounding alone.
-BesideAxis beside_axis(const glm::dvec3& x, const glm::dvec3& center, const glm::dvec3& axis, const glm::dvec3& start) {
+/// Returns the cylindrical coordinates of x. Close to the axis, the part of x across it is a difference of nearly equal
+/// numbers, with a rounding error that points anywhere, along the axis, too. It is therefore projected across the axis
+/// once more. If that leaves less than half of it, it was rounding error alone.
+CylindricalPoint cylindrical_point(const glm::dvec3& x, const glm::dvec3& center, const glm::dvec3& axis,
+                                   const glm::dvec3& start) {
   const glm::dvec3 from_center = x - center;
   const double along = glm::dot(from_center, axis);
   const glm::dvec3 across = from_center - along * axis;
@@ -57,31 +60,33 @@ BesideAxis beside_axis(const glm::dvec3& x, const glm::dvec3& center, const glm:
   return {along, left, again / left};
 }
 
-/// Does the arc that begins at `start` and turns counter-clockwise by `sweep` pass the direction?
+/// True if the arc that begins at `start` and turns counter-clockwise by `sweep` passes the direction.
 bool passes(const glm::dvec3& direction, const glm::dvec3& axis, const glm::dvec3& start, double sweep) {
   const double angle = std::atan2(glm::dot(direction, glm::cross(axis, start)), glm::dot(direction, start));
   return (angle < 0.0 ? angle + 2 * std::numbers::pi : angle) <= sweep;
 }
 
+/// True if x is inside of these planes.
 bool inside(const Surface& s, const glm::dvec3& x, std::uint32_t first, std::uint32_t count) {
   return std::all_of(s.planes.begin() + first, s.planes.begin() + first + count,
                      [&](const Plane& plane) { return glm::dot(plane.normal, x) <= plane.offset; });
 }
 
-/// On the sphere of a convex patch's atom with this radius: that of the atom, or its SAS radius. Seen from the atom
-/// both show the same part.
+/// Returns the foot of x on the sphere of this radius about a convex patch's atom, if it is nearer than `limit` and on
+/// the patch. The radius is that of the atom or its SAS radius; seen from the atom both show the same part.
 Foot foot_on(const Surface& s, const ConvexPatch& patch, double radius, const glm::dvec3& x, double limit) {
   const Ball& atom = s.atoms[patch.atom];
   const glm::dvec3 out = x - atom.center;
   const double length = glm::length(out), distance = std::abs(length - radius);
   if (!(distance < limit)) return {};
-  // All directions are as good from the middle; borders answer where this one is covered.
+  // From the centre all directions are as good; if this one is covered, the borders are as near.
   const glm::dvec3 direction = length > 0.0 ? out / length : glm::dvec3(0.0, 0.0, 1.0);
   if (!inside(s, atom.center + atom.radius * direction, patch.first_plane, patch.plane_count)) return {};
   return {distance, atom.center + radius * direction};
 }
 
-/// Nothing from the probe's centre itself: the patch's borders are as near.
+/// Returns the foot of x on a concave patch. There is none from the probe's centre itself: the patch's borders are as
+/// near.
 Foot foot_on(const Surface& s, const ConcavePatch& patch, const glm::dvec3& x, double limit) {
   const glm::dvec3 out = x - patch.center;
   const double length = glm::length(out), distance = std::abs(length - s.probe_radius);
@@ -90,11 +95,11 @@ Foot foot_on(const Surface& s, const ConcavePatch& patch, const glm::dvec3& x, d
   return inside(s, foot, patch.first_plane, patch.plane_count()) ? Foot{distance, foot} : Foot{};
 }
 
-/// In the half-plane of x, on its side of the torus' circle: what is left of the tube does not pass the axis, so along
-/// either circle through the foot other points are farther. From a place of the probe's centre all of the tube is
-/// equally far, and its borders are as near.
+/// Returns the foot of x on a toroidal patch, in the half-plane of x on its side of the torus' circle. What is left of
+/// the tube does not pass the axis, so along either circle through the foot other points are farther. From a place of
+/// the probe's centre all of the tube is equally far, and its borders are as near.
 Foot foot_on(const Surface& s, const ToroidalPatch& t, const glm::dvec3& x, double limit) {
-  const BesideAxis at = beside_axis(x, t.center, t.axis, t.start);
+  const CylindricalPoint at = cylindrical_point(x, t.center, t.axis, t.start);
   const double across = at.away - t.radius, length = std::sqrt(across * across + at.along * at.along);
   const double distance = std::abs(length - s.probe_radius);
   if (!(distance < limit) || !(length > 0.0) || (!t.free() && !passes(at.outward, t.axis, t.start, t.sweep))) return {};
@@ -108,10 +113,11 @@ Foot foot_on(const Surface& s, const ToroidalPatch& t, const glm::dvec3& x, doub
   return {};
 }
 
-/// On an arc, its ends not included; `turning` is a Border, or the path of a rolling probe.
+/// Returns the foot of x on an arc without its ends, or on a `whole` circle. `turning` is a Border, or the path of a
+/// rolling probe.
 template <typename Turning>
 Foot foot_on_arc(const Turning& turning, bool whole, const glm::dvec3& x, double limit) {
-  const BesideAxis at = beside_axis(x, turning.center, turning.axis, turning.start);
+  const CylindricalPoint at = cylindrical_point(x, turning.center, turning.axis, turning.start);
   const double across = at.away - turning.radius, distance = std::sqrt(across * across + at.along * at.along);
   if (!(distance < limit)) return {};
   if (!whole && !passes(at.outward, turning.axis, turning.start, turning.sweep)) return {};
@@ -120,7 +126,7 @@ Foot foot_on_arc(const Turning& turning, bool whole, const glm::dvec3& x, double
 
 Foot at_point(const glm::dvec3& point, const glm::dvec3& x) { return {glm::distance(x, point), point}; }
 
-/// Everything of one table, then of the next.
+/// The boxes of the rows of one table, followed by those of the next.
 template <std::size_t kTables>
 struct Tables {
   std::array<std::uint32_t, kTables + 1> first{};
@@ -129,8 +135,8 @@ struct Tables {
   void end(std::size_t table) { first[table + 1] = static_cast<std::uint32_t>(boxes.size()); }
 };
 
-/// What is asked of the feet of a point: the nearest within `limit` is searched for, and `wanted` tells from the
-/// nearest so far how near another has to be to count.
+/// The extent of a search for feet. The nearest foot within `limit` is searched for; `wanted` returns, for the nearest
+/// foot so far, how near another one has to be to count.
 template <typename Wanted>
 struct Search {
   double limit;
@@ -139,26 +145,27 @@ struct Search {
 template <typename Wanted>
 Search(double, Wanted) -> Search<Wanted>;
 
+/// Searches for the nearest foot of all.
 struct Nearest {
   double operator()(const Foot& nearest) const { return nearest.distance; }
 };
 
-/// The nearest of the feet of x on what a tree's boxes hold, as far as the search goes. `foot_of` has one rule for each
-/// table: of an index into the table, and of the distance beyond which no foot is wanted.
+/// Returns the nearest foot of x on what a tree's boxes hold, as far as the search extends. `foot_of` has one function
+/// for each table, of an index into the table and of the distance beyond which no foot is wanted.
 template <typename Wanted, typename... FootOf>
 Foot nearest_foot(const glm::dvec3& x, const Search<Wanted>& search, const BoxTree& tree,
                   const Tables<sizeof...(FootOf)>& tables, const FootOf&... foot_of) {
   Foot nearest;
   tree.nearest(x, search.limit, [&](std::uint32_t n, double limit) {
     std::size_t table = 0;
-    const auto ask = [&](const auto& foot_of_table) {
+    const auto visit = [&](const auto& foot_of_table) {
       if (n >= tables.first[table] && n < tables.first[table + 1]) {
         const Foot foot = foot_of_table(n - tables.first[table], limit);
         nearest.take(foot.distance, foot.point);
       }
       ++table;
     };
-    (ask(foot_of), ...);
+    (visit(foot_of), ...);
     return std::min(limit, search.wanted(nearest));
   });
   return nearest;
@@ -169,15 +176,16 @@ Foot nearest_foot(const glm::dvec3& x, const Search<Wanted>& search, const BoxTr
 struct SurfaceDistance::Index {
   explicit Index(const Surface& surface)
       : s(surface),
-        reach(most_radii()),
+        reach(find_reach()),
         balls(s.atoms, reach),
         accessible(list_accessible()),
         accessible_tree(accessible.boxes),
         parts(list_parts()),
         part_tree(parts.boxes) {}
 
-  /// The largest SAS radius, but for a few that are far larger than all others: these are listed.
-  double most_radii() {
+  /// Returns the largest SAS radius, except for a few that are far larger than all others; their atoms are listed in
+  /// `large`.
+  double find_reach() {
     constexpr std::size_t kFew = 64;
     constexpr double kFarLarger = 4.0;
     std::vector<double> radii;
@@ -191,7 +199,7 @@ struct SurfaceDistance::Index {
     return next;
   }
 
-  // Where a probe may be that is against an atom, two, or three.
+  // Returns the boxes of the places of a probe that touches one atom, two, or three.
   Tables<3> list_accessible() const {
     Tables<3> t;
     for (const ConvexPatch& patch : s.convex)
@@ -205,6 +213,7 @@ struct SurfaceDistance::Index {
     return t;
   }
 
+  /// Returns the boxes of the patches, borders and vertices of the surface.
   Tables<5> list_parts() const {
     Tables<5> t;
     for (const ConvexPatch& patch : s.convex)
@@ -223,6 +232,7 @@ struct SurfaceDistance::Index {
     return t;
   }
 
+  /// True if a SAS ball covers x.
   bool in_sas_ball(const glm::dvec3& x) const {
     const auto covers = [&](std::uint32_t a) {
       return glm::distance(x, s.atoms[a].center) < s.atoms[a].radius + s.probe_radius;
@@ -233,6 +243,7 @@ struct SurfaceDistance::Index {
     return covered;
   }
 
+  /// Returns the nearest place of a probe that touches an atom.
   template <typename Wanted = Nearest>
   Foot nearest_accessible(const glm::dvec3& x, const Search<Wanted>& search = {kFar, {}}) const {
     return nearest_foot(
@@ -244,6 +255,7 @@ struct SurfaceDistance::Index {
         [&](std::uint32_t n, double) { return at_point(s.concave[n].center, x); });
   }
 
+  /// Returns the nearest foot on the surface.
   template <typename Wanted = Nearest>
   Foot nearest_part(const glm::dvec3& x, const Search<Wanted>& search = {kFar, {}}) const {
     return nearest_foot(
@@ -262,8 +274,8 @@ struct SurfaceDistance::Index {
   }
 
   const Surface& s;
-  std::vector<std::uint32_t> large;  // atoms
-  double reach;                      // SAS radius of all others, at most
+  std::vector<std::uint32_t> large;  // atoms with a SAS radius above `reach`
+  double reach;                      // Å, the largest SAS radius of all other atoms
   BallGrid balls;
   Tables<3> accessible;
   BoxTree accessible_tree;
@@ -293,10 +305,10 @@ NearestPoint SurfaceDistance::operator()(const glm::dvec3& x) const {
 }
 
 bool SurfaceDistance::is_within(const glm::dvec3& x, double limit) const {
-  constexpr double kLonger = 1 + 1e-9;  // boxes are left out by rounded distances
+  constexpr double kLonger = 1 + 1e-9;  // the tree leaves out boxes by rounded distances
   const double probe_radius = index_->s.probe_radius;
   if (index_->in_sas_ball(x)) {
-    // Once a place of the probe is near enough, another counts only if the point is within that probe.
+    // Once a place of the probe is near enough, another one counts only if the point is within the probe there.
     const auto wanted = [&](const Foot& place) {
       if (place.distance < probe_radius) return 0.0;
       return std::abs(probe_radius - place.distance) <= limit ? probe_radius : place.distance;

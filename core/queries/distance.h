@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exact distance from a point to the surface, and the surface's point that is nearest.
+// Computes the exact distance from a point to a surface, and the nearest point of the surface.
 #pragma once
 
 #include <cstdint>
@@ -11,40 +11,43 @@ namespace meniscus {
 
 struct Surface;
 
-/// The surface as seen from some point.
+/// The point of a surface that is nearest to a given point.
 struct NearestPoint {
   double distance = 0.0;  ///< Å, Euclidean: above 0 in the solvent, below 0 in the solid
-  glm::dvec3 point{0.0};  ///< Å, on the surface; one of them where several are equally near
+  glm::dvec3 point{0.0};  ///< Å, on the surface; one of them if several are equally near
 };
 
-/// Answers any number of questions about one surface, from any number of threads. Exact but for rounding, anywhere:
-///  * A point of the solid is as far from the surface as from the accessible region A, less the probe's radius: on the
-///    way to the nearest place of the probe the distance from A falls by a step's length with each step. That place
-///    lies on a SAS sphere, on an arc, or is a fixed probe.
+/// Computes distances from points to one surface; any number of threads may call it. Results are exact but for
+/// rounding, at any distance:
+///  * A point of the solid is as far from the surface as from the accessible region A, less the probe's radius, because
+///    along the line to the nearest place of the probe the distance from A falls as fast as the point moves. That place
+///    lies on a SAS sphere or on an arc, or is a fixed probe.
 ///  * From the solvent the nearest point is a foot inside of a patch, where the line to it is normal to a sphere or a
 ///    torus; or a foot on a border; or a vertex. All of them are tried, those in nearer boxes first.
 class SurfaceDistance {
  public:
-  /// surface: closed, with at least one atom; it must stay and not change.
+  /// `surface` is closed and has at least one atom. It must outlive this object and not change.
   explicit SurfaceDistance(const Surface& surface);
   ~SurfaceDistance();
   SurfaceDistance(SurfaceDistance&&) noexcept;
   SurfaceDistance& operator=(SurfaceDistance&&) noexcept;
 
-  /// Å, the largest coordinate that a point may have: squares of distances are finite.
+  /// The largest coordinate (Å) that a point may have, so that squares of distances are finite.
   static constexpr double kFarthest = 1e150;
 
+  /// Returns the distance (Å) of a point from the surface, and the surface's point that is nearest.
   NearestPoint operator()(const glm::dvec3& point) const;
 
-  /// Whether the point is no farther from the surface than that, on either side; limit > 0, Å. Sooner known than how
-  /// far it is.
+  /// True if the point is no farther than `limit` (Å, above 0) from the surface, on either side. Faster than computing
+  /// the distance.
   bool is_within(const glm::dvec3& point, double limit) const;
 
-  /// Å, from the point to the nearest place where a probe touches an atom, whichever side of the SAS the point is on.
-  /// Places are those of the surface's patches: of a part of a surface (part.h), of that part alone.
+  /// Returns the distance (Å) from the point to the nearest place of a probe that touches an atom, on whichever side of
+  /// the SAS the point is. Places are those of the surface's patches; for a part of a surface (part.h), those of that
+  /// part alone.
   double to_probe(const glm::dvec3& point) const;
 
-  /// Whether a probe there would reach into an atom; of a part of a surface, into one that the part has.
+  /// True if a probe at the point would overlap an atom; for a part of a surface, an atom of that part.
   bool in_sas(const glm::dvec3& point) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the blocks of voxels near the surface by halving cubes: a distance changes by no more than the way that one
-// goes, so the middle of a cube tells whether the band reaches it.
+// Finds the blocks of voxels near the surface by halving cubes: along a step a distance changes by no more than the
+// step's length, so the middle of a cube tells whether the band reaches the cube.
 #include "core/queries/distance_band.h"
 
 #include <algorithm>
@@ -22,8 +22,9 @@ namespace meniscus {
 namespace {
 
 constexpr int kEdge = DistanceBand::kEdge;
-constexpr double kMostVoxels = 1 << 28;  // from 0 along an axis
+constexpr double kMostVoxels = 1 << 28;  // from the origin along an axis
 
+/// Finds the blocks and cubes of a band.
 class BandFinder {
  public:
   BandFinder(const Surface& surface, double voxel, double reach) : distance_(surface), voxel_(voxel), reach_(reach) {
@@ -65,7 +66,7 @@ class BandFinder {
                                 kMostBandBlocks * kEdge * kEdge * kEdge / 1'000'000));
   }
 
-  /// Eight of them around the origin hold all of the band.
+  /// Returns the edge, in voxels, of the largest cubes: eight of them around the origin hold all of the band.
   int largest_cube() const {
     const glm::dvec3 far = glm::max(glm::abs(box_.low), glm::abs(box_.high)) / voxel_;
     const double half = std::max({far.x, far.y, far.z});
@@ -73,7 +74,8 @@ class BandFinder {
     return std::max(kEdge, static_cast<int>(std::bit_ceil(static_cast<unsigned>(half) + 2U)));
   }
 
-  /// Halving cubes makes four times as many along a surface, or more: too many are known before they are there.
+  /// Throws CapacityError if there will be too many blocks. Halving cubes makes at least four times as many along a
+  /// surface, so this is known before they exist.
   void check_count(std::size_t count, int size) const {
     const glm::dvec3 extent = box_.high - box_.low;
     if (size > kEdge && 4.0 * size * voxel_ > std::max({extent.x, extent.y, extent.z})) return;
@@ -81,6 +83,7 @@ class BandFinder {
     if (static_cast<double>(count) * halvings * halvings > (size > kEdge ? 2.0 : 1.0) * kMostBandBlocks) refuse();
   }
 
+  /// Returns the place of a cube with respect to the band, as the distance of its middle tells it.
   Place place_of(const glm::ivec3& origin, int size) const {
     const glm::dvec3 middle = voxel_ * (glm::dvec3(origin) + 0.5 * (size - 1));
     const double to_corner = 0.5 * (size - 1) * voxel_ * std::numbers::sqrt3;
@@ -90,6 +93,7 @@ class BandFinder {
     return distance < 0.0 ? Place::inside : Place::outside;
   }
 
+  /// Returns the cubes that the band may reach, and adds those in the solid to `inside`.
   std::vector<glm::ivec3> near_cubes(const std::vector<glm::ivec3>& cubes, int size,
                                      std::vector<DistanceBand::Inside>& inside) const {
     std::vector<Place> places(cubes.size());

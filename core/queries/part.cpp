@@ -22,7 +22,7 @@
 namespace meniscus {
 namespace {
 
-/// Old row -> new row, in the order in which rows are asked for.
+/// Maps old rows to new ones, which are numbered in the order of their first use.
 class Renumbering {
  public:
   explicit Renumbering(std::size_t count) : number_(count, kNone) {}
@@ -35,7 +35,7 @@ class Renumbering {
     }
     return number_[old];
   }
-  /// kNone for rows that nobody has asked for.
+  /// Returns the new row of an old one, kNone if it is not used.
   std::uint32_t known(std::uint32_t old) const { return old == kNone ? kNone : number_[old]; }
   const std::vector<std::uint32_t>& order() const { return order_; }
 
@@ -43,16 +43,17 @@ class Renumbering {
   std::vector<std::uint32_t> number_, order_;
 };
 
+/// Copies some components of a surface into tables of their own.
 class PartBuilder {
  public:
   PartBuilder(const Surface& whole, const std::vector<bool>& keep)
-      : w_(whole), keep_(keep), border_(whole.borders.size()), vertex_(whole.vertices.size()) {
+      : whole_(whole), keep_(keep), border_(whole.borders.size()), vertex_(whole.vertices.size()) {
     assert(keep.size() == whole.components.size());
   }
 
   SurfacePart run() {
-    s_.probe_radius = w_.probe_radius;
-    s_.certificate = w_.certificate;
+    surface_.probe_radius = whole_.probe_radius;
+    surface_.certificate = whole_.certificate;
     list_atoms();
     take_components();
     take_concave();
@@ -64,159 +65,162 @@ class PartBuilder {
   }
 
  private:
-  bool stays(std::uint32_t face) const { return keep_[w_.faces[face].component]; }
+  /// True if the component of a face stays.
+  bool is_kept(std::uint32_t face) const { return keep_[whole_.faces[face].component]; }
 
+  /// Returns the faces of a patch that stay, or those that do not.
   template <typename Patch>
   std::vector<std::uint32_t> faces_that(bool stay, const Patch& patch) const {
     std::vector<std::uint32_t> faces;
     for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
-      if (stays(f) == stay) faces.push_back(f);
+      if (is_kept(f) == stay) faces.push_back(f);
     return faces;
   }
 
+  /// Returns the faces of a patch that stay, with the planes that separate them from others.
   template <typename Patch>
   std::vector<PartedFaces> parted(const Patch& patch) const {
     const auto kept = faces_that(true, patch), dropped = faces_that(false, patch);
     if (kept.empty()) return {};
     if (dropped.empty()) return {{kept, {}}};
-    return part_faces(w_, kept, dropped);
+    return part_faces(whole_, kept, dropped);
   }
 
-  // A probe of radius 0 leaves toroidal and concave patches without faces: what remains of them is the border of the
-  // same number, and the probes at its ends.
-  bool flat() const { return w_.probe_radius == 0; }
-  bool stays(std::uint32_t t, const ToroidalPatch& patch) const {
-    return flat() ? stays(w_.borders[t].face[0]) : !faces_that(true, patch).empty();
+  // True if the probe radius is 0. Toroidal and concave patches then have no faces: what remains of them is the border
+  // of the same number, and the probes at its ends.
+  bool has_no_probe() const { return whole_.probe_radius == 0; }
+  bool is_kept(std::uint32_t t, const ToroidalPatch& patch) const {
+    return has_no_probe() ? is_kept(whole_.borders[t].face[0]) : !faces_that(true, patch).empty();
   }
 
-  // Atoms keep their order.
+  // Lists the atoms that the part touches, in their order.
   void list_atoms() {
-    std::vector<bool> used(w_.atoms.size(), false);
-    for (const ConvexPatch& patch : w_.convex)
+    std::vector<bool> used(whole_.atoms.size(), false);
+    for (const ConvexPatch& patch : whole_.convex)
       if (!faces_that(true, patch).empty()) used[patch.atom] = true;
-    for (std::uint32_t t = 0; t < w_.toroidal.size(); ++t)
-      if (stays(t, w_.toroidal[t]))
-        for (const std::uint32_t a : w_.toroidal[t].atom) used[a] = true;
-    new_concave_.assign(w_.concave.size(), kNone);
-    needed_.assign(w_.concave.size(), false);
-    for (std::uint32_t t = 0; t < w_.toroidal.size(); ++t)
-      if (stays(t, w_.toroidal[t]))
-        for (const std::uint32_t probe : w_.toroidal[t].probe)
+    for (std::uint32_t t = 0; t < whole_.toroidal.size(); ++t)
+      if (is_kept(t, whole_.toroidal[t]))
+        for (const std::uint32_t a : whole_.toroidal[t].atom) used[a] = true;
+    new_concave_.assign(whole_.concave.size(), kNone);
+    needed_.assign(whole_.concave.size(), false);
+    for (std::uint32_t t = 0; t < whole_.toroidal.size(); ++t)
+      if (is_kept(t, whole_.toroidal[t]))
+        for (const std::uint32_t probe : whole_.toroidal[t].probe)
           if (probe != kNone) needed_[probe] = true;
-    for (std::uint32_t n = 0; n < w_.concave.size(); ++n) {
-      const ConcavePatch& patch = w_.concave[n];
+    for (std::uint32_t n = 0; n < whole_.concave.size(); ++n) {
+      const ConcavePatch& patch = whole_.concave[n];
       needed_[n] = needed_[n] || !faces_that(true, patch).empty();
       for (std::uint32_t c = 0; needed_[n] && c < patch.contact_count; ++c)
-        used[w_.contacts[patch.first_contact + c]] = true;
+        used[whole_.contacts[patch.first_contact + c]] = true;
     }
-    new_atom_.assign(w_.atoms.size(), kNone);
-    for (std::uint32_t a = 0; a < w_.atoms.size(); ++a) {
+    new_atom_.assign(whole_.atoms.size(), kNone);
+    for (std::uint32_t a = 0; a < whole_.atoms.size(); ++a) {
       if (!used[a]) continue;
       new_atom_[a] = static_cast<std::uint32_t>(part_.atom.size());
       part_.atom.push_back(a);
-      s_.atoms.push_back(w_.atoms[a]);
+      surface_.atoms.push_back(whole_.atoms[a]);
     }
   }
 
   void take_components() {
-    new_component_.assign(w_.components.size(), kNone);
-    for (std::uint32_t c = 0; c < w_.components.size(); ++c) {
+    new_component_.assign(whole_.components.size(), kNone);
+    for (std::uint32_t c = 0; c < whole_.components.size(); ++c) {
       if (!keep_[c]) continue;
-      new_component_[c] = static_cast<std::uint32_t>(s_.components.size());
-      s_.components.push_back(w_.components[c]);
-      s_.area += w_.components[c].area;
-      s_.volume += w_.components[c].volume;
+      new_component_[c] = static_cast<std::uint32_t>(surface_.components.size());
+      surface_.components.push_back(whole_.components[c]);
+      surface_.area += whole_.components[c].area;
+      surface_.volume += whole_.components[c].volume;
     }
   }
 
   std::uint32_t take_planes(std::uint32_t first, std::uint32_t count, const std::vector<Plane>& more) {
-    const auto at = static_cast<std::uint32_t>(s_.planes.size());
-    s_.planes.insert(s_.planes.end(), w_.planes.begin() + first, w_.planes.begin() + first + count);
-    s_.planes.insert(s_.planes.end(), more.begin(), more.end());
+    const auto at = static_cast<std::uint32_t>(surface_.planes.size());
+    surface_.planes.insert(surface_.planes.end(), whole_.planes.begin() + first, whole_.planes.begin() + first + count);
+    surface_.planes.insert(surface_.planes.end(), more.begin(), more.end());
     return at;
   }
 
   std::uint32_t take_faces(const std::vector<std::uint32_t>& faces, std::size_t patch) {
-    const auto first = static_cast<std::uint32_t>(s_.faces.size());
+    const auto first = static_cast<std::uint32_t>(surface_.faces.size());
     for (const std::uint32_t f : faces) {
-      Face face = w_.faces[f];
+      Face face = whole_.faces[f];
       face.patch = static_cast<std::uint32_t>(patch);
       face.component = new_component_[face.component];
       face.tip = vertex_(face.tip);
       const std::uint32_t first_loop = face.first_loop;
-      face.first_loop = static_cast<std::uint32_t>(s_.loops.size());
+      face.first_loop = static_cast<std::uint32_t>(surface_.loops.size());
       for (std::uint32_t l = first_loop; l < first_loop + face.loop_count; ++l)
-        take_loop(w_.loops[l], static_cast<std::uint32_t>(s_.faces.size()));
-      s_.faces.push_back(face);
+        take_loop(whole_.loops[l], static_cast<std::uint32_t>(surface_.faces.size()));
+      surface_.faces.push_back(face);
     }
     return first;
   }
 
   void take_loop(const Loop& loop, std::uint32_t face) {
-    s_.loops.push_back({static_cast<std::uint32_t>(s_.half_borders.size()), loop.half_border_count});
-    for (const HalfBorder half : half_borders_of(w_, loop)) {
+    surface_.loops.push_back({static_cast<std::uint32_t>(surface_.half_borders.size()), loop.half_border_count});
+    for (const HalfBorder half : half_borders_of(whole_, loop)) {
       const std::uint32_t border = border_(border_of(half));
-      if (border == s_.borders.size()) s_.borders.push_back(w_.borders[border_of(half)]);
-      s_.borders[border].face[half & 1] = face;
-      s_.half_borders.push_back(2 * border + (half & 1));
+      if (border == surface_.borders.size()) surface_.borders.push_back(whole_.borders[border_of(half)]);
+      surface_.borders[border].face[half & 1] = face;
+      surface_.half_borders.push_back(2 * border + (half & 1));
     }
   }
 
   void take_concave() {
-    for (std::uint32_t n = 0; n < w_.concave.size(); ++n) {
+    for (std::uint32_t n = 0; n < whole_.concave.size(); ++n) {
       if (!needed_[n]) continue;
-      new_concave_[n] = static_cast<std::uint32_t>(s_.concave.size());
-      std::vector<PartedFaces> parts = parted(w_.concave[n]);
-      if (parts.empty()) parts.push_back({});  // a probe between arcs, of which nothing is to be seen
+      new_concave_[n] = static_cast<std::uint32_t>(surface_.concave.size());
+      std::vector<PartedFaces> parts = parted(whole_.concave[n]);
+      if (parts.empty()) parts.push_back({});  // a probe between arcs, without visible faces
       for (const PartedFaces& part : parts) {
-        ConcavePatch patch = w_.concave[n];
+        ConcavePatch patch = whole_.concave[n];
         patch.first_plane = take_planes(patch.first_plane, patch.plane_count(), part.planes);
         patch.parting_count += static_cast<std::uint32_t>(part.planes.size());
-        const auto contact = w_.contacts.begin() + patch.first_contact;
-        patch.first_contact = static_cast<std::uint32_t>(s_.contacts.size());
-        std::transform(contact, contact + patch.contact_count, std::back_inserter(s_.contacts),
+        const auto contact = whole_.contacts.begin() + patch.first_contact;
+        patch.first_contact = static_cast<std::uint32_t>(surface_.contacts.size());
+        std::transform(contact, contact + patch.contact_count, std::back_inserter(surface_.contacts),
                        [&](std::uint32_t atom) { return new_atom_[atom]; });
-        const auto cut = w_.cuts.begin() + patch.first_cut;
-        patch.first_cut = static_cast<std::uint32_t>(s_.cuts.size());
-        s_.cuts.insert(s_.cuts.end(), cut, cut + patch.cut_count);
+        const auto cut = whole_.cuts.begin() + patch.first_cut;
+        patch.first_cut = static_cast<std::uint32_t>(surface_.cuts.size());
+        surface_.cuts.insert(surface_.cuts.end(), cut, cut + patch.cut_count);
         patch.face_count = static_cast<std::uint32_t>(part.faces.size());
-        patch.first_face = take_faces(part.faces, s_.concave.size());
-        s_.concave.push_back(patch);
+        patch.first_face = take_faces(part.faces, surface_.concave.size());
+        surface_.concave.push_back(patch);
       }
     }
   }
 
   void take_toroidal() {
-    for (std::uint32_t t = 0; t < w_.toroidal.size(); ++t) {
-      ToroidalPatch patch = w_.toroidal[t];
-      if (!stays(t, patch)) continue;
+    for (std::uint32_t t = 0; t < whole_.toroidal.size(); ++t) {
+      ToroidalPatch patch = whole_.toroidal[t];
+      if (!is_kept(t, patch)) continue;
       const auto faces = faces_that(true, patch);
-      if (w_.spindle(patch) && !flat()) {
+      if (whole_.spindle(patch) && !has_no_probe()) {
         std::array<bool, 2> pieces{false, false};
         for (const std::uint32_t f : faces) pieces[patch.piece(f - patch.first_face)] = true;
         patch.has_piece = pieces;
       }
-      if (flat()) {  // the border of the same number
+      if (has_no_probe()) {  // the border of the same number
         border_(t);
-        s_.borders.push_back(w_.borders[t]);
+        surface_.borders.push_back(whole_.borders[t]);
       }
       for (std::uint32_t& atom : patch.atom) atom = new_atom_[atom];
       patch.face_count = static_cast<std::uint32_t>(faces.size());
-      patch.first_face = take_faces(faces, s_.toroidal.size());
-      s_.toroidal.push_back(patch);
+      patch.first_face = take_faces(faces, surface_.toroidal.size());
+      surface_.toroidal.push_back(patch);
     }
   }
 
   void take_convex() {
-    for (const ConvexPatch& old : w_.convex)
+    for (const ConvexPatch& old : whole_.convex)
       for (const PartedFaces& part : parted(old)) {
         ConvexPatch patch = old;
         patch.atom = new_atom_[old.atom];
         patch.first_plane = take_planes(old.first_plane, old.plane_count, part.planes);
         patch.plane_count += static_cast<std::uint32_t>(part.planes.size());
         patch.face_count = static_cast<std::uint32_t>(part.faces.size());
-        patch.first_face = take_faces(part.faces, s_.convex.size());
-        s_.convex.push_back(patch);
+        patch.first_face = take_faces(part.faces, surface_.convex.size());
+        surface_.convex.push_back(patch);
       }
   }
 
@@ -224,36 +228,38 @@ class PartBuilder {
     const auto renumber = [&](std::uint32_t& probe) {
       if (probe != kNone) probe = new_concave_[probe];
     };
-    for (ToroidalPatch& patch : s_.toroidal)
+    for (ToroidalPatch& patch : surface_.toroidal)
       for (std::uint32_t& probe : patch.probe) renumber(probe);
-    for (std::uint32_t& probe : s_.cuts) renumber(probe);
+    for (std::uint32_t& probe : surface_.cuts) renumber(probe);
   }
 
   void take_borders() {
-    for (Border& border : s_.borders)
+    for (Border& border : surface_.borders)
       for (std::uint32_t& vertex : border.vertex) vertex = vertex_(vertex);
-    for (const std::uint32_t v : vertex_.order()) s_.vertices.push_back(w_.vertices[v]);
+    for (const std::uint32_t v : vertex_.order()) surface_.vertices.push_back(whole_.vertices[v]);
   }
 
-  const Surface& w_;
+  const Surface& whole_;
   const std::vector<bool>& keep_;
   SurfacePart part_;
-  Surface& s_ = part_.surface;
+  Surface& surface_ = part_.surface;
   Renumbering border_, vertex_;
   std::vector<std::uint32_t> new_atom_, new_component_, new_concave_;
-  std::vector<bool> needed_;  // concave patches of which something stays
+  std::vector<bool> needed_;  // per concave patch: true if it stays
 };
 
-/// Solid angle of a triangle seen from the origin, positive when counter-clockwise (Van Oosterom & Strackee 1983).
+/// Returns the solid angle of a triangle seen from the origin, positive when counter-clockwise (Van Oosterom & Strackee
+/// 1983).
 double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const double x = glm::length(a), y = glm::length(b), z = glm::length(c);
   return 2 * std::atan2(glm::dot(a, glm::cross(b, c)),
                         x * y * z + glm::dot(a, b) * z + glm::dot(b, c) * x + glm::dot(c, a) * y);
 }
 
-// Every face is replaced by triangles from one of its points to chords of its borders, and neighbours share the chords:
-// that is a closed polyhedron, and what its triangles are seen under adds up to whole turns. Faces and triangles lie in
-// the convex hull of the face: in a ball, in a probe, or in the neck between two balls. The point is in none of these.
+// Returns how often faces wind around a point. Every face is replaced by triangles from one of its points to chords of
+// its borders. Neighbours share the chords, so this is a closed polyhedron, and the solid angles of its triangles add
+// up to whole turns. Faces and triangles lie in the convex hull of the face: in a ball, in a probe, or in the neck
+// between two balls. The point is in none of these.
 double winding(const Surface& surface, std::span<const std::uint32_t> faces, const glm::dvec3& point) {
   double sum = 0;
   for (const std::uint32_t f : faces) {
@@ -267,7 +273,7 @@ double winding(const Surface& surface, std::span<const std::uint32_t> faces, con
       const Border& border = surface.borders[border_of(half)];
       const auto at = [&](double t) { return arc_point(border, t) - point; };
       if (!apex) apex = at(0);
-      constexpr int kChords = 3;  // of a whole circle; an arc's own chord would do
+      constexpr int kChords = 3;  // chords of a whole circle; for an arc one would do
       for (int k = 0; k < kChords; ++k) {
         const glm::dvec3 from = at(border.sweep * k / kChords), to = at(border.sweep * (k + 1) / kChords);
         sum += is_backwards(half) ? solid_angle(*apex, to, from) : solid_angle(*apex, from, to);

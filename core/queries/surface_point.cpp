@@ -42,10 +42,11 @@ Curvature curvature(const Surface& surface, std::uint32_t face, const glm::dvec3
 
 namespace {
 
-constexpr double kDoubt = 1e-6;          // Å
-constexpr std::size_t kMostBalls = 200;  // whose triples are tried: a million, in a tenth of a second
+constexpr double kDoubt = 1e-6;  // Å from the surface within which a point may count as not in the solvent
+// The most balls with triples that are tried: a million, in a tenth of a second.
+constexpr std::size_t kMostBalls = 200;
 
-/// Balls around the point that any accessible place near it must avoid, relative to the point.
+/// The balls around a point that any accessible place near it must avoid, relative to the point.
 class Surroundings {
  public:
   Surroundings(std::span<const Ball> atoms, double probe_radius, const glm::dvec3& point) : reach_(probe_radius) {
@@ -57,22 +58,23 @@ class Surroundings {
     }
   }
 
-  bool some_accessible() const {
+  /// True if some accessible place is nearer to the point than the probe's radius.
+  bool has_accessible_place() const {
     if (!covered_) return true;
     const bool few = balls_.size() <= kMostBalls;
     for (std::size_t i = 0; i < balls_.size(); ++i) {
       const double distance = glm::length(balls_[i].center);
-      if (distance > 0.0 && accessible(balls_[i].center * (1.0 - balls_[i].radius / distance), {i})) return true;
+      if (distance > 0.0 && is_accessible(balls_[i].center * (1.0 - balls_[i].radius / distance), {i})) return true;
     }
     for (std::size_t i = 0; i < balls_.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        if (accessible_on_two(i, j, few)) return true;
+        if (has_accessible_on_two(i, j, few)) return true;
     return false;
   }
 
  private:
-  // place: relative to the point, on the spheres of `touching`.
-  bool accessible(const glm::dvec3& place, std::initializer_list<std::size_t> touching) const {
+  // True if a place, relative to the point and on the spheres of `touching`, is near enough and in no other ball.
+  bool is_accessible(const glm::dvec3& place, std::initializer_list<std::size_t> touching) const {
     if (glm::length(place) > reach_ - kDoubt) return false;
     for (std::size_t n = 0; n < balls_.size(); ++n) {
       const glm::dvec3 d = place - balls_[n].center;
@@ -83,7 +85,9 @@ class Surroundings {
     return true;
   }
 
-  bool accessible_on_two(std::size_t i, std::size_t j, bool and_on_three) const {
+  /// True if the nearest place on the circle of two spheres is accessible or, with `and_on_three`, one on a third
+  /// sphere.
+  bool has_accessible_on_two(std::size_t i, std::size_t j, bool and_on_three) const {
     const Ball &a = balls_[i], &b = balls_[j];
     const geometry::Circle circle =
         geometry::circle_of_two_spheres(b.center - a.center, a.radius * a.radius, b.radius * b.radius);
@@ -91,7 +95,7 @@ class Surroundings {
     const glm::dvec3 center = a.center + circle.axis * circle.height;
     const glm::dvec3 across = -center + circle.axis * glm::dot(center, circle.axis);
     const double offset = glm::length(across);
-    if (offset > 0.0 && accessible(center + across * (circle.radius / offset), {i, j})) return true;
+    if (offset > 0.0 && is_accessible(center + across * (circle.radius / offset), {i, j})) return true;
     for (std::size_t k = 0; and_on_three && k < j; ++k)
       for (const double side : {-1.0, 1.0}) {
         const Ball& c = balls_[k];
@@ -99,20 +103,20 @@ class Surroundings {
         const glm::dvec3 place =
             a.center + geometry::probe_of_three(b.center - a.center, c.center - a.center, a.radius * a.radius,
                                                 b.radius * b.radius, c.radius * c.radius, side, h2);
-        if (h2 >= 0.0 && accessible(place, {i, j, k})) return true;
+        if (h2 >= 0.0 && is_accessible(place, {i, j, k})) return true;
       }
     return false;
   }
 
   double reach_;
-  bool covered_ = false;  // by a SAS ball
+  bool covered_ = false;  // true if a SAS ball covers the point
   std::vector<Ball> balls_;
 };
 
 }  // namespace
 
 bool in_solvent(std::span<const Ball> atoms, double probe_radius, const glm::dvec3& point) {
-  return Surroundings(atoms, probe_radius, point).some_accessible();
+  return Surroundings(atoms, probe_radius, point).has_accessible_place();
 }
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes decision weights and finds swallowed atoms: two conventions that all ways to the reduced surface share.
+// Computes decision weights and finds swallowed atoms: two conventions that all methods for the reduced surface share.
 #include "core/reduced_surface/reduced_surface.h"
 
 #include <algorithm>
@@ -18,38 +18,40 @@
 namespace meniscus {
 namespace {
 
-// Atoms this little larger than the one that holds them count as inside: as near as two probe positions count as one.
-// The circle of two spheres nearer than this would be as blurred as their difference.
+// Atoms that protrude from the atom that contains them by less than this count as swallowed: it is the distance at
+// which two probe positions count as one. The circle of two spheres nearer than this would be as blurred as their
+// difference.
 const double kSwallowTolerance = geometry::kMergeDistance;
 
-// Of two balls that nearly coincide the larger one stays; of equal ones that of the lower index.
+// True if ball a stays where two balls nearly coincide: the larger one, or of equal ones the one with the lower index.
 bool outranks(std::span<const Ball> atoms, std::uint32_t a, std::uint32_t b) {
   return atoms[a].radius != atoms[b].radius ? atoms[a].radius > atoms[b].radius : a < b;
 }
 
-constexpr double kWay = 0.7;  // Å, that an atom may go; both may come, so that bonded atoms are pairs, and few others
+constexpr double kWay =
+    0.7;  // Å: allowed motion of an atom; two may approach, so that bonded atoms are pairs, and few others
 
-// Å, of decision weights.
+// Returns the growth of decision weights, Å.
 double growth(std::size_t index) { return 1e-9 * (1.0 + 0.5 * scattered(index)); }
 
 constexpr double kNoHolder = -std::numeric_limits<double>::infinity();
 
-/// Å between the spheres of an atom and of one that it could swallow, where they are nearest; negative: the other one
-/// sticks out. kNoHolder if it could not swallow it.
+/// Returns the smallest distance, Å, between the spheres of an atom and of one that it could swallow; negative if the
+/// other one protrudes. kNoHolder if it could not swallow it.
 double slack_in(std::span<const Ball> atoms, std::uint32_t by, std::uint32_t held) {
   if (!outranks(atoms, by, held)) return kNoHolder;
   return atoms[by].radius - atoms[held].radius - glm::distance(atoms[held].center, atoms[by].center);
 }
 bool holds(double slack) { return slack + kSwallowTolerance >= 0; }
 
-/// An atom that holds another has a centre closer than the largest radius difference.
+/// Returns the largest difference of radii: an atom that swallows another has a centre closer than that.
 double farthest_holder(std::span<const Ball> atoms) {
   const auto [smallest, largest] =
       std::minmax_element(atoms.begin(), atoms.end(), [](auto& a, auto& b) { return a.radius < b.radius; });
   return largest->radius - smallest->radius + kSwallowTolerance;
 }
 
-/// visit(a) for all atoms on all threads, cell by cell, for the cache.
+/// Calls visit(a) for all atoms on all threads, cell by cell, for the cache.
 template <typename Visit>
 void for_each_atom(const BallGrid& grid, const Visit& visit) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.order().size(), 256), [&](const auto& range) {
@@ -102,9 +104,9 @@ std::vector<double> decision_weights(std::span<const Ball> atoms, double probe_r
   return weights;
 }
 
-// The highest are decided first: whether one is swallowed is known before it can swallow. Exact containment hands on
-// from ball to ball, nearness does not: hence all who could swallow one count. N atoms in one place have N² / 2 such
-// pairs, so none are listed, and no more are looked at than can tell how far one sticks out at most.
+// The highest-ranking atoms are decided first, so that it is known whether one is swallowed before it can swallow.
+// Exact containment is transitive, nearness is not: hence all atoms that could swallow one count. N atoms in one place
+// have N² / 2 such pairs, so none are listed, and only as many are tested as the largest protrusion needs.
 std::vector<bool> swallowed_atoms(std::span<const Ball> atoms, double* protruding) {
   if (protruding) *protruding = 0;
   if (atoms.empty()) return {};
@@ -115,14 +117,14 @@ std::vector<bool> swallowed_atoms(std::span<const Ball> atoms, double* protrudin
     is_candidate[a] =
         grid.any_near(atoms[a].center, reach, [&](std::uint32_t b) { return holds(slack_in(atoms, b, a)); });
   });
-  std::vector<std::uint32_t> candidates;  // hardly any in a molecule
+  std::vector<std::uint32_t> candidates;  // almost none in a molecule
   for (std::uint32_t a = 0; a < atoms.size(); ++a)
     if (is_candidate[a]) candidates.push_back(a);
   std::ranges::sort(candidates, [&](std::uint32_t a, std::uint32_t b) { return outranks(atoms, a, b); });
   std::vector<bool> swallowed(atoms.size(), false);
   double most = 0;
   for (const std::uint32_t a : candidates) {
-    double slack = kNoHolder;  // in the one that holds it best
+    double slack = kNoHolder;  // slack in the atom that contains it best
     grid.any_near(atoms[a].center, reach, [&](std::uint32_t b) {
       if (!swallowed[b]) slack = std::max(slack, slack_in(atoms, b, a));
       return slack >= -most;
@@ -138,7 +140,7 @@ std::vector<bool> SwallowedAtoms::of(std::span<const Ball> atoms) {
   const bool near = still_near(atoms);
   if (near && !has_pairs_) find_pairs(atoms);
   if (near && !crowded_ && !any_holds(atoms)) return std::vector<bool>(atoms.size(), false);
-  if (!near) {  // pairs pay for atoms that stay where they are for some frames
+  if (!near) {  // pairs pay off for atoms that stay in place for some frames
     found_at_.assign(atoms.begin(), atoms.end());
     has_pairs_ = false;
   }
@@ -172,8 +174,8 @@ bool SwallowedAtoms::still_near(std::span<const Ball> atoms) const {
 }
 
 void SwallowedAtoms::find_pairs(std::span<const Ball> atoms) {
-  constexpr double kRounding = 1e-6;      // Å: more than what differences of coordinates have
-  constexpr std::size_t kMostPairs = 64;  // an atom: more are no molecule
+  constexpr double kRounding = 1e-6;      // Å: more than the rounding of differences of coordinates
+  constexpr std::size_t kMostPairs = 64;  // per atom; a molecule never has more
   found_at_.assign(atoms.begin(), atoms.end());
   has_pairs_ = true;
   pairs_.clear();

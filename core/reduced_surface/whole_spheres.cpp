@@ -19,7 +19,7 @@
 namespace meniscus {
 namespace {
 
-// Off the axes and planes in which models are symmetric; each with its opposite.
+// Directions off the axes and planes in which models are symmetric; each is used with its opposite.
 constexpr std::array<glm::dvec3, 3> kDirections{{{0.36, 0.48, 0.8}, {0.8, -0.6, 0.0}, {0.48, 0.64, -0.6}}};
 
 // A bound, in roundings of the terms, on the error of a power or of a gap between squared lengths: centres are rounded
@@ -54,7 +54,7 @@ class WholeSpheres {
   }
 
  private:
-  // What ball b does to the point `step` from the centre of a, by the sign of its power.
+  // Decides how ball b covers the point `step` from the centre of a, by the sign of its power.
   Exposure under(std::uint32_t b, std::uint32_t a, const glm::dvec3& step) const {
     const glm::dvec3 d = atoms_[b].center - atoms_[a].center;
     const double square = glm::dot(d, d), weights = weights_[a] + weights_[b];
@@ -65,7 +65,8 @@ class WholeSpheres {
     return power < -error ? Exposure::covered : Exposure::doubtful;
   }
 
-  // The point of the sphere in this direction. The ball that covers it is near, as a rule: the next cells come first.
+  // Tests the point of the sphere in this direction. The ball that covers it is near, as a rule, so the nearest cells
+  // come first.
   Exposure look(std::uint32_t a, const glm::dvec3& direction) const {
     const glm::dvec3 step = std::sqrt(weights_[a]) * direction, point = atoms_[a].center + step;
     bool covered = false, doubtful = false;
@@ -84,7 +85,7 @@ class WholeSpheres {
     return doubtful ? Exposure::doubtful : Exposure::exposed;
   }
 
-  // By the sign that decides whether two spheres have a circle at all.
+  // True by the sign that decides whether two spheres have a circle at all.
   bool meets_another(std::uint32_t a) const {
     bool meets = false;
     const double radius = std::sqrt(weights_[a]);

@@ -77,26 +77,29 @@ void keep_hues(Look& look) {
   look.depth_cue = 0.0f;
 }
 
-using Asked = LookRequest;
+/// member: a function from a look, or from a request, to the address of its number.
+template <typename Member>
+constexpr LookNumber number(std::string_view key, Member member) {
+  return {key, member, [](Look& look) -> float& { return *Member{}(look); }};
+}
+
 constexpr LookNumber kNumbers[] = {
-    {"look.light_strength", &Asked::light_strength, [](Look& look) -> float& { return look.light_strength; }},
-    {"look.ambient", &Asked::ambient, [](Look& look) -> float& { return look.material.ambient; }},
-    {"look.roughness", &Asked::roughness, [](Look& look) -> float& { return look.material.roughness; }},
-    {"look.specular", &Asked::specular, [](Look& look) -> float& { return look.material.specular; }},
-    {"look.shininess", &Asked::shininess, [](Look& look) -> float& { return look.material.shininess; }},
-    {"look.ambient_occlusion", &Asked::ambient_occlusion, [](Look& look) -> float& { return look.ambient_occlusion; }},
-    {"look.ambient_occlusion_radius", &Asked::ambient_occlusion_radius,
-     [](Look& look) -> float& { return look.ambient_occlusion_radius; }},
-    {"look.ambient_occlusion_rays", &Asked::ambient_occlusion_rays,
-     [](Look& look) -> float& { return look.ambient_occlusion_rays; }},
-    {"look.shadows", &Asked::shadows, [](Look& look) -> float& { return look.shadows; }},
-    {"look.shadow_softness", &Asked::shadow_softness, [](Look& look) -> float& { return look.shadow_softness; }},
-    {"look.depth_cue", &Asked::depth_cue, [](Look& look) -> float& { return look.depth_cue; }},
-    {"look.silhouettes", &Asked::silhouettes, nullptr},
-    {"look.outer_lines", &Asked::outer_lines, nullptr},
-    {"look.inner_lines", &Asked::inner_lines, nullptr},
-    {"look.part_lines", &Asked::part_lines, nullptr},
-    {"look.patch_lines", &Asked::patch_lines, nullptr},
+    number("look.light_strength", [](auto& look) { return &look.light_strength; }),
+    number("look.ambient", [](auto& look) { return &look.material.ambient; }),
+    number("look.roughness", [](auto& look) { return &look.material.roughness; }),
+    number("look.specular", [](auto& look) { return &look.material.specular; }),
+    number("look.shininess", [](auto& look) { return &look.material.shininess; }),
+    number("look.ambient_occlusion", [](auto& look) { return &look.ambient_occlusion; }),
+    number("look.ambient_occlusion_radius", [](auto& look) { return &look.ambient_occlusion_radius; }),
+    number("look.ambient_occlusion_rays", [](auto& look) { return &look.ambient_occlusion_rays; }),
+    number("look.shadows", [](auto& look) { return &look.shadows; }),
+    number("look.shadow_softness", [](auto& look) { return &look.shadow_softness; }),
+    number("look.depth_cue", [](auto& look) { return &look.depth_cue; }),
+    {"look.silhouettes", [](LookRequest& look) { return &look.silhouettes; }, nullptr},
+    {"look.outer_lines", [](LookRequest& look) { return &look.outer_lines; }, nullptr},
+    {"look.inner_lines", [](LookRequest& look) { return &look.inner_lines; }, nullptr},
+    {"look.part_lines", [](LookRequest& look) { return &look.part_lines; }, nullptr},
+    {"look.patch_lines", [](LookRequest& look) { return &look.patch_lines; }, nullptr},
 };
 
 template <typename T, typename U>
@@ -138,12 +141,12 @@ std::string hue_changes(const LookRequest& request) {
     if (asked) text += (text.empty() ? "" : ", ") + words;
   };
   add(request.depth_cue.value_or(0.0f) > 0.0f, message("@depth-cue@ fades them into the background"));
-  add(request.specular.value_or(0.0f) > 0.0f, message("@specular@ lays white highlights over them"));
+  add(request.material.specular.value_or(0.0f) > 0.0f, message("@specular@ lays white highlights over them"));
   add(request.light_strength.value_or(1.0f) > 1.0f, message("@light-strength@ above 1 bleaches them"));
   return text;
 }
 
-Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background, Hues hues,
+Look look_of(LookRequest request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background, Hues hues,
              bool outlines_patches) {
   Look look = preset_look(request.preset, picture_size);
   if (hues == Hues::kept) keep_hues(look);
@@ -151,7 +154,7 @@ Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::opt
   look.background = background.value_or(glm::vec3(1.0f));
   take(request.light_direction, look.light_direction);
   for (const LookNumber& number : look_numbers())
-    if (number.in) take(request.*number.asked, number.in(look));
+    if (number.in) take(*number.asked(request), number.in(look));
   if (request.silhouettes) {
     look.silhouettes = *request.silhouettes;
     look.outer_lines = look.inner_lines = look.part_lines = {};

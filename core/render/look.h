@@ -30,6 +30,7 @@ struct Material {
 struct MaterialRequest {
   std::optional<float> ambient{}, roughness{}, specular{}, shininess{};
 
+  bool operator==(const MaterialRequest&) const = default;
   bool empty() const { return !ambient && !roughness && !specular && !shininess; }
   Material over(Material material) const {
     material.ambient = ambient.value_or(material.ambient);
@@ -46,31 +47,41 @@ enum class Lamps {
   white    ///< all white, so bright together that a surface that faces the key light is of the colour given
 };
 
-/// Light, air and ink of a finished picture. The same picture comes out again each time: no effect draws lots.
-struct Look {
+/// The numbers that a look and a request for one have in common: floats, or optional ones.
+template <typename Number, typename MaterialNumbers>
+struct LookNumbers {
+  Number light_strength{};  ///< of the key light, >= 0
+  MaterialNumbers material{};
+
+  /// Strength in [0, 1] of the shade in pockets and clefts. It is found in the picture alone (ground-truth ambient
+  /// occlusion, Jimenez et al. 2016): what the picture does not show casts no shade.
+  Number ambient_occlusion{};
+  Number ambient_occlusion_radius{};  ///< largest distance at which shade is cast, Å
+  /// Rays per pixel towards all of the sky (core/render/cpu/shadow_rays.h) that find the shade if there are any. They
+  /// meet everything that is drawn, even outside of the picture.
+  Number ambient_occlusion_rays{};
+
+  Number shadows{};          ///< darkness in [0, 1] of the shadows that the key light casts
+  Number shadow_softness{};  ///< half the lamp's angular diameter, degrees, below 90; 0: sharp shadows
+
+  /// Share in [0, 1] by which the farthest atoms fade into the background; the nearest do not.
+  Number depth_cue{};
+
+  bool operator==(const LookNumbers&) const = default;
+};
+
+/// Light, depth cue and outlines of a picture. Effects are deterministic.
+struct Look : LookNumbers<float, Material> {
+  Look() {
+    light_strength = 1.0f;
+    ambient_occlusion_radius = 8.0f;
+  }
+
   glm::vec3 background{1.0f};  ///< sRGB in [0, 1]
 
   /// Towards the key light, in the picture's axes (right, up, towards the viewer); any length but 0.
   glm::vec3 light_direction{-0.45f, 0.65f, 0.75f};
-  float light_strength = 1.0f;  ///< of the key light, >= 0
-
   Lamps lamps = Lamps::studio;
-  Material material;
-
-  /// Strength in [0, 1] of the shade in pockets and clefts. From the picture alone (ground-truth ambient occlusion,
-  /// Jimenez et al. 2016): what the picture does not show casts no shade.
-  float ambient_occlusion = 0.0f;
-  /// How far shade is cast, Å.
-  float ambient_occlusion_radius = 8.0f;
-
-  /// More than 0: by so many rays a pixel instead, towards all of the sky (core/render/cpu/shadow_rays.h), which meet
-  /// everything that is drawn, whether the picture shows it or not.
-  float ambient_occlusion_rays = 0.0f;
-
-  /// How dark the shadows are in [0, 1] that what is drawn casts in the key light. 0: light goes through everything.
-  float shadows = 0.0f;
-  /// Half the angle at which the lamp is seen, degrees, below 90: 0 gives sharp shadows.
-  float shadow_softness = 0.0f;
 
   /// Width in pixels, at most 16, of black lines where something is in front of something else, the stronger the
   /// farther, and where parts meet (Coloring::part). 0: none.
@@ -85,9 +96,7 @@ struct Look {
   /// shorter side shows, and half an Å: so that atoms are outlined close by, and domains from afar. 0: of two pixels.
   float line_step = 0.0f;
 
-  /// Share in [0, 1] by which the farthest atoms fade into the background; the nearest do not.
-  float depth_cue = 0.0f;
-  /// True: they take the background's colour, and stay as opaque as they are. False: they get transparent.
+  /// True: far atoms take the background's colour and stay as opaque as they are. False: they get transparent.
   bool depth_cue_keeps_alpha = false;
 
   bool operator==(const Look&) const = default;
@@ -139,28 +148,24 @@ enum class LookPreset {
 };
 
 /// A preset and what differs from it. Nothing: as the preset has it.
-struct LookRequest {
+struct LookRequest : LookNumbers<std::optional<float>, MaterialRequest> {
   LookPreset preset = LookPreset::publication;
   std::optional<glm::vec3> light_direction{};
-  std::optional<float> light_strength{}, ambient{}, roughness{}, specular{}, shininess{};
-  std::optional<float> ambient_occlusion{}, ambient_occlusion_radius{}, ambient_occlusion_rays{};
-  std::optional<float> shadows{}, shadow_softness{};
   std::optional<float> silhouettes{};  ///< pixels; of all lines but those named next
   std::optional<float> outer_lines{}, inner_lines{}, part_lines{};
   std::optional<float> patch_lines{};  ///< pixels
   std::optional<glm::vec3> patch_line_color{};
-  std::optional<float> depth_cue{};
   bool linear_alpha = false;  ///< transparent edges for programs that blend in linear light
 
-  /// classic keeps what its pictures always were.
+  /// Returns true if alpha is linear; `classic` keeps it so for compatibility.
   bool has_linear_alpha() const { return linear_alpha || preset == LookPreset::classic; }
 };
 
-/// A number of a look: the key of its property (core/properties), where a request has it, and the number itself.
+/// A number of a look.
 struct LookNumber {
-  std::string_view key;
-  std::optional<float> LookRequest::*asked;
-  float& (*in)(Look& look);  ///< nothing: a width of lines, of which look_of() knows the order
+  std::string_view key;  ///< of its property (core/properties)
+  std::optional<float>* (*asked)(LookRequest& request);
+  float& (*in)(Look& look);  ///< null for a width of lines, of which look_of() knows the order
 };
 
 /// All of them, in the order of the help.
@@ -182,7 +187,7 @@ std::string hue_changes(const LookRequest& request);
 
 /// background: nothing for a transparent one, in which what is far takes the colour of white paper. What the request
 /// says itself counts before `hues`. outlines_patches: without it there are no lines around any.
-Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background, Hues hues,
+Look look_of(LookRequest request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background, Hues hues,
              bool outlines_patches = false);
 
 }  // namespace meniscus

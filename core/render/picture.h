@@ -57,7 +57,7 @@ inline PictureLayers layers_of(const Framebuffer& picture) {
 
 /// A point that a ray has met.
 struct SeenPoint {
-  std::uint32_t object = 0, atom = 0;  ///< as SurfaceRenderer::render() has them
+  std::uint32_t object = 0, atom = 0;  ///< as StillRenderer::render() has them
   std::uint32_t kind = 0;              ///< as Framebuffer::kind
   std::uint32_t patch = 0;             ///< of that kind, in the tables of a surface; else of no meaning
   glm::dvec3 position{0.0}, normal{0.0, 0.0, 1.0};

@@ -202,17 +202,13 @@ PictureBlock with_neighbors(const PictureBlock& inner, int reach, glm::ivec2 pic
   return {low, glm::min(inner.origin + inner.size + reach, picture_size) - low};
 }
 
-NameHit names_of(std::span<const HitSource> sources) {
-  return [sources = std::vector<HitSource>(sources.begin(), sources.end())](const ray_cast::Hit& hit,
-                                                                            const glm::dvec3& point) {
-    if (hit.primitive == ray_cast::kOnPlane) return HitNames{hit.atom, kNone, Framebuffer::kCap};
-    const HitSource& source = sources[hit.object];
-    if (!source.surface) return HitNames{hit.atom, kNone, Framebuffer::kShape};
-    const ray_cast::Primitive& primitive = source.primitives[hit.primitive];
-    const ComponentLookup components(*source.surface);
-    return HitNames{hit.atom, components.at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, point),
-                    primitive.kind, primitive.patch_index};
-  };
+HitNames names_of(const HitSource& source, const ray_cast::Hit& hit, const glm::dvec3& point) {
+  if (hit.primitive == ray_cast::kOnPlane) return {hit.atom, kNone, Framebuffer::kCap};
+  if (!source.surface) return {hit.atom, kNone, Framebuffer::kShape};
+  const ray_cast::Primitive& primitive = source.primitives[hit.primitive];
+  const std::uint32_t component =
+      ComponentLookup(*source.surface).at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, point);
+  return {hit.atom, component, primitive.kind, primitive.patch_index};
 }
 
 PictureCollector::PictureCollector(const PictureFrame& frame, const RenderSettings& settings, NameHit names,

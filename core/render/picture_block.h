@@ -2,6 +2,7 @@
 // A block of a picture: the parameters for casting it, and the picture put together from such blocks.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -29,6 +30,12 @@ struct PictureBlock {
 
 /// Columns and rows of tiles.
 inline glm::ivec2 tile_counts(const PictureBlock& block) { return (block.size + (kTileEdge - 1)) / kTileEdge; }
+
+/// Returns the first pixel of a tile within its block. Tiles count row by row.
+inline glm::ivec2 tile_origin(const PictureBlock& block, std::size_t tile) {
+  const int number = static_cast<int>(tile), columns = tile_counts(block).x;
+  return kTileEdge * glm::ivec2(number % columns, number / columns);
+}
 
 /// The whole picture as the map of depths sees it that shade is found from (gpu_shaders/look/occlusion.glsl).
 PictureFrame shade_map_frame(const PictureFrame& frame);
@@ -89,8 +96,8 @@ using NameHit = std::function<HitNames(const ray_cast::Hit& hit, const glm::dvec
 /// Tells HitNames::atom alone.
 using NameAtom = std::function<std::uint32_t(const ray_cast::Hit& hit)>;
 
-/// sources: one for each Hit::object; what they point to must stay.
-NameHit names_of(std::span<const HitSource> sources);
+/// Returns the names of a hit of this source at a point, Å.
+HitNames names_of(const HitSource& source, const ray_cast::Hit& hit, const glm::dvec3& point);
 
 /// Takes the inner parts of blocks, and hands over the bands of pictures that are taken so. What it is made of must
 /// stay until the picture is taken.

@@ -2,6 +2,7 @@
 // The objects of a picture: surfaces and shapes, whole or cut by planes, opaque or transparent.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -49,6 +50,14 @@ struct PictureObject {
   bool thickens = false;
   MaterialRequest material;  ///< what differs from the look's
 };
+
+/// Returns the objects of a picture of one surface as it is.
+inline std::array<PictureObject, 1> whole_surface(const Surface& surface, const Coloring& coloring) {
+  std::array<PictureObject, 1> objects;
+  objects[0].surface = &surface;
+  objects[0].coloring = &coloring;
+  return objects;
+}
 
 /// True if only layers show it as it is: cut, seen through, or shapes.
 bool needs_layers(const PictureObject& object);

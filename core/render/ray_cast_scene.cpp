@@ -16,6 +16,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include "core/queries/copies.h"
+#include "core/image/color_space.h"
 #include "core/render/ray_geometry.h"
 #include "core/color/coloring.h"
 
@@ -421,6 +422,17 @@ RayCastScene pack_patches(const PackedCopy& copy, std::span<const BoundedPatch> 
   Packer packer(copy.surface, copy.coloring, frame, scene, &copy.motion, copy.first_atom);
   for (const BoundedPatch& patch : patches) packer.pack(patch.kind, patch.index);
   return scene;
+}
+
+std::vector<glm::vec4> linear_colors(const Coloring& coloring) {
+  const auto atom_count = static_cast<std::uint32_t>(coloring.atom.size());
+  std::vector<glm::vec4> colors;
+  colors.reserve(atom_count + 3);
+  for (std::uint32_t a = 0; a < atom_count; ++a)
+    colors.emplace_back(linear_from_srgb(coloring.atom[a]), coloring.shows(a) ? coloring.opacity_of(a) : 0.0f);
+  if (coloring.kind)
+    for (const glm::vec3& color : *coloring.kind) colors.emplace_back(linear_from_srgb(color), 1.0f);
+  return colors;
 }
 
 std::uint32_t row_count(const Primitive& primitive) {

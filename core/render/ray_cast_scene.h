@@ -20,6 +20,7 @@ namespace meniscus {
 
 struct Coloring;
 struct RigidMotion;
+struct Shapes;
 
 /// The picture's geometry, in double. The pivot lies on the view axis, close to what the middle of the picture shows.
 struct PictureFrame {
@@ -83,6 +84,14 @@ struct PackedCopy {
 /// Some of its patches, as pack_scene() packs the surface where it is, on one thread. Only tie keys count from
 /// first_atom, indices of atoms stay the surface's own.
 RayCastScene pack_patches(const PackedCopy& copy, std::span<const BoundedPatch> patches, const PictureFrame& frame);
+
+/// Packs spheres as convex patches without planes, and all other shapes. Indices of atoms are those of the shapes;
+/// hidden ones are left out. slack: patch_slack() of the picture.
+void pack_shapes(const Shapes& shapes, const Coloring& coloring, const PictureFrame& frame, float slack,
+                 RayCastScene& scene);
+
+/// Returns GpuScene::colors: linear light for each atom, alpha: opacity (0: hidden); then, if by kind, for three kinds.
+std::vector<glm::vec4> linear_colors(const Coloring& coloring);
 
 /// Rows that a primitive has from its first one on.
 std::uint32_t row_count(const ray_cast::Primitive& primitive);

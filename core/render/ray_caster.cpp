@@ -7,9 +7,18 @@
 
 #include "core/base/error.h"
 #include "core/base/message.h"
+#include "core/color/coloring.h"
 #include "core/gpu/program.h"
 
 namespace meniscus {
+
+void upload_coloring(const Coloring& coloring, GpuScene& scene) {
+  scene.atom_count = static_cast<std::uint32_t>(coloring.atom.size());
+  scene.color_by_kind = coloring.kind.has_value();
+  scene.some_hidden = coloring.hides_some();
+  scene.colors.upload(linear_colors(coloring));
+  scene.marks.upload(coloring.line_marks());
+}
 
 kernel::DepthSlices depth_slices(const GpuScene& scene) {
   const float thickness = (scene.last_depth - scene.first_depth) / static_cast<float>(kSliceCount);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Packs a bound and rows for each shape; every number is computed in double and rounded once.
-#include "core/render/shape_packing.h"
+#include "core/render/ray_cast_scene.h"
 
 #include <algorithm>
 #include <bit>

@@ -13,6 +13,7 @@
 #include "core/base/error.h"
 #include "core/base/message.h"
 #include "core/queries/copies.h"
+#include "core/scene/renderers.h"
 
 namespace meniscus {
 namespace {
@@ -44,7 +45,7 @@ void name_atoms(std::span<const SurfaceObject* const> surfaces, Framebuffer& pic
 void name_atoms_as_the_file(const Structure& structure, Framebuffer& picture) {
   const std::size_t own = structure.atoms.size();
   for (std::uint32_t& atom : picture.atom)
-    if (atom != kNone) atom = (atom < own ? structure.atoms[atom] : structure.beside[atom - own]).index;
+    if (atom != kNone) atom = (atom < own ? structure.atoms[atom] : structure.extra_atoms[atom - own]).index;
 }
 
 }  // namespace
@@ -180,7 +181,7 @@ const SurfaceObject* surface_beside(const BesideSurface& beside, const PictureOb
   return nullptr;
 }
 
-Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
+Framebuffer draw(StillRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
                  const RenderSettings& settings, const Survey& survey, const FigureMotion* motion) {
   // In bands or as a whole, as the renderer gives it.
   const auto renamed = [&](const auto& render, const auto& rename, const auto& name_seen) {

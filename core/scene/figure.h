@@ -10,7 +10,6 @@
 #include "core/camera/camera.h"
 #include "core/render/picture.h"
 #include "core/render/picture_object.h"
-#include "core/render/surface_renderer.h"
 #include "core/scene/cut.h"
 #include "core/scene/figure_motion.h"
 #include "core/scene/figure_object.h"
@@ -18,6 +17,8 @@
 #include "core/scene/representations.h"
 
 namespace meniscus {
+
+class StillRenderer;
 
 /// What is shown of a molecule, and how.
 struct FigureRequest {
@@ -100,8 +101,8 @@ using Survey = std::function<void(const CastSurvey& cast)>;
 
 /// Renders the figure. The AOV `atom` is the place in the file (Atom::index), as everywhere; copies share it.
 /// Framebuffer::seen has places in shown_atoms(). motion: for settings.motion, to the next frame. Throws as
-/// SurfaceRenderer::render() does.
-Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
+/// StillRenderer::render() does.
+Framebuffer draw(StillRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
                  const RenderSettings& settings, const Survey& survey = {}, const FigureMotion* motion = nullptr);
 
 }  // namespace meniscus

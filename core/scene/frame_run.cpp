@@ -126,7 +126,7 @@ std::vector<Atom> without_added(const std::vector<Atom>& atoms, const Topology& 
 /// Adds those from which selections measure distances.
 void add_measured(const Selection& selection, const std::vector<Atom>& atoms, std::vector<std::uint32_t>& places) {
   if (!selection.uses_positions()) return;
-  const std::vector<bool> measured = selection.reach(atoms).measured;
+  const std::vector<bool> measured = selection.possible(atoms).measured;
   for (std::uint32_t n = 0; n < atoms.size(); ++n)
     if (measured[n]) places.push_back(n);
 }
@@ -199,9 +199,9 @@ void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& req
   atoms_change_ = reading.reading.selection && reading.reading.selection->uses_positions();
   if (!request.select_once && chooses_by_positions(reading, request)) {
     file_ = open_molecule(reading);
-    structure_ = file_->reach();
+    structure_ = file_->possible_structure();
     if (request.context) file_together_ = open_molecule(with_context(reading, *request.context));
-    if (request.context) together_ = file_together_->reach();
+    if (request.context) together_ = file_together_->possible_structure();
   } else {
     structure_ = read_molecule(reading);
     if (request.context) together_ = read_molecule(with_context(reading, *request.context));
@@ -270,9 +270,9 @@ void FrameRun::read(std::uint64_t number, Frame& frame) {
   const std::uint64_t next = place + copies_;
   BetweenFrames between{{}, source(run_[place]), source(run_[next]), {}, 0.0};
   between.share = static_cast<double>(step) / static_cast<double>(copies_);
-  for (std::uint64_t k = copies_; k <= kPathReach * copies_; k += copies_) {
+  for (std::uint64_t k = copies_; k <= kPathNeighbors * copies_; k += copies_) {
     if (k <= place) between.before.push_back(source(run_[place - k]));
-    if (next + k < run_.size()) between.behind.push_back(source(run_[next + k]));
+    if (next + k < run_.size()) between.after.push_back(source(run_[next + k]));
   }
   frames_->read_between(between, frame);
 }
@@ -289,7 +289,7 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
     for (const Atom& atom : without_added(atoms, topology)) own.push_back(atom.index);
   };
   add_own(structure_.atoms);
-  add_own(structure_.beside);
+  add_own(structure_.extra_atoms);
   if (together_) add_own(together_->atoms);
   std::vector<Bond> bonds;
   if (request.whole != WholeBy::nothing || interpolates_) bonds = known_bonds(request.whole);
@@ -330,7 +330,7 @@ glm::dvec3 FrameRun::position_of(const Atom& atom, const std::vector<glm::dvec3>
 
 void FrameRun::place(const std::vector<glm::dvec3>& positions, Structure& structure) const {
   for (Atom& atom : structure.atoms) atom.position = position_of(atom, positions);
-  for (Atom& atom : structure.beside) atom.position = position_of(atom, positions);
+  for (Atom& atom : structure.extra_atoms) atom.position = position_of(atom, positions);
 }
 
 Structure FrameRun::structure_at(const Frame& frame, std::uint64_t number) const {

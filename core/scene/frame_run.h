@@ -83,7 +83,7 @@ class FrameRun {
   /// At the first frame of the run.
   const Structure& structure() const { return structure_; }
   /// The same with all atoms that any frame may have.
-  const Structure& reach() const { return file_ ? file_->reach() : structure_; }
+  const Structure& reach() const { return file_ ? file_->possible_structure() : structure_; }
   /// All atoms of the file, as they are there.
   std::vector<Atom> all_atoms();
   /// Whether the structures of two frames may have different atoms, or different ones beside them.

@@ -15,7 +15,7 @@ namespace meniscus {
 std::vector<bool> hidden_atoms(const Selection& shown, const Structure& structure) {
   // What is near a ligand can be asked for where the ligand is drawn beside the surface alone.
   std::vector<bool> visible =
-      structure.beside.empty() ? shown.evaluate(structure.atoms) : shown.evaluate(shown_atoms(structure));
+      structure.extra_atoms.empty() ? shown.evaluate(structure.atoms) : shown.evaluate(shown_atoms(structure));
   visible.resize(structure.atoms.size());
   if (std::find(visible.begin(), visible.end(), true) == visible.end()) {
     throw InputError(structure.file, 0,

@@ -189,7 +189,7 @@ Scene readied(Scene scene) {
   std::string atoms = "(" + molecule.interface->left.text() + ") or (" + molecule.interface->right.text() + ")";
   if (molecule.reading.selection) atoms = "(" + molecule.reading.selection->text() + ") and (" + atoms + ")";
   molecule.reading.selection = parse_selection(atoms);
-  molecule.reading.sides = {molecule.interface->left, molecule.interface->right};
+  molecule.reading.required_parts = {molecule.interface->left, molecule.interface->right};
   return scene;
 }
 

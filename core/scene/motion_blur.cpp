@@ -46,7 +46,7 @@ Camera MotionBlur::camera(std::uint64_t place, double later) const {
   return camera_between(cameras_[place], cameras_[other], std::abs(later));
 }
 
-Framebuffer MotionBlur::draw(std::uint64_t place, SurfaceRenderer& renderer, RenderSettings settings) {
+Framebuffer MotionBlur::draw(std::uint64_t place, StillRenderer& renderer, RenderSettings settings) {
   const std::lock_guard lock(mutex_);
   settings.take_band = {};
   settings.progress = {};

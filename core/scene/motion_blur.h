@@ -10,7 +10,6 @@
 #include "core/camera/camera.h"
 #include "core/gpu/egl_context.h"
 #include "core/render/picture.h"
-#include "core/render/surface_renderer.h"
 #include "core/scene/figure.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
@@ -30,7 +29,7 @@ class MotionBlur {
 
   /// The molecule at this place of the run: the mean of its pictures, in linear light. On any thread, one at a time.
   /// Throws as reading, computing and drawing do.
-  Framebuffer draw(std::uint64_t place, SurfaceRenderer& renderer, RenderSettings settings);
+  Framebuffer draw(std::uint64_t place, StillRenderer& renderer, RenderSettings settings);
 
  private:
   Camera camera(std::uint64_t place, double later) const;

@@ -107,10 +107,7 @@ Scene values_of(const FigureObjectRequest& object) {
     own.molecule.color_named = true;
   }
   own.molecule.color.opacities = object.opacities;
-  own.look.ambient = object.material.ambient;
-  own.look.roughness = object.material.roughness;
-  own.look.specular = object.material.specular;
-  own.look.shininess = object.material.shininess;
+  own.look.material = object.material;
   own.figure.representations.stick_radius = object.radius;
   own.molecule.surface.kind = object.kind;
   own.molecule.surface.probe_radius = object.probe_radius;
@@ -153,7 +150,7 @@ FigureObjectRequest parse_figure_object(std::string_view text) {
     throw RequestError("object: \"probe\": a van der Waals surface has none; leave it out");
   object.color = color_of(own);
   object.opacities = own.molecule.color.opacities;
-  object.material = {own.look.ambient, own.look.roughness, own.look.specular, own.look.shininess};
+  object.material = own.look.material;
   object.radius = own.figure.representations.stick_radius;
   object.kind = surface.kind;
   object.probe_radius = surface.probe_radius;

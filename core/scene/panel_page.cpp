@@ -244,7 +244,7 @@ class PanelPage::Output {
   int row_ = 0;
 };
 
-void PanelPage::write(const std::filesystem::path& path, SurfaceRenderer& renderer, const ImageSettings& image,
+void PanelPage::write(const std::filesystem::path& path, StillRenderer& renderer, const ImageSettings& image,
                       const std::function<void()>& done) {
   Output output(path, *this, image);
   for (std::size_t first = 0; first < panels_.size(); first += columns_) {

@@ -15,7 +15,6 @@
 #include "core/camera/camera.h"
 #include "core/render/image_output.h"
 #include "core/render/legend.h"
-#include "core/render/surface_renderer.h"
 #include "core/scene/figure.h"
 #include "core/scene/scene.h"
 #include "core/scene/scene_picture.h"
@@ -61,7 +60,7 @@ class PanelPage {
 
   /// Draws panel after panel, and writes the page, one row of them after another. image: its background is behind all
   /// panels. done: called after each. Throws as ImageWriter and annotate() do. Once.
-  void write(const std::filesystem::path& path, SurfaceRenderer& renderer, const ImageSettings& image,
+  void write(const std::filesystem::path& path, StillRenderer& renderer, const ImageSettings& image,
              const std::function<void()>& done = {});
 
  private:

@@ -8,7 +8,7 @@ namespace meniscus {
 
 PictureDevice::PictureDevice(const SurfaceRequest& request) : thread_limit_(request.threads) {
   if (!request.cpu) find_gl(request.gl);
-  renderer_ = context_ ? make_gl_renderer(*context_) : make_cpu_renderer();
+  renderer_ = context_ ? make_gl_still_renderer(*context_) : std::make_unique<StillRenderer>();
 }
 
 // Automatic never lands on software GL. A list of devices does not tell: only a context knows its renderer.

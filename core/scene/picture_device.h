@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/gpu/egl_context.h"
-#include "core/render/surface_renderer.h"
+#include "core/scene/renderers.h"
 #include "core/scene/surface_request.h"
 #include "core/scene/thread_limit.h"
 
@@ -19,7 +19,7 @@ class PictureDevice {
   /// where GL is asked for by name.
   explicit PictureDevice(const SurfaceRequest& request);
 
-  SurfaceRenderer& renderer() { return *renderer_; }
+  StillRenderer& renderer() { return *renderer_; }
   /// Current on this thread; nullptr where the CPU makes the pictures.
   const EglContext* context() const { return context_ ? &*context_ : nullptr; }
 
@@ -28,7 +28,7 @@ class PictureDevice {
 
   ThreadLimit thread_limit_;
   std::optional<EglContext> context_;
-  std::unique_ptr<SurfaceRenderer> renderer_;
+  std::unique_ptr<StillRenderer> renderer_;
 };
 
 }  // namespace meniscus

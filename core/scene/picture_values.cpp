@@ -98,19 +98,20 @@ Written write_side(const Property& property, const Scene& scene) {
   return {length->second};
 }
 
-std::optional<float> LookRequest::*number_of(const Property& property) {
-  return std::ranges::find(look_numbers(), property.key, &LookNumber::key)->asked;
+std::optional<float>& number_of(const Property& property, LookRequest& look) {
+  return *std::ranges::find(look_numbers(), property.key, &LookNumber::key)->asked(look);
 }
 
 /// Widths of lines are lengths.
 void read_look_number(const Property& property, Texts texts, Scene& scene) {
-  std::optional<float>& number = scene.look.*number_of(property);
+  std::optional<float>& number = number_of(property, scene.look);
   if (property.type == ValueType::number) return read(property, texts, number);
   read_length(property, texts, scene, number, "a line has");
 }
 
 Written write_look_number(const Property& property, const Scene& scene) {
-  return written_length(property, scene, scene.look.*number_of(property));
+  LookRequest look = scene.look;
+  return written_length(property, scene, number_of(property, look));
 }
 
 template <typename Member>

@@ -93,7 +93,7 @@ ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorSc
 
 std::vector<Atom> shown_atoms(const Structure& structure) {
   std::vector<Atom> atoms = structure.atoms;
-  atoms.insert(atoms.end(), structure.beside.begin(), structure.beside.end());
+  atoms.insert(atoms.end(), structure.extra_atoms.begin(), structure.extra_atoms.end());
   return atoms;
 }
 

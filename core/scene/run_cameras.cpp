@@ -98,7 +98,7 @@ void include(const Structure& structure, RunExtent& extent) {
   };
   for (const Ball& ball : standing_balls(structure))
     for (Box* const box : {&extent.surface, &extent.shown}) include_ball(ball, *box);
-  for (const Atom& atom : structure.beside) include_ball({atom.position, atom.radius}, extent.shown);
+  for (const Atom& atom : structure.extra_atoms) include_ball({atom.position, atom.radius}, extent.shown);
 }
 
 }  // namespace

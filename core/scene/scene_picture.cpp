@@ -71,7 +71,7 @@ SceneFigure made_figure(const Scene& asked, const EglContext* context) {
   if (asked.image.extent)
     throw RequestError("image.extent: this draws the complete surface; `meniscus render` draws without it");
   Scene scene = readied(asked);
-  settle_selections(scene.molecule, scene.frames, {.figure = &scene.figure, .view = &scene.picture});
+  settle_selections(scene);
   scene.molecule.surface.cpu = context == nullptr;
   const GivenCameras given = given_cameras(scene.picture, scene.run_camera);
   Structure structure = read_molecule(scene.molecule);
@@ -80,7 +80,7 @@ SceneFigure made_figure(const Scene& asked, const EglContext* context) {
   return {std::move(scene), given, std::move(aim), std::move(figure)};
 }
 
-Framebuffer scene_picture(const Scene& asked, SurfaceRenderer& renderer, const EglContext* context) {
+Framebuffer scene_picture(const Scene& asked, StillRenderer& renderer, const EglContext* context) {
   check_picture(asked);
   auto [scene, given, aim, figure] = made_figure(asked, context);
   const PictureLayout layout(scene, key_of(figure.molecule, scene.figure, figure.beside));

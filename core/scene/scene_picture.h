@@ -8,7 +8,6 @@
 #include "core/render/annotation.h"
 #include "core/render/legend.h"
 #include "core/render/picture.h"
-#include "core/render/surface_renderer.h"
 #include "core/scene/figure.h"
 #include "core/scene/run_cameras.h"
 #include "core/scene/scene.h"
@@ -60,6 +59,6 @@ SceneFigure made_figure(const Scene& scene, const EglContext* context);
 /// The picture of a scene, as `meniscus render` makes it of one molecule: read, computed, seen and drawn. scene:
 /// complete(). context: of the renderer, in which surfaces are computed, too; nullptr: on the CPU. Throws as
 /// made_figure(), check_picture() and drawing do.
-Framebuffer scene_picture(const Scene& scene, SurfaceRenderer& renderer, const EglContext* context);
+Framebuffer scene_picture(const Scene& scene, StillRenderer& renderer, const EglContext* context);
 
 }  // namespace meniscus

@@ -59,27 +59,27 @@ struct Expressions {
 };
 
 void settle(const std::vector<Selection*>& selections, const std::vector<Atom>& atoms) {
-  for (Selection* selection : selections) *selection = selection->settled(atoms, selection->evaluate(atoms));
+  for (Selection* selection : selections) *selection = selection->fixed(atoms, selection->evaluate(atoms));
 }
 
 }  // namespace
 
-void settle_selections(MoleculeRequest& molecule, RunRequest& run, const OtherSelections& others) {
-  if (!run.select_once) return;
+void settle_selections(Scene& scene, const std::vector<Selection*>& of_atoms) {
+  if (!scene.frames.select_once) return;
   Expressions expressions;
-  expressions.add(molecule);
-  expressions.add(run.context, expressions.of_file);
-  if (others.figure) expressions.add(*others.figure);
-  if (others.view) expressions.add(others.view->zoom_to, expressions.of_surface);
-  if (others.motion) expressions.add(others.motion->follow, expressions.of_surface);
-  for (Selection* selection : others.of_atoms) expressions.of_surface.push_back(selection);
+  expressions.add(scene.molecule);
+  expressions.add(scene.frames.context, expressions.of_file);
+  expressions.add(scene.figure);
+  expressions.add(scene.picture.zoom_to, expressions.of_surface);
+  expressions.add(scene.run_camera.follow, expressions.of_surface);
+  for (Selection* selection : of_atoms) expressions.of_surface.push_back(selection);
   expressions.keep_by_positions();
-  const bool backbones = molecule.reading.secondary_structure;
+  const bool backbones = scene.molecule.reading.secondary_structure;
   if (expressions.of_file.empty() && expressions.of_surface.empty() && !backbones)
     throw RequestError(message("@select-once@: no selection of this run depends on where atoms are; leave it out"));
-  RunRequest first = run;
+  RunRequest first = scene.frames;
   first.select_once = false;
-  FrameRun frames(molecule, first);
+  FrameRun frames(scene.molecule, first);
   settle(expressions.of_file, frames.all_atoms());
   settle(expressions.of_surface, shown_atoms(frames.structure()));
 }

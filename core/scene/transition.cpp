@@ -276,7 +276,7 @@ Framebuffer Transition::finished(const Framebuffer& drawn, const Side& side, dou
   return picture;
 }
 
-Framebuffer Transition::picture(double share, SurfaceRenderer& renderer) {
+Framebuffer Transition::picture(double share, StillRenderer& renderer) {
   const auto drawn = [&](MoleculeShot shot) {
     return draw(renderer, std::move(shot.figure), shot.scene.figure, shot.camera, shot.settings);
   };

@@ -13,7 +13,6 @@
 #include "core/camera/camera.h"
 #include "core/gpu/egl_context.h"
 #include "core/render/picture.h"
-#include "core/render/surface_renderer.h"
 #include "core/scene/figure.h"
 #include "core/scene/scene.h"
 #include "core/scene/scene_picture.h"
@@ -78,7 +77,7 @@ class Transition {
 
   /// The whole picture, without its background. share: from 0, the picture of the first shot, to 1. Throws as computing
   /// and drawing do.
-  Framebuffer picture(double share, SurfaceRenderer& renderer);
+  Framebuffer picture(double share, StillRenderer& renderer);
 
   /// What is drawn of the molecule there: of the first scene and, if something dissolves, of the second. Their pictures
   /// have the weights 1 - share and share. Throws as computing does.

@@ -72,7 +72,7 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
   }
   framed_ = shown_;
   for (std::size_t a = 0; a < framed_.size(); ++a) framed_[a] = framed_[a] || structure.atoms[a].shown != 0;
-  beside_.assign(structure.beside.size(), true);
+  beside_.assign(structure.extra_atoms.size(), true);
   frames_all_ = !request.zoom_to;
   if (request.zoom_to) {
     const std::vector<Atom> atoms = shown_atoms(structure);
@@ -100,8 +100,8 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
 
 std::vector<Ball> ViewAim::framed_beside(const Structure& structure) const {
   std::vector<Ball> balls;
-  for (std::size_t n = 0; n < structure.beside.size(); ++n)
-    if (beside_[n]) balls.push_back({structure.beside[n].position, structure.beside[n].radius});
+  for (std::size_t n = 0; n < structure.extra_atoms.size(); ++n)
+    if (beside_[n]) balls.push_back({structure.extra_atoms[n].position, structure.extra_atoms[n].radius});
   return balls;
 }
 

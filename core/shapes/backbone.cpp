@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guide points by residue, a spline through them, and an ellipse swept along it.
+// Finds guide points of residues, draws a spline through them, and sweeps an ellipse along it.
 #include "core/shapes/backbone.h"
 
 #include <algorithm>
@@ -18,11 +18,12 @@ namespace {
 
 constexpr int kSteps = 8;             // sections between two residues
 constexpr std::uint32_t kSides = 16;  // points of a section
-constexpr int kCapRings = 3;
-constexpr double kLongestStep = 4.5, kLongestPhosphateStep = 8.5;  // Å; those of bonded residues are 3.8 and 5 to 7.5
-constexpr double kShortestStep = 0.5;                              // nearer ones are duplicates
-constexpr double kHelixWidth = 4.0, kStrandWidth = 3.5, kArrowWidth = 6.0;  // half of it, in radii
-constexpr double kArrowStep = 0.05;                                         // Å that its shoulder takes
+constexpr int kCapRings = 3;          ///< rings of vertices on a round end
+// Å; steps between bonded residues are 3.8 and 5 to 7.5.
+constexpr double kLongestStep = 4.5, kLongestPhosphateStep = 8.5;
+constexpr double kShortestStep = 0.5;  // Å; residues that are nearer are duplicates
+constexpr double kHelixWidth = 4.0, kStrandWidth = 3.5, kArrowWidth = 6.0;  // half widths, in radii
+constexpr double kArrowStep = 0.05;                                         // Å, the length of an arrow's shoulder
 
 /// A residue that the middle line goes through.
 struct Guide {
@@ -31,13 +32,14 @@ struct Guide {
   std::optional<glm::dvec3> oxygen;
   bool nucleic;
   SecondaryStructure kind;
-  glm::dvec3 side{0.0};  ///< unit, along the width; zero: not known
+  glm::dvec3 side{0.0};  ///< unit vector along the width; zero if it is not known
 };
 
 bool is_any(std::string_view name, std::initializer_list<std::string_view> names) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// Returns the guides of all residues with selected guide atoms, in the order of their file.
 std::vector<Guide> guides_of(std::span<const Atom> atoms, const std::vector<bool>& selected) {
   const std::vector<std::uint32_t> order = file_order(atoms);
   std::vector<Atom> sorted;
@@ -51,7 +53,7 @@ std::vector<Guide> guides_of(std::span<const Atom> atoms, const std::vector<bool
       const Atom& atom = sorted[last];
       if (is_any(atom.name, {"O", "O1", "OT1", "OC1"}) && !oxygen) oxygen = last;
       if (!selected[order[last]] || atom.kind == AtomClass::ion || atom.kind == AtomClass::water) continue;
-      const bool bead = atom.name == "BB" && atom.element == 0;  // of Martini, for a whole residue's backbone
+      const bool bead = atom.name == "BB" && atom.element == 0;  // Martini's bead for the backbone of a residue
       if (((atom.name == "CA" && atom.element == 6) || bead) && !alpha) alpha = last;
       if (atom.name == "P" && !phosphorus) phosphorus = last;
       if (is_any(atom.name, {"C4'", "C4*"}) && !sugar) sugar = last;
@@ -64,7 +66,7 @@ std::vector<Guide> guides_of(std::span<const Atom> atoms, const std::vector<bool
   return guides;
 }
 
-/// Unbroken pieces, without duplicates.
+/// Divides guides into unbroken pieces, and drops duplicates.
 std::vector<std::vector<Guide>> pieces_of(std::span<const Atom> atoms, const std::vector<Guide>& guides) {
   std::vector<std::vector<Guide>> pieces;
   for (const Guide& guide : guides) {
@@ -85,12 +87,14 @@ std::vector<std::vector<Guide>> pieces_of(std::span<const Atom> atoms, const std
   return pieces;
 }
 
+/// Returns a unit vector perpendicular to v.
 glm::dvec3 any_normal_to(const glm::dvec3& v) {
   const glm::dvec3 helper = std::abs(v.x) < 0.6 * glm::length(v) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   return glm::normalize(glm::cross(v, helper));
 }
 
-/// Directions along the width: in the peptide planes, else across the curve; never turned around from one to the next.
+/// Sets the directions along the width: in the peptide planes, or else across the curve. From one to the next they
+/// never turn around.
 void find_sides(std::vector<Guide>& piece) {
   glm::dvec3 last(0.0);
   for (std::size_t n = 0; n < piece.size(); ++n) {
@@ -111,7 +115,7 @@ void find_sides(std::vector<Guide>& piece) {
   }
 }
 
-/// Strands zigzag from residue to residue; a ribbon goes through the middle.
+/// Smooths strands, which zigzag from residue to residue, so that their ribbon goes through the middle.
 void smooth_strands(std::vector<Guide>& piece) {
   const std::vector<Guide> given = piece;
   for (std::size_t n = 1; n + 1 < piece.size(); ++n) {
@@ -122,29 +126,30 @@ void smooth_strands(std::vector<Guide>& piece) {
   }
 }
 
-/// Where an ellipse is: W x H = T.
+/// The frame of an ellipse (Å): its width is along `side`, its height along `tangent` x `side`.
 struct Section {
   glm::dvec3 center, tangent, side;
   double half_width, half_height;
   std::uint32_t atom;
 };
 
+/// Sweeps an ellipse along the spline through a piece.
 class Sweep {
  public:
-  Sweep(const std::vector<Guide>& piece, double radius) : piece_(piece), radius_(radius) { place(); }
+  Sweep(const std::vector<Guide>& piece, double radius) : piece_(piece), radius_(radius) { add_sections(); }
 
   const std::vector<Section>& sections() const { return sections_; }
 
-  /// Appends a body with round ends.
+  /// Appends a body with round ends to the mesh.
   void add_to(MeshShape& mesh) const {
     const Section &first = sections_.front(), &last = sections_.back();
-    std::uint32_t ring = cap(mesh, first, -1.0);
+    std::uint32_t ring = add_start_cap(mesh, first, -1.0);
     for (std::size_t n = 0; n < sections_.size(); ++n) {
       const std::uint32_t next = add_ring(mesh, sections_[n], 1.0, 0.0);
-      band(mesh, ring, next);
+      add_band(mesh, ring, next);
       ring = next;
     }
-    cap_end(mesh, last, ring);
+    add_end_cap(mesh, last, ring);
   }
 
  private:
@@ -153,13 +158,14 @@ class Sweep {
     return piece_[n].kind == SecondaryStructure::strand ? kStrandWidth * radius_ : radius_;
   }
 
-  /// The last residue of a strand before another kind or the end: an arrow leads to it.
+  /// True for the last residue of a strand before another kind or the end: an arrow leads to it.
   bool ends_strand(std::size_t n) const {
     return piece_[n].kind == SecondaryStructure::strand && n > 0 && piece_[n - 1].kind == SecondaryStructure::strand &&
            (n + 1 == piece_.size() || piece_[n + 1].kind != SecondaryStructure::strand);
   }
 
-  void place() {
+  /// Adds the sections of the whole piece.
+  void add_sections() {
     const std::size_t last = piece_.size() - 1;
     for (std::size_t n = 0; n < last; ++n) {
       const bool arrow = ends_strand(n + 1);
@@ -176,7 +182,7 @@ class Sweep {
     add_section(last - 1, 1.0, ends_strand(last) ? radius_ : half_width(last));
   }
 
-  /// At the share t of the way from residue n to the next; a little less than 0 is allowed.
+  /// Adds a section at the share t of the way from residue n to the next; t may be a little less than 0.
   void add_section(std::size_t n, double t, double width) {
     const auto point = [&](std::ptrdiff_t k) {
       const auto count = static_cast<std::ptrdiff_t>(piece_.size());
@@ -206,7 +212,7 @@ class Sweep {
     sections_.push_back(section);
   }
 
-  /// The ellipse, shrunk by `share` and moved by `shift` half heights along the tangent.
+  /// Adds the ellipse, scaled by `share` and moved by `shift` half heights along the tangent; returns its first vertex.
   std::uint32_t add_ring(MeshShape& mesh, const Section& s, double share, double shift) const {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const glm::dvec3 up = glm::cross(s.tangent, s.side);
@@ -226,7 +232,8 @@ class Sweep {
     mesh.atoms.push_back(atom);
   }
 
-  static void band(MeshShape& mesh, std::uint32_t low, std::uint32_t high) {
+  /// Adds the triangles between two rings of vertices.
+  static void add_band(MeshShape& mesh, std::uint32_t low, std::uint32_t high) {
     for (std::uint32_t k = 0; k < kSides; ++k) {
       const std::uint32_t after = (k + 1) % kSides;
       mesh.triangles.push_back({low + k, low + after, high + after});
@@ -234,8 +241,8 @@ class Sweep {
     }
   }
 
-  /// A round end before the first section; returns its last ring.
-  std::uint32_t cap(MeshShape& mesh, const Section& s, double direction) const {
+  /// Adds a round end before the first section; returns its last ring.
+  std::uint32_t add_start_cap(MeshShape& mesh, const Section& s, double direction) const {
     const auto tip = static_cast<std::uint32_t>(mesh.positions.size());
     add_vertex(mesh, s.center + direction * s.half_height * s.tangent, direction * s.tangent, s.atom);
     std::uint32_t ring = 0;
@@ -245,17 +252,18 @@ class Sweep {
       if (n == kCapRings)
         for (std::uint32_t k = 0; k < kSides; ++k) mesh.triangles.push_back({tip, next + (k + 1) % kSides, next + k});
       else
-        band(mesh, ring, next);
+        add_band(mesh, ring, next);
       ring = next;
     }
     return ring;
   }
 
-  void cap_end(MeshShape& mesh, const Section& s, std::uint32_t ring) const {
+  /// Adds a round end after the last section, from its ring on.
+  void add_end_cap(MeshShape& mesh, const Section& s, std::uint32_t ring) const {
     for (int n = 1; n <= kCapRings; ++n) {
       const double angle = 0.5 * std::numbers::pi * n / (kCapRings + 1);
       const std::uint32_t next = add_ring(mesh, s, std::cos(angle), std::sin(angle));
-      band(mesh, ring, next);
+      add_band(mesh, ring, next);
       ring = next;
     }
     const auto tip = static_cast<std::uint32_t>(mesh.positions.size());

@@ -16,21 +16,23 @@
 namespace meniscus {
 namespace {
 
-constexpr double kLongestBaseBond = 2.0;  // Å, of a ring and to its sugar
+constexpr double kLongestBaseBond = 2.0;  // Å, in a ring and from a ring to its sugar
 constexpr double kLongestRung = 10.0;     // Å; C1' is 4 to 6 from the middle line
 
-/// The atoms that a base is drawn of: places in Structure::atoms.
+/// The atoms that a base is drawn from, as indices into Structure::atoms.
 struct Base {
-  std::array<std::optional<std::uint32_t>, 10> ring;  ///< by the number in the name; the first is not used
+  std::array<std::optional<std::uint32_t>, 10> ring;  ///< by the number in the atom's name; the first entry is not used
   std::array<std::string_view, 10> name;
   std::optional<std::uint32_t> sugar;  ///< C1'
   std::uint32_t residue = 0, copy = 0;
 };
 
-/// Names of a place in the rings, those of what hangs on it left out: the better one first.
+/// The letters that the names of ring atoms with each number begin with, the better one first; those of substituents
+/// are left out.
 constexpr std::array<std::string_view, 10> kLetters{"", "NC", "CN", "NC", "CN", "CN", "CN", "NC", "CN", "NC"};
 
-void take(Base& base, const Atom& atom, std::uint32_t place) {
+/// Adds an atom to a base if it is one of its ring or its sugar.
+void add_atom(Base& base, const Atom& atom, std::uint32_t place) {
   if (atom.name == "C1'" || atom.name == "C1*") base.sugar = place;
   if (atom.name.size() != 2 || atom.name[1] < '1' || atom.name[1] > '9') return;
   const auto number = static_cast<std::size_t>(atom.name[1] - '0');
@@ -41,6 +43,7 @@ void take(Base& base, const Atom& atom, std::uint32_t place) {
   base.name[number] = atom.name;
 }
 
+/// Returns the selected atoms of bases, residue by residue in the order of the file.
 std::vector<Base> bases_of(const std::vector<Atom>& atoms, const std::vector<bool>& selected) {
   std::vector<Base> found;
   const std::vector<std::uint32_t> order = file_order(atoms);
@@ -51,11 +54,12 @@ std::vector<Base> bases_of(const std::vector<Atom>& atoms, const std::vector<boo
       found.back().residue = atom.residue;
       found.back().copy = atom.copy;
     }
-    if (selected[n]) take(found.back(), atom, n);
+    if (selected[n]) add_atom(found.back(), atom, n);
   }
   return found;
 }
 
+/// Draws bases with their rungs.
 class BaseDrawer {
  public:
   BaseDrawer(const Structure& structure, double radius)
@@ -67,10 +71,9 @@ class BaseDrawer {
   }
 
   void draw(const Base& base) {
-    const bool six = fill(base, {1, 2, 3, 4, 5, 6});
-    if (!six) return;
-    fill(base, {4, 5, 7, 8, 9});
-    if (base.sugar) join(base);
+    if (!fill_ring(base, {1, 2, 3, 4, 5, 6})) return;
+    fill_ring(base, {4, 5, 7, 8, 9});
+    if (base.sugar) add_rung(base);
   }
 
   Shapes shapes;
@@ -78,8 +81,8 @@ class BaseDrawer {
  private:
   const glm::dvec3& position(std::uint32_t atom) const { return structure_.atoms[atom].position; }
 
-  /// Is this ring there?
-  bool fill(const Base& base, std::initializer_list<std::size_t> numbers) {
+  /// Fills a ring; returns false if it is incomplete or not closed.
+  bool fill_ring(const Base& base, std::initializer_list<std::size_t> numbers) {
     std::vector<std::uint32_t> atoms;
     for (const std::size_t number : numbers) {
       if (!base.ring[number]) return false;
@@ -96,30 +99,31 @@ class BaseDrawer {
     }
     if (glm::length(area) < 1e-3) return false;
     for (std::size_t n = 0; n < atoms.size(); ++n) {
-      stick(position(atoms[n]), position(atoms[(n + 1) % atoms.size()]), atoms[n], atoms[(n + 1) % atoms.size()]);
+      add_stick(position(atoms[n]), position(atoms[(n + 1) % atoms.size()]), atoms[n], atoms[(n + 1) % atoms.size()]);
       shapes.spheres.push_back({position(atoms[n]), radius_, atoms[n]});
     }
     add_plate(shapes.mesh, polygon, glm::normalize(area), radius_, *base.ring[4]);
     return true;
   }
 
-  /// A rung from the ring's nearest atom by C1' to the middle line.
-  void join(const Base& base) {
+  /// Adds a rung from the ring's nearest atom by C1' to the middle line.
+  void add_rung(const Base& base) {
     const glm::dvec3& sugar = position(*base.sugar);
     std::uint32_t nearest = *base.ring[1];
     for (const std::optional<std::uint32_t>& atom : base.ring)
       if (atom && glm::distance(position(*atom), sugar) < glm::distance(position(nearest), sugar)) nearest = *atom;
     const double length = glm::distance(position(nearest), sugar);
     if (length == 0.0 || length > kLongestBaseBond) return;
-    stick(position(nearest), sugar, nearest, *base.sugar);
+    add_stick(position(nearest), sugar, nearest, *base.sugar);
     shapes.spheres.push_back({sugar, radius_, *base.sugar});
     if (const std::optional<MiddlePoint> foot = foot_of(base)) {
-      stick(sugar, foot->position, *base.sugar, foot->atom);
+      add_stick(sugar, foot->position, *base.sugar, foot->atom);
       shapes.spheres.push_back({foot->position, radius_, foot->atom});
     }
   }
 
-  /// Where the middle line passes next to C1': beside this residue or on the way to the next.
+  /// Returns the place where the middle line passes C1', at this residue or on the way to the next; nothing if it is
+  /// too far away.
   std::optional<MiddlePoint> foot_of(const Base& base) const {
     const auto own = range_.find({base.copy, base.residue});
     if (own == range_.end()) return {};
@@ -131,7 +135,7 @@ class BaseDrawer {
         if (distance(n) < distance(best)) best = n;
     };
     try_all(own->second.first, own->second.second);
-    // Of another piece it would be far away.
+    // The part of the next residue is far away if it belongs to another piece.
     if (const std::size_t next = own->second.second + 1; next < line_.size()) {
       const Atom& atom = structure_.atoms[line_[next].atom];
       const auto& [first, last] = range_.at({atom.copy, atom.residue});
@@ -141,14 +145,15 @@ class BaseDrawer {
     return line_[best];
   }
 
-  void stick(const glm::dvec3& from, const glm::dvec3& to, std::uint32_t from_atom, std::uint32_t to_atom) {
+  void add_stick(const glm::dvec3& from, const glm::dvec3& to, std::uint32_t from_atom, std::uint32_t to_atom) {
     shapes.cylinders.push_back({from, to, radius_, from_atom, to_atom});
   }
 
   const Structure& structure_;
   double radius_;
   std::vector<MiddlePoint> line_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> range_;  // of each residue
+  // (copy, residue) to the first and last index into line_.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> range_;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bonds as cylinders, atoms as the spheres at their ends.
+// Draws bonds as cylinders, and atoms as spheres.
 #include "core/shapes/shapes.h"
 #include "core/math/ball.h"
 
@@ -9,7 +9,7 @@
 namespace meniscus {
 namespace {
 
-/// Cylinders of the bonds between selected atoms that are apart; marks the atoms that have one.
+/// Returns cylinders for the bonds between selected atoms that are apart; marks the atoms that have one.
 std::vector<CylinderShape> cylinders_of(const Structure& structure, const std::vector<bool>& selected,
                                         std::span<const Bond> bonds, double radius, std::vector<bool>& bonded) {
   std::vector<CylinderShape> cylinders;

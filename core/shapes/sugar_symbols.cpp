@@ -19,26 +19,28 @@
 namespace meniscus {
 namespace {
 
-constexpr double kLongestLink = 1.75;  // Å: C-O 1.43, C-N 1.47
-constexpr double kEdgeShare = 0.08;    // radius of edges, of kSymbolRadius
+constexpr double kLongestLink = 1.75;  // Å; C-O has 1.43, C-N 1.47
+constexpr double kEdgeShare = 0.08;    // radius of edges, in kSymbolRadius
 constexpr std::uint32_t kConeSides = 48;
 
 /// A sugar that has a symbol.
 struct Symbol {
   const Sugar* sugar;
-  glm::dvec3 center, up, side;  ///< unit directions
+  glm::dvec3 center, up, side;  ///< Å; unit vectors
   std::uint32_t color, second_color, anomeric;
   std::vector<std::uint32_t> atoms;
 };
 
-/// Corners by coordinates along side, front and up, in kSymbolRadius; faces by their corners, either way around.
+/// A solid has corners, by their coordinates along side, front and up in kSymbolRadius, and faces, by their corners in
+/// either orientation.
 using Face = std::vector<std::uint32_t>;
 struct Solid {
   std::vector<glm::dvec3> corners;
   std::vector<Face> faces;
-  std::vector<bool> second;  ///< of each face: has it the second colour?
+  std::vector<bool> second;  ///< per face: true if it has the second colour
 };
 
+/// Returns a prism with this outline in the plane of side and up, and this half height along the front.
 Solid prism(const std::vector<glm::dvec2>& outline, double half_height) {
   Solid solid;
   const auto count = static_cast<std::uint32_t>(outline.size());
@@ -56,7 +58,8 @@ Solid prism(const std::vector<glm::dvec2>& outline, double half_height) {
   return solid;
 }
 
-std::vector<glm::dvec2> regular(std::uint32_t count, double inner) {
+/// Returns the outline of a regular polygon, or of a star with every other corner at the radius `inner`.
+std::vector<glm::dvec2> regular_outline(std::uint32_t count, double inner) {
   std::vector<glm::dvec2> outline;
   for (std::uint32_t k = 0; k < count; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / count, radius = k % 2 == 1 ? inner : 1.0;
@@ -65,7 +68,7 @@ std::vector<glm::dvec2> regular(std::uint32_t count, double inner) {
   return outline;
 }
 
-/// Halves of different colour meet in the plane of two opposite edges.
+/// Returns a cube. Halves of different colour meet in the plane of two opposite edges.
 Solid cube(bool divided) {
   constexpr double kHalf = 0.8;
   if (!divided) return prism({{-kHalf, -kHalf}, {-kHalf, kHalf}, {kHalf, kHalf}, {kHalf, -kHalf}}, kHalf);
@@ -78,6 +81,7 @@ Solid cube(bool divided) {
   return solid;
 }
 
+/// Returns an octahedron; the lower half of a divided one has the second colour.
 Solid octahedron(bool divided) {
   Solid solid;
   solid.corners = {{0.85, 0, 0}, {0, 0.85, 0}, {-0.85, 0, 0}, {0, -0.85, 0}, {0, 0, 1.15}, {0, 0, -1.15}};
@@ -87,6 +91,7 @@ Solid octahedron(bool divided) {
   return solid;
 }
 
+/// Draws the symbols of sugars.
 class SymbolDrawer {
  public:
   explicit SymbolDrawer(Shapes& shapes) : shapes_(shapes) {}
@@ -103,27 +108,28 @@ class SymbolDrawer {
       case SugarSolid::divided_diamond:
         return draw(symbol, octahedron(symbol.sugar->is_divided()));
       case SugarSolid::star:
-        return draw(symbol, prism(regular(10, 0.45), 0.4));
+        return draw(symbol, prism(regular_outline(10, 0.45), 0.4));
       case SugarSolid::hexagon:
-        return draw(symbol, prism(regular(6, 1.0), 0.3));
+        return draw(symbol, prism(regular_outline(6, 1.0), 0.3));
       case SugarSolid::pentagon:
-        return draw(symbol, prism(regular(5, 1.0), 0.3));
+        return draw(symbol, prism(regular_outline(5, 1.0), 0.3));
       case SugarSolid::cone:
         return draw_cone(symbol);
     }
   }
 
  private:
-  static glm::dvec3 turned(const Symbol& symbol, const glm::dvec3& p) {
+  /// Returns the vector with these coordinates along side, front and up.
+  static glm::dvec3 to_world(const Symbol& symbol, const glm::dvec3& p) {
     return p.x * symbol.side + p.y * glm::cross(symbol.up, symbol.side) + p.z * symbol.up;
   }
 
-  /// Plates on the faces, cylinders along the edges, spheres on the corners: all touch without a step.
+  /// Draws plates on the faces, cylinders along the edges and spheres on the corners: all touch without a step.
   void draw(const Symbol& symbol, const Solid& solid) {
     const double edge = kEdgeShare * kSymbolRadius;
     std::vector<glm::dvec3> corners;
     for (const glm::dvec3& corner : solid.corners)
-      corners.push_back(symbol.center + (kSymbolRadius - edge) * turned(symbol, corner));
+      corners.push_back(symbol.center + (kSymbolRadius - edge) * to_world(symbol, corner));
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges;
     std::vector<std::uint32_t> colors(corners.size(), symbol.color);
     for (std::size_t n = 0; n < solid.faces.size(); ++n) {
@@ -152,19 +158,19 @@ class SymbolDrawer {
     for (std::size_t n = 0; n < corners.size(); ++n) shapes_.spheres.push_back({corners[n], edge, colors[n]});
   }
 
-  /// Between two halves of one side, where the solid has no edge.
+  /// True for a line between two halves of one side, where the solid has no edge.
   static bool is_diagonal(const Solid& solid, std::pair<std::uint32_t, std::uint32_t> ends) {
     const glm::dvec3 d = solid.corners[ends.first] - solid.corners[ends.second];
     return !solid.second.empty() && solid.corners.size() == 8 && std::abs(d.x) > 1e-6 && std::abs(d.z) > 1e-6;
   }
 
-  /// A body of revolution: the outline of a triangle with round corners.
+  /// Draws a body of revolution with the outline of a triangle with round corners.
   void draw_cone(const Symbol& symbol) {
     const double edge = kEdgeShare * kSymbolRadius, size = kSymbolRadius - edge;
     const glm::dvec2 apex(0.0, 1.05 * size), rim(0.9 * size, -0.75 * size);
     const glm::dvec2 along = glm::normalize(rim - apex), out(-along.y, along.x);
     std::vector<std::pair<glm::dvec2, glm::dvec2>>
-        outline;  // point and normal: from the apex to the middle of the base
+        outline;  // points and normals from the apex to the middle of the base
     const auto arc = [&](const glm::dvec2& center, double from, double to) {
       constexpr int kSteps = 6;
       for (int n = 0; n <= kSteps; ++n) {
@@ -180,12 +186,12 @@ class SymbolDrawer {
     revolve(symbol, outline);
   }
 
-  /// The first and the last point are on the axis.
+  /// Adds the surface of revolution of an outline with its first and last point on the axis.
   void revolve(const Symbol& symbol, const std::vector<std::pair<glm::dvec2, glm::dvec2>>& outline) {
     MeshShape& mesh = shapes_.mesh;
     const auto add = [&](const std::pair<glm::dvec2, glm::dvec2>& at, double angle) {
       const auto placed = [&](const glm::dvec2& v) {
-        return turned(symbol, {v.x * std::cos(angle), v.x * std::sin(angle), v.y});
+        return to_world(symbol, {v.x * std::cos(angle), v.x * std::sin(angle), v.y});
       };
       mesh.positions.push_back(symbol.center + placed(at.first));
       mesh.normals.emplace_back(placed(at.second));
@@ -216,6 +222,7 @@ class SymbolDrawer {
   Shapes& shapes_;
 };
 
+/// Returns the symbols of the sugars with selected rings.
 std::vector<Symbol> symbols_of(const Structure& structure, const std::vector<bool>& selected,
                                const std::vector<std::uint32_t>& order) {
   std::vector<Symbol> symbols;
@@ -256,8 +263,8 @@ std::vector<Symbol> symbols_of(const Structure& structure, const std::vector<boo
   return symbols;
 }
 
-/// Sticks from each symbol to what its anomeric carbon is bonded to beyond its residue.
-void link(const Structure& structure, const std::vector<Symbol>& symbols, double radius, Shapes& shapes) {
+/// Adds sticks from each symbol to what its anomeric carbon is bonded to beyond its residue.
+void add_links(const Structure& structure, const std::vector<Symbol>& symbols, double radius, Shapes& shapes) {
   std::map<std::uint32_t, std::size_t> symbol_of;
   for (std::size_t n = 0; n < symbols.size(); ++n)
     for (const std::uint32_t atom : symbols[n].atoms) symbol_of[atom] = n;
@@ -296,7 +303,7 @@ Shapes sugar_symbols(const Structure& structure, const std::vector<bool>& select
   const std::vector<Symbol> symbols = symbols_of(structure, selected, file_order(structure.atoms));
   SymbolDrawer drawer(shapes);
   for (const Symbol& symbol : symbols) drawer.draw(symbol);
-  link(structure, symbols, radius, shapes);
+  add_links(structure, symbols, radius, shapes);
   return shapes;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parses operator expressions, multiplies motions, and builds an assembly from its parts.
+// Parses operator expressions, multiplies motions, and builds assemblies.
 #include "core/structure/assembly.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 namespace meniscus {
 namespace {
 
-/// Files give six decimals or fewer; what is farther from a rotation than this was not meant as one.
+/// Files have six decimals or fewer. A matrix that is farther from a rotation than this was not meant as one.
 constexpr double kRotationTolerance = 1e-3;
 constexpr std::size_t kMostFactors = 16;  // of a product; capsids have two
 
@@ -34,7 +34,8 @@ double farthest_from_identity(const glm::dmat3& m) {
   return farthest;
 }
 
-/// The orthogonal factor of the polar decomposition (Higham 1986, Newton's iteration): the nearest rotation.
+/// Returns the nearest rotation, which is the orthogonal factor of the polar decomposition (N. J. Higham 1986, Newton's
+/// iteration).
 glm::dmat3 nearest_rotation(glm::dmat3 m) {
   for (int step = 0; step < 20; ++step) {
     const glm::dmat3 next = 0.5 * (m + glm::inverse(glm::transpose(m)));
@@ -57,7 +58,7 @@ bool parse_count(std::string_view text, std::size_t& count) {
                                in_quotes(expression)));
 }
 
-/// "1,2,5", "1-60", "P,1-3".
+/// Parses a list such as "1,2,5", "1-60" or "P,1-3".
 std::vector<std::string> operator_list(std::string_view list, std::string_view expression, const std::string& file) {
   std::vector<std::string> names;
   while (true) {
@@ -81,11 +82,12 @@ std::vector<std::string> operator_list(std::string_view list, std::string_view e
   }
 }
 
-/// The motions of each atom: those of all parts that name its chain.
+/// True if the part contains the chain of the atom. A part without a list of chains contains all.
 bool names_chain_of(const AssemblyPart& part, const Atom& atom) {
   return part.chains.empty() || std::find(part.chains.begin(), part.chains.end(), atom.subchain) != part.chains.end();
 }
 
+/// Groups the atoms by their motions, which are those of all parts that contain their chain.
 std::vector<Instances> group_by_motions(const std::vector<Atom>& atoms, const Assembly& assembly) {
   std::map<std::string, std::vector<std::size_t>> parts_of_chain;
   std::map<std::vector<std::size_t>, std::size_t> place;
@@ -106,7 +108,7 @@ std::vector<Instances> group_by_motions(const std::vector<Atom>& atoms, const As
   return groups;
 }
 
-/// Leaves only the atoms of the groups, in file order.
+/// Removes all atoms that are in no group. The order of the others stays.
 void keep_members(Structure& structure, std::vector<Instances>& groups) {
   std::vector<char> member(structure.atoms.size(), 0);
   for (const Instances& group : groups) {
@@ -134,7 +136,7 @@ bool within_extent(const glm::dvec3& position) {
          std::abs(position.z) <= kLargestCoordinate;
 }
 
-/// Copy after copy, the atoms of each in file order.
+/// Returns the atoms of all copies, copy after copy, with the atoms of each in file order.
 std::vector<Atom> expanded(const std::vector<Atom>& atoms, const std::vector<Instances>& groups, std::size_t total,
                            std::size_t copies, const std::string& file) {
   std::vector<const Instances*> group_of(atoms.size());

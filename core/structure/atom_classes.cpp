@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Classifies atoms as polymer, ligand, water or ion, and finds elements from names and masses.
+// Classifies residues as polymer, ligand, water or ion, and finds elements from names and masses.
 #include "core/structure/atom_classes.h"
 
 #include <algorithm>
@@ -30,13 +30,13 @@ bool is_tabulated_polymer(const std::string& name) {
   return residue.is_amino_acid() || residue.is_nucleic_acid();
 }
 
-/// Amino acids and nucleotides, also by the names of force fields, but not the caps of chains, which are polymer only
-/// where they cap one.
+/// True for amino acids and nucleotides, including the names of force fields. The caps of chains are not included,
+/// because they are polymer only where they cap a chain.
 bool is_polymer_name(const std::string& name) {
   return is_tabulated_polymer(name) || is_tabulated_polymer(canonical_residue(name)) || is_nucleotide_name(name);
 }
 
-/// Elements that are alone in a file as ions: metals and halogens.
+/// True for elements that occur alone as ions: metals and halogens.
 bool is_ion_element(gemmi::Element element) {
   switch (element.elem) {
     case gemmi::El::F:
@@ -49,7 +49,7 @@ bool is_ion_element(gemmi::Element element) {
   }
 }
 
-/// Distinct names of the atoms of a residue.
+/// The distinct names of the atoms of a residue.
 using Names = std::set<std::string>;
 
 bool is_named_like_polymer(const Names& names) {
@@ -57,12 +57,14 @@ bool is_named_like_polymer(const Names& names) {
          names.contains("C4*");
 }
 
-/// Names of force fields are also those of bare bases (ADE, URA) and others, which have none of these.
+/// True if some atom belongs to a backbone. Names of force fields are also those of bare bases (ADE, URA) and other
+/// ligands, which have no such atoms.
 bool has_backbone(const Names& names) {
   return names.contains("CA") || names.contains("P") || names.contains("C4'") || names.contains("C4*");
 }
 
-/// A chain drawn by its CA or P, or a chromophore whose backbone has other names: what it is linked to cannot be told.
+/// True for a residue of a chain that has only CA or P, and for a chromophore with other names of the backbone. Its
+/// links to other residues cannot be found.
 bool has_no_ends(const Names& names) {
   return !names.contains("C") && !names.contains("N") && !names.contains("O3'") && !names.contains("O3*");
 }
@@ -81,7 +83,8 @@ bool is_of_organic_residues(gemmi::Element element) {
   }
 }
 
-/// CA, CB, CG, CD, CE, CZ, NE1, OG, SG, HG21, ...: an element and a Greek letter, as in amino acids only.
+/// True for CA, CB, CG, CD, CE, CZ, NE1, OG, SG, HG21 and so on: an element and a Greek letter, which only amino acids
+/// have.
 bool is_amino_acid_atom_name(std::string_view name) {
   return name.size() >= 2 && std::string_view("CNOSH").find(name[0]) != std::string_view::npos &&
          std::string_view("ABGDEZH").find(name[1]) != std::string_view::npos &&
@@ -95,8 +98,8 @@ std::string capitals(std::string_view text) {
   return result;
 }
 
-/// The element of a lone atom that is named like its residue, or lies in a residue "ION": "CL", "Na+", "ZN2", and
-/// CHARMM's own names.
+/// Returns the element of a lone atom that has the same name as its residue or is in a residue "ION": "CL", "Na+",
+/// "ZN2", and CHARMM's own names. Returns X if it is no ion.
 gemmi::Element lone_ion_element(const Atom& atom) {
   static const std::map<std::string, gemmi::El> kCharmmIons{
       {"SOD", gemmi::El::Na}, {"CLA", gemmi::El::Cl}, {"POT", gemmi::El::K},  {"CAL", gemmi::El::Ca},
@@ -111,10 +114,11 @@ gemmi::Element lone_ion_element(const Atom& atom) {
   return is_ion_element(element) ? element : gemmi::Element(gemmi::El::X);
 }
 
-/// The element of two letters that a name means in nearly all of the wwPDB's chemical components but the standard ones.
+/// Returns the element of two letters that a name means in nearly all of the wwPDB's chemical components except the
+/// standard ones. Returns X if there is none.
 gemmi::Element element_of_two_letters(const Atom& atom, bool of_polymer) {
   constexpr std::string_view kHalogens = " CL BR ",
-                             kOthers = " FE ZN MG MN SI SE CU PT IR RU RH RE AU AS AL TE ";  // not of polymer
+                             kOthers = " FE ZN MG MN SI SE CU PT IR RU RH RE AU AS AL TE ";  // not in polymers
   const std::size_t letter = std::min(atom.name.find_first_not_of("0123456789"), atom.name.size());
   const std::string two = capitals(atom.name.substr(letter, 2)), word = " " + two + " ";
   const bool known = two.size() == 2 && (kHalogens.find(word) != std::string_view::npos ||
@@ -122,7 +126,8 @@ gemmi::Element element_of_two_letters(const Atom& atom, bool of_polymer) {
   return known ? gemmi::Element(two) : gemmi::Element(gemmi::El::X);
 }
 
-/// The first letter of a name. Other letters are more often dummies and beads (D, M, W) than deuterium and tungsten.
+/// Returns the element of the first letter of a name. Letters such as D, M and W are not used, because they are more
+/// often dummies and beads than deuterium and tungsten.
 gemmi::Element element_by_letter(const Atom& atom) {
   const std::size_t letter = atom.name.find_first_not_of("0123456789");
   if (letter == std::string::npos) return gemmi::El::X;
@@ -131,7 +136,8 @@ gemmi::Element element_by_letter(const Atom& atom) {
                                                                              : gemmi::Element(std::string(1, first));
 }
 
-/// of_polymer: the residue has the atoms of an amino acid or nucleotide, in a chain or alone.
+/// Chooses the element of an atom. stated: from the file, or X. hint: from the columns of the name, or X. of_polymer:
+/// the residue has the atoms of an amino acid or nucleotide, in a chain or alone.
 gemmi::Element element_of(gemmi::Element stated, gemmi::Element hint, const Atom& atom, bool of_polymer) {
   if (is_of_organic_residues(stated)) return stated;
   const gemmi::Element given = stated == gemmi::El::X ? hint : stated;
@@ -149,14 +155,14 @@ gemmi::Element element_of(gemmi::Element stated, gemmi::Element hint, const Atom
   return doubtful || given == gemmi::El::X ? element_by_letter(atom) : given;
 }
 
-constexpr float kLightestAtom = 0.9F;  // hydrogen weighs 1.008, Drude particles 0.4
+constexpr float kLightestAtom = 0.9F;  // atomic mass units; hydrogen weighs 1.008, Drude particles 0.4
 
-/// Whether an element may weigh this: mass is moved between an atom and the hydrogens that it may bear, of which united
-/// atoms have the mass, too. Masses that say nothing are 0 or NaN.
+/// True if an atom of this element may have this mass. Mass is moved between an atom and its hydrogens, and a united
+/// atom includes the mass of its hydrogens. A mass of 0 or NaN gives no information.
 bool may_weigh(gemmi::Element element, float mass) {
   if (!(mass > 0.0F)) return true;
   if (element.is_hydrogen()) return mass < 4.5F;
-  constexpr double kMostMoved = 3.1;  // of a hydrogen
+  constexpr double kMostMoved = 3.1;  // atomic mass units per hydrogen
   const std::size_t hydrogens = std::string_view(" SONC").find(element.name());
   const double borne = hydrogens == std::string_view::npos ? 0.0 : static_cast<double>(hydrogens);
   return std::abs(static_cast<double>(mass) - element.weight()) < 0.5 + kMostMoved * borne;
@@ -197,7 +203,7 @@ class Classifier {
 
   AtomHints hint(std::size_t atom) const { return hints_.empty() ? AtomHints{} : hints_[atom]; }
 
-  /// Names of the atoms of a residue, without sites.
+  /// Returns the names of the atoms of a residue, without virtual sites.
   Names names_of(std::size_t r) const {
     Names names;
     for (std::size_t n = begins_[r]; n < begins_[r + 1]; ++n)
@@ -205,19 +211,20 @@ class Classifier {
     return names;
   }
 
-  /// By its hint, or, in residues of a usual size, by its name and what lies beside it.
+  /// True if an atom is a virtual site or Drude particle, by its hint, or by its name and the atoms next to it. The
+  /// latter is not tried in residues that are too large.
   bool is_site(std::size_t r, std::size_t n) const {
     constexpr std::size_t kLargestResidue = 1'000;
     const Atom& atom = atoms_[n];
     const std::string& name = atom.name;
-    if (hint(n).site || atom.element > 1 || name.size() < 2 || begins_[r + 1] - begins_[r] > kLargestResidue)
-      return hint(n).site;
+    if (hint(n).is_site || atom.element > 1 || name.size() < 2 || begins_[r + 1] - begins_[r] > kLargestResidue)
+      return hint(n).is_site;
     const auto any_other = [&](auto&& is) {
       const auto first = atoms_.begin() + static_cast<std::ptrdiff_t>(begins_[r]),
                  last = atoms_.begin() + static_cast<std::ptrdiff_t>(begins_[r + 1]);
       return std::any_of(first, last, [&](const Atom& other) { return &other != &atom && is(other); });
     };
-    // No bond is as short as this; deuterium is as near only to the hydrogen that it was exchanged for.
+    // Å. No bond is as short as this. Deuterium is as near only to the hydrogen that it was exchanged for.
     constexpr double kDrudeReach = 0.5;
     if (name[0] == 'D' && !(hint(n).mass > kLightestAtom))
       return any_other([&](const Atom& other) {
@@ -227,7 +234,7 @@ class Classifier {
     if (atom.element != 0) return false;
     if (name == "OM" && is_water_name(atom.residue_name))
       return any_other([](const Atom& other) { return other.name[0] == 'O'; });
-    // M, the first two letters of the carbon or nitrogen of XH3, and a number.
+    // A dummy mass is named by an M, the first two letters of the carbon or nitrogen of XH3, and a number.
     const std::string_view heavy = std::string_view(name).substr(1, name.size() - 2);
     if (name[0] != 'M' || heavy.empty() || heavy.size() > 2 || (name.back() != '1' && name.back() != '2')) return false;
     return (is_polymer_name(atom.residue_name) || is_chain_cap_name(atom.residue_name)) &&
@@ -252,7 +259,8 @@ class Classifier {
     return false;
   }
 
-  /// A bead is several atoms and has no element, whatever its name or a column looks like.
+  /// Sets class and element of beads. A bead stands for several atoms and has no element, whatever its name or a column
+  /// of the file suggests.
   void classify_beads(std::size_t r, const Names& names) {
     const std::string& name = head(r).residue_name;
     const bool of_chain = names.contains("BB") || (names.contains("BB1") && names.contains("BB2"));
@@ -294,22 +302,22 @@ class Classifier {
   bool is_polymer(std::size_t r, const Names& names) {
     const std::string& name = head(r).residue_name;
     const bool named = is_tabulated_polymer(name) || (is_polymer_name(name) && has_backbone(names));
-    if (named && !hint(begins_[r]).heteroatom) return true;
+    if (named && !hint(begins_[r]).is_heteroatom) return true;
     if (!linked_) linked_ = linked_residues(atoms_, bonds_);
     if ((*linked_)[head(r).residue]) return true;
     return named && (has_no_ends(names) || (in_chain(r, r - 1) && in_chain(r, r + 1)));
   }
 
-  /// Is the residue before or behind in the file one of the same chain, and numbered so?
+  /// True if the previous or next residue in the file is in the same chain and has a lower or higher number.
   bool in_chain(std::size_t r, std::size_t neighbor) const {
-    if (neighbor >= begins_.size() - 1) return false;  // r - 1 of the first residue is the largest number
+    if (neighbor >= begins_.size() - 1) return false;  // for the first residue r - 1 is the largest number
     const Atom &here = head(r), &there = head(neighbor);
-    return is_polymer_name(there.residue_name) && !hint(begins_[neighbor]).heteroatom && there.chain == here.chain &&
+    return is_polymer_name(there.residue_name) && !hint(begins_[neighbor]).is_heteroatom && there.chain == here.chain &&
            there.segment == here.segment && there.model == here.model &&
            (neighbor < r ? there.residue_number < here.residue_number : here.residue_number < there.residue_number);
   }
 
-  /// `ion`: what the lone atom is, unless X.
+  /// Sets the element of atom n. ion: the element of a lone ion, or X.
   void set_element(std::size_t n, gemmi::Element ion, bool of_polymer) {
     Atom& atom = atoms_[n];
     if (sites_[n]) return;
@@ -326,9 +334,9 @@ class Classifier {
   std::vector<Atom>& atoms_;
   std::span<const AtomHints> hints_;
   std::span<const Bond> bonds_;
-  std::vector<bool> sites_;                  ///< virtual sites and Drude particles
-  std::vector<std::size_t> begins_;          ///< of the residues in atoms_, and the end
-  std::optional<std::vector<bool>> linked_;  ///< made when first asked for
+  std::vector<bool> sites_;                  ///< true for virtual sites and Drude particles
+  std::vector<std::size_t> begins_;          ///< first atom of each residue; the last entry is the number of atoms
+  std::optional<std::vector<bool>> linked_;  ///< computed when it is first needed
   WarningCollector impossible_;
 };
 
@@ -352,7 +360,7 @@ namespace {
 
 constexpr std::string_view kOrganic = "HCNOPS";
 
-/// The element whose weight this is, within 0.1; 0 if there is none.
+/// Returns the atomic number of the element with this weight, within 0.1; 0 if there is none.
 int nearest_weight(double mass) {
   int best = 0;
   double least = 0.1;
@@ -366,7 +374,8 @@ int nearest_weight(double mass) {
   return best;
 }
 
-/// 0: the mass does not decide. Where mass was moved, carbon may weigh as much as beryllium, hydrogen as helium.
+/// Returns the atomic number by mass, or 0 if the mass does not decide. Where mass was moved, carbon may weigh as much
+/// as beryllium, and hydrogen as much as helium.
 std::uint8_t element_of_mass(const std::string& name, float mass) {
   const gemmi::Element by_mass(nearest_weight(static_cast<double>(mass)));
   const std::string letters = capitals(name.substr(std::min(name.find_first_not_of("0123456789"), name.size())));
@@ -383,11 +392,11 @@ void set_elements_by_mass(std::vector<Atom>& atoms, std::span<AtomHints> hints) 
   for (std::size_t n = 0; n < hints.size(); ++n) {
     AtomHints& hint = hints[n];
     if (!weighed) hint.mass = std::numeric_limits<float>::quiet_NaN();
-    hint.site = hint.site || (hint.mass > 0.0F && hint.mass < kLightestAtom);
-    if (hint.site && n > 0 && !hints[n - 1].site && hint.mass < kLightestAtom) hints[n - 1].mass += hint.mass;
+    hint.is_site = hint.is_site || (hint.mass > 0.0F && hint.mass < kLightestAtom);
+    if (hint.is_site && n > 0 && !hints[n - 1].is_site && hint.mass < kLightestAtom) hints[n - 1].mass += hint.mass;
   }
   for (std::size_t n = 0; n < hints.size(); ++n)
-    if (atoms[n].element == 0 && !hints[n].site) atoms[n].element = element_of_mass(atoms[n].name, hints[n].mass);
+    if (atoms[n].element == 0 && !hints[n].is_site) atoms[n].element = element_of_mass(atoms[n].name, hints[n].mass);
 }
 
 }  // namespace meniscus

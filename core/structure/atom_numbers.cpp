@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads files of numbers by which atoms can be coloured.
+// Reads files with numbers for atoms or residues.
 #include "core/structure/atom_numbers.h"
 
 #include <algorithm>
@@ -19,14 +19,14 @@
 namespace meniscus {
 namespace {
 
-/// Differences of such numbers are finite, which scales of colours rely on.
+/// The largest number that is accepted. Differences of such numbers are finite, which colour scales rely on.
 constexpr double kLargestNumber = 1e300;
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 bool is_missing(std::string_view word) { return word == "nan" || word == "NaN" || word == "?" || word == "-"; }
 
-/// As spreadsheets and R have them, too.
+/// True for a missing number, including those of spreadsheets and R.
 bool is_missing_cell(std::string_view cell) {
   return cell.empty() || cell == "NA" || cell == "N/A" || is_missing(cell);
 }
@@ -36,21 +36,22 @@ bool is_number(std::string_view word) {
   return is_missing(word) || parse_number(word, number);
 }
 
-/// The numbers, and what names the atoms, of a table with a header; names in small letters.
+/// The columns of a table that have the numbers and identify the atoms.
 struct Columns {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   std::size_t value = kNone, frame = kNone, index = kNone, chain = kNone, residue = kNone, icode = kNone;
 };
 
+// The names of columns are in lower case.
 constexpr std::string_view kChainNames[] = {"chain", "chain_id", "chainid", "auth_asym_id"};
-// Tables of our own call a residue's type "residue" and its number "number".
+// Tables that Meniscus writes call the type of a residue "residue" and its number "number".
 constexpr std::string_view kResidueNames[] = {"number", "resid",    "resi", "resnum", "residue_number", "res_num",
                                               "resseq", "position", "pos",  "res_id", "auth_seq_id",    "residue"};
 constexpr std::string_view kOtherNames[] = {"frame", "index", "model", "residue", "resname", "resn", "icode"};
-// What these have in tables of our own is not what atoms are coloured by, unless there are no other numbers.
+// These columns of tables that Meniscus writes are used as numbers only if there are no others.
 constexpr std::string_view kUsualNames[] = {"name", "atom", "element", "class", "radius", "atoms"};
 
-/// "#ff8000"
+/// True for a colour such as "#ff8000".
 bool is_color(std::string_view word) {
   return word.size() == 7 && word[0] == '#' && word.find_first_not_of("0123456789abcdefABCDEF", 1) == word.npos;
 }
@@ -85,8 +86,8 @@ class NumberReader {
       }
       if (!column_.empty())
         fail(message("is not the header of a table, so @color-column {}@ cannot choose a column", in_quotes(column_)));
-      if (first) by_residue_ = names_residue(cells);
-      if (by_residue_)
+      if (first) is_by_residue_ = names_residue(cells);
+      if (is_by_residue_)
         add_residue(cells);
       else
         add_numbers(text);
@@ -98,7 +99,7 @@ class NumberReader {
  private:
   [[noreturn]] void fail(const std::string& what) const { throw InputError(result_.path, lines_.number(), what); }
 
-  /// Of a table: what its first line has of tabs, semicolons and commas, in this order; else blanks.
+  /// Returns the separator of a table: the first of tab, semicolon and comma that its first line has, else a blank.
   static char separator_of(std::string_view text) {
     for (const char separator : {'\t', ';', ','})
       if (text.find(separator) != std::string_view::npos) return separator;
@@ -111,25 +112,26 @@ class NumberReader {
     return {fields.begin(), fields.end()};
   }
 
-  /// Words and no number.
+  /// True for the header of a table: two words or more, none of them a number.
   static bool begins_table(const std::vector<std::string>& cells) {
     return cells.size() > 1 && std::ranges::none_of(cells, is_number);
   }
 
-  /// "A 12 0.5"
+  /// True for a line such as "A 12 0.5".
   bool names_residue(const std::vector<std::string>& cells) const {
     ResidueName residue;
     return cells.size() == 3 && !is_number(cells[0]) && parse_place(cells[1], residue) &&
            (is_missing_cell(cells[2]) || is_number(with_point(cells[2])));
   }
 
-  /// A comma is part of a number where it parts no columns.
+  /// Returns the cell with a decimal point instead of a comma, unless commas separate columns.
   std::string with_point(std::string cell) const {
     if (separator_ != ',' && cell.find('.') == std::string::npos) std::ranges::replace(cell, ',', '.');
     return cell;
   }
 
-  /// "12", "-3", "52A", and "12.0", as programs write whole numbers beside missing ones.
+  /// Parses the number of a residue: "12", "-3", "52A", or "12.0", as programs write integers in a column with missing
+  /// ones.
   static bool parse_place(std::string_view word, ResidueName& residue) {
     residue.insertion_code = ' ';
     if (word.ends_with(".0")) word.remove_suffix(2);
@@ -185,8 +187,8 @@ class NumberReader {
     }
   }
 
-  /// The column of the numbers: the one asked for, or the only one of numbers that names no atom or residue. first: the
-  /// first row.
+  /// Returns the column of the numbers: the one with the requested name, or the only column of numbers that does not
+  /// identify atoms or residues. first: the cells of the first row.
   std::size_t value_column(const std::vector<std::string>& header, const std::vector<std::string>& first) const {
     const auto found = std::ranges::find(header, column_);
     if (!column_.empty() && found != header.end()) return static_cast<std::size_t>(found - header.begin());
@@ -212,7 +214,7 @@ class NumberReader {
                          : fmt::format("has no column {}; it has {}", in_quotes(column_), list));
   }
 
-  /// What the columns are; `first` is the first row.
+  /// Finds the columns of a table. first: the cells of the first row.
   Columns columns_of(const std::vector<std::string>& header, const std::vector<std::string>& first) const {
     const auto place = [&](std::span<const std::string_view> names) {
       for (const std::string_view name : names)
@@ -233,13 +235,13 @@ class NumberReader {
     return columns;
   }
 
-  /// The next row of cells; false after the last.
+  /// Reads the next row of cells; false after the last one.
   bool next_row(std::vector<std::string>& cells) {
     std::string_view line;
     while (lines_.next(line)) {
       if (trimmed(line).empty()) continue;
       cells = cells_of(line);
-      if (line.starts_with('#') && !(cells.size() > 1 && is_color(cells[0]))) continue;  // a comment
+      if (line.starts_with('#') && !(cells.size() > 1 && is_color(cells[0]))) continue;  // the line is a comment
       if (std::ranges::any_of(cells, [](const std::string& cell) { return !cell.empty(); })) return true;
     }
     return false;
@@ -301,7 +303,7 @@ class NumberReader {
   LineReader lines_;
   NumberFile result_;
   char separator_ = ' ';
-  bool by_residue_ = false;
+  bool is_by_residue_ = false;
 };
 
 }  // namespace
@@ -315,12 +317,12 @@ NumberFile read_number_file(const std::string& path, const std::string& column) 
 
 const NumberFile& NumberFile::of_frame(const std::optional<std::uint64_t>& frame) const {
   if (!by_frame) return *this;
-  const std::string held =
+  const std::string contents =
       fmt::format("holds numbers of {} {}, {} to {}", by_frame->size(), by_frame->size() == 1 ? "frame" : "frames",
                   by_frame->begin()->first, by_frame->rbegin()->first);
-  if (!frame) throw InputError(path, 0, held + message("; add @frames@, or leave out its column frame"));
+  if (!frame) throw InputError(path, 0, contents + message("; add @frames@, or leave out its column frame"));
   const auto found = by_frame->find(*frame);
-  if (found == by_frame->end()) throw InputError(path, 0, fmt::format("{}, but none of frame {}", held, *frame));
+  if (found == by_frame->end()) throw InputError(path, 0, fmt::format("{}, but none of frame {}", contents, *frame));
   return found->second;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Collects the bonds of a molecule from its file, from templates of residues, and from distances.
+// Collects the bonds of a molecule from its file, from templates of residues, and by distance.
 #include "core/structure/bonds.h"
 
 #include <algorithm>
@@ -28,7 +28,8 @@ namespace {
 constexpr std::string_view kBackboneBonds = "N-CA-C-O C-OXT";
 constexpr std::string_view kSugarBonds = "OP1-P-OP2 P-OP3 P-O5'-C5'-C4'-C3'-C2'-C1'-O4'-C4' C3'-O3' C2'-O2'";
 
-/// Heavy atoms of a residue beyond its backbone or sugar: paths of bonded atoms, names of wwPDB's components.
+/// The heavy atoms of residues without their backbone or sugar, as paths of bonded atoms. Names are those of the
+/// wwPDB's components.
 constexpr std::pair<std::string_view, std::string_view> kSideChainBonds[] = {
     {"ALA", "CA-CB"},
     {"ARG", "CA-CB-CG-CD-NE-CZ-NH1 CZ-NH2"},
@@ -101,7 +102,7 @@ class BondFinder {
       const bool continues = r > 0 && atoms_[begins_[r]].chain == atoms_[begins_[r - 1]].chain;
       for (std::uint32_t a = begins_[r]; a < begins_[r + 1]; ++a)
         for (std::uint32_t b = continues ? begins_[r - 1] : begins_[r]; b < a; ++b)
-          if (squared_distance(a, b) <= squared_reach(a, b)) bonds_.push_back({b, a});
+          if (squared_distance(a, b) <= squared_bond_length(a, b)) bonds_.push_back({b, a});
     }
     return std::move(bonds_);
   }
@@ -122,14 +123,14 @@ class BondFinder {
     return glm::dot(d, d);
   }
 
-  double squared_reach(std::uint32_t a, std::uint32_t b) const {
+  double squared_bond_length(std::uint32_t a, std::uint32_t b) const {
     const auto radius = [&](std::uint32_t n) { return gemmi::Element(atoms_[n].element).covalent_r(); };
     if (atoms_[a].element == 1 && atoms_[b].element == 1) return 0.0;
-    const double reach = radius(a) + radius(b) + 0.4;
-    return reach * reach;
+    const double limit = radius(a) + radius(b) + 0.4;
+    return limit * limit;
   }
 
-  /// Every two neighbours of "A-B-C D-E" that are both there.
+  /// Bonds every two neighbours of the paths "A-B-C D-E" that are both among the names.
   void join_path(const Names& names, std::string_view paths) {
     const std::uint32_t* last = nullptr;
     while (!paths.empty()) {
@@ -145,7 +146,7 @@ class BondFinder {
   void join_hydrogens(std::size_t r) {
     constexpr double kLongestToHydrogen = 1.6;
     for (std::uint32_t h = begins_[r]; h < begins_[r + 1]; ++h) {
-      if (atoms_[h].element > 1) continue;  // and sites without an element, such as the fourth of water models
+      if (atoms_[h].element > 1) continue;  // also for sites without an element, such as the fourth of water models
       std::uint32_t nearest = h;
       double least = kLongestToHydrogen * kLongestToHydrogen;
       for (std::uint32_t n = begins_[r]; n < begins_[r + 1]; ++n) {
@@ -167,7 +168,7 @@ class BondFinder {
   std::span<const Atom> atoms_;
   std::span<const glm::dvec3> positions_;
   const std::optional<PeriodicCell>& cell_;
-  std::vector<std::uint32_t> begins_;  ///< of the residues, and the end
+  std::vector<std::uint32_t> begins_;  ///< first atom of each residue; the last entry is the number of atoms
   Names last_names_;
   std::vector<Bond> bonds_;
 };
@@ -186,7 +187,7 @@ std::vector<Bond> guessed_bonds(std::span<const Atom> atoms, std::span<const glm
 
 namespace {
 
-constexpr double kShortestFound = 0.5;  // that of hydrogen to hydrogen, the shortest there is, is 0.74 Å long
+constexpr double kShortestFound = 0.5;  // Å; the shortest bond of all, between two hydrogens, is 0.74 Å long
 constexpr double kSlack = 0.4, kSlackBetweenStandardResidues = 0.2;
 
 class MoleculeBonds {
@@ -194,17 +195,18 @@ class MoleculeBonds {
   MoleculeBonds(std::span<const Atom> atoms, std::span<const std::int32_t> fully_bonded)
       : atoms_(atoms), fully_bonded_(fully_bonded.begin(), fully_bonded.end()), standard_(atoms.size()) {
     positions_.reserve(atoms.size());
-    std::map<std::pair<std::uint32_t, std::string_view>, char> letters;  // of each atom of a residue by its name
+    // First alternate location of each atom of a residue.
+    std::map<std::pair<std::uint32_t, std::string_view>, char> letters;
     for (const Atom& atom : atoms) {
       positions_.push_back(atom.position);
       if (atom.altloc == ' ') continue;
       const auto [first, is_new] = letters.try_emplace({atom.residue, atom.name}, atom.altloc);
-      if (!is_new && first->second != atom.altloc) of_several_.insert(atom.residue);
+      if (!is_new && first->second != atom.altloc) several_locations_.insert(atom.residue);
     }
   }
 
   void add_templates() {
-    // Formats without residues have one of all atoms.
+    // Formats without residues put all atoms into one residue without a name.
     if (std::ranges::all_of(atoms_, [](const Atom& atom) { return atom.residue_name.empty(); })) return;
     for (const Bond& bond : template_bonds(atoms_, positions_, std::nullopt))
       if (may_have_more(atoms_[bond[0]]) && add(bond[0], bond[1])) standard_[bond[0]] = standard_[bond[1]] = true;
@@ -244,9 +246,9 @@ class MoleculeBonds {
         if (b >= a || !binds_by_distance(atoms_[b]) || (atoms_[a].element == 1 && atoms_[b].element == 1)) return;
         const bool both_standard = standard_[a] && standard_[b];
         if (both_standard && atoms_[a].residue == atoms_[b].residue) return;
-        const double reach = own + radii[atoms_[b].element] + (both_standard ? kSlackBetweenStandardResidues : kSlack);
+        const double limit = own + radii[atoms_[b].element] + (both_standard ? kSlackBetweenStandardResidues : kSlack);
         const double distance = glm::distance(positions_[a], positions_[b]);
-        if (kShortestFound <= distance && distance <= reach) add(b, a);
+        if (kShortestFound <= distance && distance <= limit) add(b, a);
       });
     }
   }
@@ -272,7 +274,7 @@ class MoleculeBonds {
   bool of_one_molecule(const Atom& a, const Atom& b) const {
     if (a.model != b.model || a.copy != b.copy) return false;
     if (a.altloc == b.altloc || a.altloc == ' ' || b.altloc == ' ') return true;
-    return !of_several_.contains(a.residue) && !of_several_.contains(b.residue);
+    return !several_locations_.contains(a.residue) && !several_locations_.contains(b.residue);
   }
 
   bool add(std::uint32_t a, std::uint32_t b) {
@@ -285,8 +287,8 @@ class MoleculeBonds {
   std::span<const Atom> atoms_;
   std::set<std::int32_t> fully_bonded_;
   std::vector<glm::dvec3> positions_;
-  std::vector<bool> standard_;          ///< in a bond of a template
-  std::set<std::uint32_t> of_several_;  ///< residues that have an atom in several alternate locations
+  std::vector<bool> standard_;                 ///< true for atoms with a bond from a template
+  std::set<std::uint32_t> several_locations_;  ///< residues with an atom in several alternate locations
   std::vector<Bond> bonds_;
 };
 

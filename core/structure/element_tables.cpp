@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds the radii of Bondi 1964 and Mantina et al. 2009, laid out like the periodic table, the hydropathy of Kyte and
+// Holds the radii of Bondi 1964 and Mantina et al. 2009 in the layout of the periodic table, the hydropathy of Kyte and
 // Doolittle, and the greatest areas of Tien et al. 2013.
 #include "core/structure/element_tables.h"
 
@@ -26,7 +26,8 @@ constexpr const char* kSymbols[] = {"X",
               "Rf", "Db", "Sg", "Bh", "Hs", "Mt", "Ds", "Rg", "Cn", "Nh", "Fl", "Mc", "Lv", "Ts", "Og"};
 static_assert(std::size(kSymbols) == 119);
 
-// Å; 0: the paper gives none. Bondi's tables I, II and (metals) III; hydrogen 1.20 as he recommends for bonded H.
+// Radii in Å from Bondi's tables I, II and (metals) III, with 1.20 for hydrogen, which he recommends for bonded H. 0:
+// not given.
 constexpr double kBondi[] = {0,
   1.20,                                                                                                 1.40,
   1.82, 0,                                                                0,    1.70, 1.55, 1.52, 1.47, 1.54,
@@ -38,7 +39,7 @@ constexpr double kBondi[] = {0,
   0,    0,    0,    0,    0,    1.86};
 // clang-format on
 
-// Å by atomic number; the values that are new in Mantina's table 12 and consistent with Bondi's.
+// Radii in Å by atomic number: the values of Mantina's table 12 that are new and consistent with Bondi's.
 const std::map<std::uint8_t, double> kMantina{{4, 1.53},  {5, 1.92},  {13, 1.84}, {20, 2.31}, {32, 2.11}, {37, 3.03},
                                               {38, 2.49}, {51, 2.06}, {55, 3.43}, {56, 2.68}, {83, 2.07}, {84, 1.97},
                                               {85, 2.02}, {86, 2.20}, {87, 3.48}, {88, 2.83}};

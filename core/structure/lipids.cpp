@@ -11,19 +11,20 @@
 namespace meniscus {
 namespace {
 
-// Of the wwPDB: phospholipids, cardiolipin, galactolipids, fatty acids, acylglycerols, sterols, sphingolipids.
+// Components of the wwPDB: phospholipids, cardiolipin, galactolipids, fatty acids, acylglycerols, sterols,
+// sphingolipids.
 const std::set<std::string_view> kComponents{
     "PC1", "PCW", "POV", "PEE", "PEV", "PEF", "PEH", "PEK", "PGV", "PGT", "PTY", "3PE", "3PH", "6PL", "PX4",
     "MC3", "PLC", "PCF", "PCK", "HGX", "PSF", "P5S", "PIO", "L9Q", "8PE", "9PE", "LHG", "LMG", "DGD", "SQD",
     "DGA", "CDL", "PEU", "GGD", "CLR", "CHS", "Y01", "ERG", "CLL", "HC3", "PLM", "OLA", "OLB", "OLC", "STE",
     "MYR", "PAM", "EIC", "ACD", "LNL", "DCR", "LPE", "LPC", "LPP", "CN3", "PGW", "PGK", "PSC", "D21", "DLP",
     "MPG", "46E", "SPH", "CER", "SLU", "HXJ", "LNG", "PIE", "DDR", "D3D", "HP6"};
-// Of CHARMM, GROMOS and Martini beside those that the letters tell.
+// Names of CHARMM, GROMOS and Martini that are not made of the letters of tails and head.
 const std::set<std::string_view> kForceFields{
     "CHL1", "CHOL", "CHNS", "ERGO", "SITO", "STIG", "CAMP", "PSM",  "SSM",  "NSM",  "LSM",  "BSM",  "OSM",
     "DPSM", "DBSM", "PBSM", "POSM", "TOCL", "TMCL", "CDL0", "CDL1", "CDL2", "PALM", "STEA", "OLEO", "LAUR",
     "MYRI", "DPG1", "DPG3", "DPGS", "POP1", "POP2", "POP3", "DPP1", "DPP2", "SAPI", "TAG",  "DPCE", "POGL"};
-// Of AMBER, whose heads and tails are too short to be known without the other: HEAD, TAIL.
+// Heads and tails of AMBER. Their names are too short to identify a lipid by one of them alone.
 const std::set<std::string_view> kHeads{"PC", "PE", "PS", "PGR", "PH-", "PGS", "CHL", "SPM"};
 const std::set<std::string_view> kTails{"LAL", "MY", "PA", "ST", "OL", "AR", "DHA", "SA"};
 
@@ -39,7 +40,8 @@ bool is_named_by_letters(std::string_view name) {
   return name.size() == 4 && among(kTailLetters, name.substr(0, 2)) && among(kHeadLetters, name.substr(2));
 }
 
-/// A chain of four carbons or more, or one of beads, as every tail has: short names are those of others, too.
+/// True if the residue has ten carbon atoms or more, as a residue with a tail has. Short names are also those of other
+/// residues.
 bool has_tail(std::span<const Atom> residue) {
   return std::ranges::count_if(residue, [](const Atom& atom) { return atom.element == 6; }) >= 10;
 }
@@ -55,7 +57,7 @@ bool is_lipid(std::span<const Atom> residue) {
         return atom.name == "GL1" || atom.name == "AM1" || atom.name == "PO4";
       }))
     return true;
-  // AMBER: P31 of heads, and O1 of cholesterol.
+  // The atoms are P31 of AMBER's heads, and O1 of its cholesterol.
   if (kHeads.contains(name))
     return std::ranges::any_of(residue, [](const Atom& atom) { return atom.name == "P31" || atom.name == "O1"; });
   return (kComponents.contains(name) || kTails.contains(name)) && has_tail(residue);

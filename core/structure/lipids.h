@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tells lipids and sterols from other residues by their names.
+// Recognizes lipids and sterols by the names of their residues.
 #pragma once
 
 #include <span>
@@ -9,9 +9,9 @@ namespace meniscus {
 
 struct Atom;
 
-/// Is this residue a lipid, a fatty acid or a sterol? By names of the wwPDB's chemical components and those that
-/// CHARMM, AMBER Lipid21 (heads and tails are residues there), GROMOS and Martini give: two letters for the tails and
-/// two for the head, as POPC, besides single names. No polymer, water or ion is one, and no detergent.
+/// True if the residue is a lipid, a fatty acid or a sterol. Names are those of the wwPDB's chemical components and of
+/// CHARMM, AMBER Lipid21 (where heads and tails are residues), GROMOS and Martini. Most of these have two letters for
+/// the tails and two for the head, as in POPC. Polymers, water, ions and detergents are not lipids.
 bool is_lipid(std::span<const Atom> residue);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Knows Martini's beads by the names of residues and beads.
+// Holds the tables of Martini's beads by the names of residues and beads, and bonds beads by these names.
 #include "core/structure/martini.h"
 
 #include <algorithm>
@@ -16,16 +16,18 @@
 namespace meniscus {
 namespace {
 
-constexpr double kRegular = 4.7, kSmall2 = 4.3, kSmall3 = 4.1, kTiny3 = 3.4;  // sigma, Å
+constexpr double kRegular = 4.7, kSmall2 = 4.3, kSmall3 = 4.1, kTiny3 = 3.4;  // Å
 constexpr double kLongestBackbone = 5.0, kLongestBead = 8.0;                  // Å
 
+/// The beads of a residue, as names and types.
 struct ResidueRow {
   std::string_view residue;
-  std::string_view version2;  ///< "BB P5 SC1 C3 SC2 Qd"; of backbones: none
+  std::string_view version2;  ///< "BB P5 SC1 C3 SC2 Qd"; without backbone beads
   std::string_view version3;
 };
 
-// martinize and martinize2 (vermouth 0.15), force fields martini22 and martini3001. BB of version 2 is left out.
+// Beads of martinize and martinize2 (vermouth 0.15), force fields martini22 and martini3001. BB of version 2 is left
+// out.
 constexpr ResidueRow kProtein[] = {
     {"GLY", "", "BB SP1"},
     {"ALA", "", "BB SP2 SC1 TC3"},
@@ -65,19 +67,19 @@ constexpr ResidueRow kProtein[] = {
     {"TRP", "SC1 SC4 SC2 SNd SC3 SC5 SC4 SC5", "BB P2 SC1 TC4 SC2 TN6d SC3 TC5 SC4 TC5 SC5 TC5"},
 };
 
-// Lipids have the same beads whatever they are called. Martini 2: lipids of 2007, sphingolipids and sterols as revised
-// (M. N. Melo et al., J. Chem. Phys. 143, 243152, 2015); Martini 3: phospholipids of 2021, sterols of L.
-// Borges-Araújo et al., J. Chem. Theory Comput. 19, 7387 (2023). Tails: apolar, regular, all of them.
+// All lipids have the same beads, whatever their names. Martini 2: lipids of 2007, sphingolipids and sterols as revised
+// (M. N. Melo et al., J. Chem. Phys. 143, 243152, 2015). Martini 3: phospholipids of 2021, sterols of L. Borges-Araújo
+// et al., J. Chem. Theory Comput. 19, 7387 (2023). All beads of tails are apolar and of regular size.
 constexpr std::string_view kLipid2 =
     "NC3 Q0 NH3 Qd PO4 Qa PO1 Qa PO2 Qa CNO P5 GL0 P4 GL1 Na GL2 Na GL3 Na GL4 Na AM1 P1 AM2 P5";
 constexpr std::string_view kLipid3 = "NC3 Q1 NH3 Q4p PO4 Q5 CNO P6 GL0 P4 GL1 SN4a GL2 N4a";
 constexpr std::string_view kSterol2 = "ROH SP1 R1 SC1 R2 SC3 R3 SC1 R4 SC1 R5 SC1 C1 SC1 C2 C1";
 constexpr std::string_view kSterol3 = "ROH P1 R1 SC4 R2 SC3 R3 SC3 R4 SC3 R5 TC2 R6 TC2 C1 C2 C2 C2";
-// Ions with their shell of water; one name is of one version or of both.
+// Ions with their water shell. A name may belong to one version or to both.
 constexpr std::string_view kIon2 = "NA+ Qd CL- Qa CA+ Qd CA2+ Qd CHO Q0";
 constexpr std::string_view kIon3 = "NA+ TQ5 CL- TQ5 NA TQ5 CL TQ5 BR SQ4 ID SQ2 CA SD TMA Q2 BF4 Q2 PF6 Q1 NO3 SQ3n";
 
-/// The word after `name` in "NAME TYPE NAME TYPE"; empty: none.
+/// Returns the word after `name` in "NAME TYPE NAME TYPE"; empty if there is none.
 std::string_view type_in(std::string_view row, std::string_view name) {
   while (!row.empty()) {
     const auto word = [&row] {
@@ -91,7 +93,8 @@ std::string_view type_in(std::string_view row, std::string_view name) {
   return {};
 }
 
-/// C1A, D3B, T1A, C12C: a letter of the tail's chemistry, which place, and which tail. '\0': another name.
+/// Returns the letter of the tail that a bead belongs to. Names such as C1A, D3B, T1A and C12C consist of a letter for
+/// the chemistry, the place, and the tail. '\0' for any other name.
 char tail_of(std::string_view name) {
   if (name.size() < 3 || std::string_view("CDTEF").find(name.front()) == std::string_view::npos) return '\0';
   if (name.back() < 'A' || name.back() > 'F') return '\0';
@@ -146,7 +149,7 @@ BeadClass class_of(std::string_view type) {
   }
 }
 
-/// Runs of atoms of one residue: calls visit(first, last).
+/// Calls visit(first, last) for each run of atoms of one residue, in which `last` is not included.
 template <typename Visit>
 void for_each_residue(std::span<const Atom> atoms, Visit&& visit) {
   for (std::size_t first = 0, last = 0; first < atoms.size(); first = last) {
@@ -213,7 +216,7 @@ class BeadBonds {
     }
   }
 
-  /// Each bead with the nearest of those before it.
+  /// Bonds each bead to the nearest of those before it.
   void join_sterol(std::size_t first, std::size_t last) {
     for (std::size_t n = first + 1; n < last; ++n) {
       std::size_t nearest = first;

@@ -13,7 +13,7 @@ namespace {
 
 double squared(const glm::dvec3& v) { return glm::dot(v, v); }
 
-/// The one of v + i a + j b, nearest to the origin, for a and b that are reduced already (Lagrange 1773).
+/// Returns the vector v + i a + j b that is nearest to the origin. a and b must be reduced (Lagrange 1773).
 glm::dvec3 nearest(const glm::dvec3& v, const glm::dvec3& a, const glm::dvec3& b) {
   const double aa = squared(a), ab = glm::dot(a, b), bb = squared(b);
   const double va = glm::dot(v, a), vb = glm::dot(v, b), determinant = aa * bb - ab * ab;
@@ -29,10 +29,10 @@ glm::dvec3 nearest(const glm::dvec3& v, const glm::dvec3& a, const glm::dvec3& b
   return best;
 }
 
-/// Minkowski-reduced vectors of the same lattice: greedy reduction, which is exact in three dimensions (I. Semaev, A
-/// 3-dimensional lattice reduction algorithm, 2001).
+/// Returns Minkowski-reduced vectors of the same lattice, by greedy reduction, which is exact in three dimensions (I.
+/// Semaev, A 3-dimensional lattice reduction algorithm, 2001).
 glm::dmat3 reduced(glm::dmat3 v) {
-  constexpr int kMostSteps = 1000;  // boxes of simulations need a handful
+  constexpr int kMostSteps = 1000;  // boxes of simulations need only a few
   for (int step = 0; step < kMostSteps; ++step) {
     if (squared(v[1]) < squared(v[0])) std::swap(v[0], v[1]);
     if (squared(v[2]) < squared(v[1])) std::swap(v[1], v[2]);
@@ -53,7 +53,7 @@ glm::dmat3 reduced(glm::dmat3 v) {
 
 std::optional<PeriodicCell> PeriodicCell::of(const glm::dmat3& vectors) {
   const double volume = std::abs(glm::determinant(vectors));
-  // Beyond these no box means anything, and squares of its edges have no place in double precision.
+  // Other edges are no box of atoms, and their squares would leave the range of double precision.
   constexpr double kShortestEdge = 1e-6, kLongestEdge = 1e9;
   double lengths = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -68,7 +68,7 @@ std::optional<PeriodicCell> PeriodicCell::of(const glm::dmat3& vectors) {
 PeriodicCell::PeriodicCell(const glm::dmat3& reduced)
     : vectors_(reduced), inverse_(glm::inverse(reduced)), half_shortest_squared_(0.25 * squared(reduced[0])) {}
 
-// In a Minkowski-reduced basis of three dimensions the images that can be nearest are those next to the rounded one.
+// In a Minkowski-reduced basis in three dimensions the nearest image is next to the rounded one.
 glm::dvec3 PeriodicCell::shortest(glm::dvec3 d) const {
   if (squared(d) <= half_shortest_squared_) return d;
   const glm::dvec3 fraction = inverse_ * d;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks for coincident atoms and for coordinates in other units, and sums up warnings of one kind.
+// Finds coincident atoms and coordinates in other units, and summarizes warnings of one kind.
 #include "core/structure/plausibility.h"
 
 #include <algorithm>
@@ -21,14 +21,14 @@
 namespace meniscus {
 namespace {
 
-// The first atom at each place, in an open hash table.
+// The first atom at each position, in a hash table with open addressing.
 class Places {
  public:
-  // of_models: atoms of several models may share a place.
+  // Begins without atoms. of_models: true if atoms of several models may have the same position.
   Places(const std::vector<Atom>& atoms, bool of_models)
       : atoms_(atoms), of_models_(of_models), slots_(std::bit_ceil(2 * atoms.size() + 1), kFree) {}
 
-  // Of the place of atom n; n itself if none was asked for before.
+  // Returns the first atom at the position of atom n, and adds n if there is none.
   std::uint32_t first_at_place_of(std::uint32_t n) {
     for (std::size_t slot = scrambled(n);; ++slot) {
       std::uint32_t& first = slots_[slot & (slots_.size() - 1)];
@@ -61,12 +61,13 @@ class Places {
 
 constexpr std::size_t kSample = 64;
 
-// Some atoms, and the square of the distance from each to the nearest other one.
+// A sample of atoms, and the squared distance (Å²) from each of them to the nearest other atom.
 struct Sample {
   std::array<double, kSample> x, y, z, nearest;
 };
 
-// Is the point nearer to any of them than all before? Then `squares` has the square of its distance to each.
+// True if the point is nearer to any atom of the sample than all points before. `squares` receives its squared distance
+// to each atom of the sample.
 MENISCUS_VECTOR_CLONES
 bool is_nearer(const Sample& sample, const glm::dvec3& point, double* squares) {
   const double px = point.x, py = point.y, pz = point.z;
@@ -81,11 +82,11 @@ bool is_nearer(const Sample& sample, const glm::dvec3& point, double* squares) {
 
 enum class Neighbors { of_the_same_model, of_other_models };
 
-// The median of the distances from at most 64 atoms, evenly spread, each to the nearest one of its model and alternate
-// location or of another model.
+// Returns the median distance (Å) from at most 64 atoms, evenly spread over the file, to the nearest atom of the same
+// model and alternate location, or of another model.
 double median_nearest(const std::vector<Atom>& atoms, Neighbors neighbors) {
   const std::size_t step = (atoms.size() + kSample - 1) / kSample, count = (atoms.size() + step - 1) / step;
-  Sample sample{};  // those beyond the count have nothing nearer than 0
+  Sample sample{};  // unused entries have the distance 0, so that no atom is nearer
   for (std::size_t s = 0; s < count; ++s) {
     const glm::dvec3& position = atoms[s * step].position;
     sample.x[s] = position.x;
@@ -114,7 +115,7 @@ double median_nearest(const std::vector<Atom>& atoms, Neighbors neighbors) {
 
 void warn_of_coincident_atoms(Structure& structure) {
   const std::vector<Atom>& atoms = structure.atoms;
-  Places places(atoms, !structure.added.empty());  // superposed files may have atoms in common
+  Places places(atoms, !structure.added.empty());  // files that were superposed may have atoms in common
   std::vector<std::string> cases;
   for (std::uint32_t n = 0; n < atoms.size(); ++n) {
     const std::uint32_t first = places.first_at_place_of(n);
@@ -139,7 +140,7 @@ void warn_of_wrong_unit(Structure& structure) {
 }
 
 void warn_of_overlaid_models(Structure& structure) {
-  constexpr double kShortestContact = 1.5;  // of atoms that are not bonded
+  constexpr double kShortestContact = 1.5;  // Å, of atoms that are not bonded
   if (structure.atoms.empty() || median_nearest(structure.atoms, Neighbors::of_other_models) >= kShortestContact)
     return;
   structure.report.warnings.emplace_back(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decisions about boxes agree with those about points, because rounding keeps order: a distance to the near (far) side
-// of a box, summed in the same order, never exceeds (falls below) that of a point inside.
+// Builds and searches the tree. Decisions about boxes agree with those about points, because rounding keeps the order
+// of numbers: a distance to the near (far) side of a box, summed in the same order, never exceeds (falls below) that of
+// a point inside.
 #include "core/structure/point_tree.h"
 
 #include <algorithm>
@@ -44,7 +45,7 @@ void PointTree::build(std::uint32_t first, std::uint32_t last) {
 
 bool PointTree::any_within(const glm::dvec3& place, double reach) const {
   const double limit = reach * reach;
-  std::array<std::uint32_t, 64> pending{};  // halving 2^32 points takes 32 levels
+  std::array<std::uint32_t, 64> pending{};  // 2^32 points have 32 levels
   std::size_t count = 0;
   if (!nodes_.empty()) pending[count++] = 0;
   while (count > 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tells exactly, for many places, whether any of a set of points is within reach.
+// A tree of points that finds exactly, for many places, whether any point is near.
 #pragma once
 
 #include <cstdint>
@@ -9,21 +9,22 @@
 
 namespace meniscus {
 
-/// A balanced tree of tight boxes (J. L. Bentley, Comm. ACM 18, 509 (1975)). Unlike in a grid, time does not grow with
-/// the reach: boxes wholly inside or outside it are decided at once.
+/// A balanced tree of tight boxes (J. L. Bentley, Comm. ACM 18, 509 (1975)). Unlike with a grid, the time does not grow
+/// with the distance, because boxes that are entirely within or beyond it are decided at once.
 class PointTree {
  public:
-  /// O(n log n). Points are finite.
+  /// Builds the tree in O(n log n). Points must be finite.
   explicit PointTree(std::vector<glm::dvec3> points);
 
-  /// Is there a point with squared distance <= reach squared, both rounded to double? O(log n) for usual point sets.
+  /// True if there is a point with squared distance <= reach squared, both rounded to double. It takes O(log n) for
+  /// usual sets of points.
   bool any_within(const glm::dvec3& place, double reach) const;
 
  private:
   struct Node {
     glm::dvec3 low, high;
-    std::uint32_t first, last;    ///< points_
-    std::uint32_t far_child = 0;  ///< the other child follows its parent; 0: a leaf
+    std::uint32_t first, last;    ///< range in points_
+    std::uint32_t far_child = 0;  ///< 0 for a leaf; the other child follows its parent in nodes_
   };
   void build(std::uint32_t first, std::uint32_t last);
 

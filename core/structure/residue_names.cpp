@@ -109,7 +109,7 @@ constexpr Row kOthers[] = {{"HOH", "O O2H2"}, {"ACE", "C C3H0 O O1H0 CH3 C4H3"},
 
 using Atoms = std::map<std::string_view, std::string_view>;
 
-/// The later of two entries for an atom counts.
+/// Adds the entries of a row. A later entry for an atom replaces an earlier one.
 void add(Atoms& atoms, std::string_view row) {
   const auto field = [&row] {
     const std::string_view found = row.substr(0, row.find(' '));
@@ -139,7 +139,7 @@ std::map<std::string, Atoms, std::less<>> all_residues() {
   return residues;
 }
 
-/// The atoms of a residue by its canonical name; none: not known.
+/// Returns the atoms of a residue by its canonical name. The result is empty if it is not known.
 const Atoms& atoms_of(const std::string& canonical) {
   static const std::map<std::string, Atoms, std::less<>> kTables = all_residues();
   static const Atoms kNone;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tells where a residue ends, chooses among its alternate locations, and looks for bonds from one to the next.
+// Numbers residues, chooses among their alternate locations, and finds bonds between them.
 #include "core/structure/residues.h"
 
 #include <algorithm>
@@ -28,7 +28,8 @@ bool same_place(const Atom& a, const Atom& b) {
          a.chain == b.chain && a.subchain == b.subchain && a.segment == b.segment;
 }
 
-/// Residues of several names at one place are alternatives (microheterogeneity) if both bear a letter.
+/// True if two atoms at one place may belong to one residue. Residues of several names at one place are alternatives
+/// (microheterogeneity) if both have a letter.
 bool same_or_alternative_name(const Atom& a, const Atom& b) {
   return a.residue_name == b.residue_name || (a.altloc != ' ' && b.altloc != ' ');
 }
@@ -50,7 +51,7 @@ bool ResidueCounter::continues(const Piece& piece, const Atom& atom) const {
 
 void ResidueCounter::number(Atom& atom) {
   atom.index = static_cast<std::uint32_t>(atoms_.size());
-  if (!piece_open_ || !same_place(atoms_.back(), atom) || !same_or_alternative_name(atoms_.back(), atom)) {
+  if (!is_piece_open_ || !same_place(atoms_.back(), atom) || !same_or_alternative_name(atoms_.back(), atom)) {
     const auto [found, added] = last_piece_.try_emplace(key_of(atom), Piece{residues_, atoms_.size(), atoms_.size()});
     piece_ = &found->second;
     if (added || !continues(*piece_, atom)) {
@@ -58,7 +59,7 @@ void ResidueCounter::number(Atom& atom) {
     } else {
       piece_->begin = atoms_.size();
     }
-    piece_open_ = true;
+    is_piece_open_ = true;
   }
   piece_->end = atoms_.size() + 1;
   atom.residue = piece_->residue;
@@ -69,14 +70,14 @@ namespace {
 /// The atoms of one alternate location in one residue.
 struct Conformer {
   char letter;
-  double occupancy = 0.0, b_factor = 0.0;  ///< sums; missing ones count as 1 and 0
+  double occupancy = 0.0, b_factor = 0.0;  ///< sums over the atoms; a missing value counts as 1 and 0
   std::vector<std::uint32_t> atoms{};
 
   double mean_occupancy() const { return occupancy / static_cast<double>(atoms.size()); }
   auto rank() const { return std::make_tuple(-mean_occupancy(), b_factor / static_cast<double>(atoms.size()), letter); }
 };
 
-/// A residue with alternate locations, in the order of the file, while its atoms are chosen.
+/// A residue with alternate locations, whose atoms are added in the order of the file and then chosen.
 class AlternateResidue {
  public:
   AlternateResidue(const std::vector<Atom>& atoms, std::vector<bool>& kept) : atoms_(atoms), kept_(kept) {}
@@ -91,7 +92,8 @@ class AlternateResidue {
     found->atoms.push_back(n);
   }
 
-  /// What was taken from other alternate locations than the chosen one, in words; empty: nothing.
+  /// Chooses the atoms to keep. Returns a description of what was taken from other alternate locations; empty if
+  /// nothing was.
   std::string choose(const AltlocChoice& choice) {
     const Conformer best = *chosen(choice);
     for (const std::uint32_t n : best.atoms) keep(n);
@@ -130,7 +132,8 @@ class AlternateResidue {
     return names.empty() ? names : fmt::format("{} of {}", names, escaped(std::string(1, from.letter)));
   }
 
-  /// H and D, which share a place in structures by neutrons, have two names, and hydrogens on a common atom turn.
+  /// True if the atom that this hydrogen is bonded to is kept. Without this condition H and D, which have two names but
+  /// one place in neutron structures, and hydrogens of a group that rotates would be kept twice.
   bool has_bonded_atom(std::uint32_t hydrogen, const Conformer& from) const {
     constexpr double kLongestToHydrogen = 1.6;  // Å
     return std::ranges::any_of(from.atoms, [&](std::uint32_t n) {
@@ -181,9 +184,10 @@ std::vector<bool> kept_alternates(const std::vector<Atom>& atoms, const AltlocCh
 
 namespace {
 
+// Å, length of a bond between residues.
 constexpr double kShortest = 1.0, kLongest = 2.2;
 
-/// An atom by which a residue hangs together with the next or the one before: C and N, O3' and P.
+/// The role of an atom that links a residue to the next or previous one: C and N, O3' and P.
 enum class End : std::uint8_t { none, carbonyl, amine, hydroxyl, phosphorus };
 
 bool complementary(End a, End b) {
@@ -271,7 +275,7 @@ class LinkFinder {
 
   std::span<const Atom> atoms_;
   std::size_t residues_ = 0;
-  std::vector<End> ends_;  ///< of the atoms
+  std::vector<End> ends_;  ///< of each atom
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
   std::vector<bool> linked_;
 };
@@ -289,7 +293,7 @@ std::vector<double> relative_accessibility(const Structure& structure, std::span
   std::vector<double> numbers(structure.atoms.size(), std::numeric_limits<double>::quiet_NaN());
   for (const AtomGroup& residue : group_atoms(structure, Grouping::residue)) {
     const std::string name = canonical_residue(structure.atoms[residue.atoms.front()].residue_name);
-    std::set<std::string> heavy{"OXT"};  // which may be missing
+    std::set<std::string> heavy{"OXT"};  // OXT may be missing
     double area = 0.0;
     for (const std::uint32_t a : residue.atoms) {
       area += areas[a];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds hydrogen bonds by energy, turns and bridges by bonds, and helices and ladders by both.
+// Finds hydrogen bonds by energy, turns and bridges by these bonds, and helices and ladders by turns and bridges.
 #include "core/structure/secondary_structure.h"
 
 #include <algorithm>
@@ -19,25 +19,26 @@ namespace {
 
 constexpr std::uint32_t kNoResidue = std::numeric_limits<std::uint32_t>::max();
 
-/// Of Kabsch & Sander: 0.42 e and 0.20 e on C, O and N, H; 332 kcal/mol Å/e². A bond is below -0.5 kcal/mol.
+/// The energy of a hydrogen bond by Kabsch and Sander: charges of 0.42 e and 0.20 e on C, O and N, H; 332 kcal/mol
+/// Å/e². A bond is below -0.5 kcal/mol.
 constexpr double kCoupling = 0.42 * 0.20 * 332.0;
 constexpr double kBondEnergy = -0.5, kLeastEnergy = -9.9;
-constexpr double kShortestContact = 0.5;       // Å; nearer ones have the least energy
-constexpr double kFarthestAlphaCarbons = 9.0;  // Å, of two residues with a bond
+constexpr double kShortestContact = 0.5;       // Å; a shorter one has the least energy
+constexpr double kFarthestAlphaCarbons = 9.0;  // Å, between two residues with a hydrogen bond
 constexpr double kLongestPeptideBond = 2.5;    // Å
-constexpr std::uint32_t kWidestGap = 6;        // residues between two ladders with a bulge
+constexpr std::uint32_t kWidestGap = 6;        // residues between two ladders that a bulge separates
 
-/// A residue with a whole backbone.
+/// A residue with a complete backbone.
 struct BackboneResidue {
   std::uint32_t first_atom, last_atom;
   glm::dvec3 n, ca, c, o;
-  std::optional<glm::dvec3> h;  ///< not of proline, nor of the first of a chain
-  bool follows = false;         ///< bonded to the one before
+  std::optional<glm::dvec3> h;  ///< none in proline and in the first residue of a chain
+  bool follows = false;         ///< true if it is bonded to the previous residue
 };
 
 enum class Bridge : std::uint8_t { none, parallel, antiparallel };
 
-/// Bridges of neighbouring residues; `to` is in the order of its chain.
+/// Consecutive bridges of one kind. `to` is in the order of its chain.
 struct Ladder {
   Bridge kind;
   std::vector<std::uint32_t> from, to;
@@ -104,7 +105,7 @@ class HydrogenBondPatterns {
     return std::max(kLeastEnergy, kCoupling * (1.0 / no + 1.0 / hc - 1.0 / ho - 1.0 / nc));
   }
 
-  /// The two best acceptors of each donor.
+  /// Finds the two best acceptors of each donor, and numbers the chains.
   void find_hydrogen_bonds() {
     std::vector<glm::dvec3> alpha_carbons;
     for (const BackboneResidue& residue : residues_) alpha_carbons.push_back(residue.ca);
@@ -115,7 +116,7 @@ class HydrogenBondPatterns {
       std::array<double, 2> best{0.0, 0.0};
       std::array<std::uint32_t, 2>& acceptors = acceptors_[d];
       grid.for_each_near(residues_[d].ca, kFarthestAlphaCarbons, [&](std::uint32_t a) {
-        if (a == d || a + 1 == d) return;  // the acceptor before it is its own peptide
+        if (a == d || a + 1 == d) return;  // the previous residue contains the donor's own peptide group
         const double found = energy(residues_[d], residues_[a]);
         if (found < best[0]) {
           best = {found, best[0]};
@@ -146,7 +147,8 @@ class HydrogenBondPatterns {
     return Bridge::none;
   }
 
-  /// Every bridge needs a bond from i or from the residue behind it, to its partner or to the one before that.
+  /// Returns all residues after i that may form a bridge with it. Every bridge needs a hydrogen bond from i or i + 1 to
+  /// its partner or to the residue before that.
   std::vector<std::uint32_t> partners_of(std::uint32_t i) const {
     std::vector<std::uint32_t> partners;
     for (const std::uint32_t donor : {i, i + 1}) {
@@ -176,7 +178,7 @@ class HydrogenBondPatterns {
 
   std::vector<Ladder> ladders() const {
     std::vector<Ladder> found;
-    std::vector<std::size_t> open;  // those that reached the residue before
+    std::vector<std::size_t> open;  // ladders that contain residue i - 1
     const auto count = static_cast<std::uint32_t>(residues_.size());
     for (std::uint32_t i = 1; i + 4 < count; ++i) {
       std::erase_if(open, [&](std::size_t n) { return found[n].from.back() + 1 < i; });
@@ -192,7 +194,7 @@ class HydrogenBondPatterns {
     return found;
   }
 
-  /// May the second go on where the first ends, with a bulge between?
+  /// True if the second ladder may continue the first one after a bulge.
   bool bulge(const Ladder& first, const Ladder& second) const {
     const auto [i, i_end] = std::pair(first.from.front(), first.from.back());
     const auto [j, j_end] = std::pair(first.to.front(), first.to.back());
@@ -231,8 +233,8 @@ class HydrogenBondPatterns {
     std::fill(kinds_.begin() + first, kinds_.begin() + last + 1, kind);
   }
 
-  /// A turn is a bond from i + length back to i; two in a row begin a helix. Those of 4 go before strands, and both
-  /// before those of 3 and 5, which need all their residues for themselves.
+  /// Marks helices. A turn is a hydrogen bond from i + length to i, and two consecutive turns begin a helix. Helices of
+  /// 4 replace strands. Helices of 3 and 5 are marked only where all their residues are coil.
   void mark_helices() {
     const auto count = static_cast<std::uint32_t>(residues_.size());
     const auto turn = [&](std::uint32_t i, std::uint32_t length) {
@@ -253,7 +255,7 @@ class HydrogenBondPatterns {
   std::span<const Atom> atoms_;
   std::vector<BackboneResidue> residues_;
   std::vector<std::array<std::uint32_t, 2>> acceptors_;
-  std::vector<std::uint32_t> chain_;  ///< of each residue: which unbroken piece
+  std::vector<std::uint32_t> chain_;  ///< number of the unbroken piece that each residue belongs to
   std::vector<SecondaryStructure> kinds_;
 };
 
@@ -286,7 +288,7 @@ void mark_secondary_structure(std::vector<Atom>& atoms, std::span<const Secondar
 
 std::vector<SecondaryStructure> secondary_structure(std::span<const Atom> atoms) {
   std::vector<SecondaryStructure> result;
-  std::map<std::int32_t, std::vector<std::uint32_t>> unknown;  // atoms of the models that do not say
+  std::map<std::int32_t, std::vector<std::uint32_t>> unknown;  // atoms of models without secondary structure
   for (std::uint32_t n = 0; n < atoms.size(); ++n) unknown[atoms[n].model].push_back(n);
   for (const Atom& atom : atoms) {
     result.push_back(atom.secondary);

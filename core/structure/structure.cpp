@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Describes in words what happened to the atoms of a file.
+// Describes what happened to the atoms of a file, and groups atoms.
 #include "core/structure/structure.h"
 
 #include <algorithm>
@@ -111,7 +111,7 @@ std::vector<Ball> balls_of(const Structure& structure) {
 
 namespace {
 
-// What atoms of one group have in common: a number, a second one, a text.
+// The numbers and texts that all atoms of one group have in common.
 using Key = std::tuple<std::int64_t, std::string>;
 
 Key key_of(const Atom& atom, Grouping by) {

@@ -13,14 +13,14 @@
 namespace meniscus {
 namespace {
 
-// The SNFG's colours, as RGB of its page at the NCBI.
+// The colours of the SNFG, as RGB from its page at the NCBI.
 constexpr std::uint32_t kBlue = 0x0090bc, kGreen = 0x00a651, kYellow = 0xffd400, kLightBlue = 0x8fcce9,
                         kPink = 0xf69ea1, kPurple = 0xa54399, kBrown = 0xa17a4d, kOrange = 0xf47920, kRed = 0xed1c24;
 
 struct SugarRow {
   Sugar sugar;
-  std::string_view names;  ///< of the wwPDB and of CHARMM
-  char glycam;             ///< letter of GLYCAM; blank: none
+  std::string_view names;  ///< names of the wwPDB and of CHARMM
+  char glycam;             ///< letter of GLYCAM, or blank
 };
 
 using enum SugarSolid;
@@ -66,9 +66,9 @@ constexpr SugarRow kSugars[] = {
     {{"Psi", pentagon, kPink}, "PSV", ' '},
 };
 
-constexpr double kLongestRingBond = 2.0;  // Å, of a ring
+constexpr double kLongestRingBond = 2.0;  // Å
 
-// Pyranoses of aldoses and of nonulosonates, furanoses of aldoses and of ketoses.
+// The rings of pyranoses of aldoses and nonulosonates, and of furanoses of aldoses and ketoses.
 constexpr std::array<std::array<std::string_view, 6>, 4> kSugarRings{{{"C1", "C2", "C3", "C4", "C5", "O5"},
                                                                       {"C2", "C3", "C4", "C5", "C6", "O6"},
                                                                       {"C2", "C3", "C4", "C5", "O5", ""},
@@ -81,7 +81,7 @@ bool is_listed(std::string_view names, std::string_view name) {
   return false;
 }
 
-/// "4YB", "0fA", "VMB".
+/// Returns the sugar of a name such as "4YB", "0fA" or "VMB". Returns null for any other name.
 const Sugar* sugar_of_glycam(std::string_view name) {
   if (name.size() != 3 || std::string_view("ABUD").find(name[2]) == std::string_view::npos) return nullptr;
   if (std::string_view("0123456789ZYXWVUTSRQP").find(name[0]) == std::string_view::npos) return nullptr;

@@ -22,13 +22,13 @@
 namespace meniscus {
 namespace {
 
-/// Residues of a chain, each with places of its atoms.
+/// The residues of a chain, each with the places of its atoms.
 struct Sequence {
   std::vector<std::string> names;
   std::vector<std::vector<std::uint32_t>> atoms;
 };
 
-/// The standard residue that a modified one is made from, such as MET of MSE; else its canonical name.
+/// Returns the standard residue that a modified one derives from, such as MET for MSE, or else the canonical name.
 std::string standard_name(const std::string& residue_name) {
   const std::string name = canonical_residue(residue_name);
   const gemmi::ResidueInfo info = gemmi::find_tabulated_residue(name);
@@ -38,7 +38,8 @@ std::string standard_name(const std::string& residue_name) {
   return standard ? standard : name;
 }
 
-/// Of the atoms that count, in the order of the file. Of atoms with alternate locations those of the first are taken.
+/// Returns the sequences of the chains, from the atoms that take part, in the order of the file. Of atoms with
+/// alternate locations the first is used.
 std::vector<Sequence> sequences(std::span<const Atom> atoms, const std::vector<bool>& counts) {
   std::vector<Sequence> chains;
   std::map<std::pair<std::int32_t, std::string>, std::size_t> places;
@@ -61,8 +62,8 @@ std::vector<Sequence> sequences(std::span<const Atom> atoms, const std::vector<b
   return chains;
 }
 
-/// The atoms of two residues that have the same name; of several with one name the first with the first, and so on,
-/// where both residues have as many.
+/// Appends the pairs of atoms of two residues with the same name. If several atoms have one name, they are paired in
+/// order, provided that both residues have as many of them.
 void pair_residues(std::span<const Atom> reference, const std::vector<std::uint32_t>& of_reference,
                    std::span<const Atom> moved, const std::vector<std::uint32_t>& of_moved,
                    std::vector<AtomPair>& pairs) {
@@ -75,7 +76,7 @@ void pair_residues(std::span<const Atom> reference, const std::vector<std::uint3
       for (std::size_t n = 0; n < both.first.size(); ++n) pairs.push_back({both.first[n], both.second[n]});
 }
 
-/// Two chains, aligned.
+/// Two aligned chains.
 struct ChainPair {
   std::size_t reference = 0, moved = 0;
   int score = 0;
@@ -83,15 +84,15 @@ struct ChainPair {
 };
 
 gemmi::AlignmentScoring blosum62() {
-#if __has_include(<gemmi/seqtools.hpp>)  // of gemmi 0.7
+#if __has_include(<gemmi/seqtools.hpp>)  // since gemmi 0.7
   return *gemmi::AlignmentScoring::blosum62();
 #else
   return gemmi::prepare_blosum62_scoring();
 #endif
 }
 
-/// Scores of all residues that the chains have. gemmi 0.5.7 reads a wrong row of the matrix for residues that are not
-/// in it; those have the scores of nucleotides in BLAST.
+/// Returns the scores of all residues of the chains. gemmi 0.5.7 reads a wrong row of the matrix for residues that are
+/// not in it. Such residues get the scores of nucleotides in BLAST.
 gemmi::AlignmentScoring scoring_of(const std::vector<Sequence>& some, const std::vector<Sequence>& others) {
   constexpr std::int8_t kSame = 5, kDifferent = -4;
   const gemmi::AlignmentScoring known = blosum62();
@@ -116,7 +117,7 @@ gemmi::AlignmentScoring scoring_of(const std::vector<Sequence>& some, const std:
 
 gemmi::AlignmentResult alignment(const std::vector<std::string>& query, const std::vector<std::string>& target,
                                  const gemmi::AlignmentScoring& scoring) {
-#if __has_include(<gemmi/seqtools.hpp>)  // of gemmi 0.7
+#if __has_include(<gemmi/seqtools.hpp>)  // since gemmi 0.7
   return gemmi::align_string_sequences(query, target, {}, &scoring);
 #else
   return gemmi::align_string_sequences(query, target, {}, scoring);
@@ -163,7 +164,7 @@ gemmi::Position position_of(const glm::dvec3& x) { return {x.x, x.y, x.z}; }
 
 constexpr std::size_t kFewestPairs = 3;
 
-/// All pairs of chains that have atoms for a superposition, the best score first.
+/// Returns all pairs of chains with enough atoms for a superposition, in descending order of their score.
 std::vector<ChainPair> chain_pairs(std::span<const Atom> reference, const std::vector<Sequence>& of_reference,
                                    std::span<const Atom> moved, const std::vector<Sequence>& of_moved) {
   const gemmi::AlignmentScoring scoring = scoring_of(of_reference, of_moved);
@@ -180,13 +181,14 @@ std::vector<ChainPair> chain_pairs(std::span<const Atom> reference, const std::v
   return pairs;
 }
 
-/// Of chains that score nearly alike, such as those of a homodimer, their places decide.
+/// True if the score of `other` is nearly that of `best`. Among such pairs, as in a homodimer, the positions of the
+/// chains decide.
 bool is_nearly(const ChainPair& best, const ChainPair& other) {
   constexpr double kNearly = 0.9;
   return other.score >= kNearly * best.score;
 }
 
-/// The atoms of the first pair of chains, and of the others that are found from it.
+/// Returns the atoms of the first pair of chains and of all other pairs that are found from it.
 std::vector<AtomPair> paired_from(const ChainPair& first, const std::vector<ChainPair>& candidates,
                                   std::span<const Atom> reference, std::span<const Atom> moved) {
   std::vector<AtomPair> pairs;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What half-spaces leave of the circles on a sphere, and what linear functions do along their arcs.
+// Arcs of circles on a sphere that half-spaces leave, and the ranges of linear functions along arcs.
 #pragma once
 
 #include <algorithm>
@@ -17,14 +17,14 @@
 
 namespace meniscus {
 
-/// The great circle around a unit axis.
+/// Returns the great circle around a unit axis.
 inline SphereCircle great_circle(const glm::dvec3& axis) {
   const glm::dvec3 aside = std::abs(axis.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 x = glm::normalize(glm::cross(axis, aside));
   return {axis, 0, x, glm::cross(axis, x)};
 }
 
-/// The parameters of a circle that are left after half-spaces have been cut away.
+/// The parameters of a circle that remain after half-spaces have been cut away.
 class ArcIntervals {
  public:
   void restart(double length) { kept_.assign(1, {0.0, length}); }
@@ -62,14 +62,14 @@ class ArcIntervals {
   std::vector<std::pair<double, double>> kept_, rest_;
 };
 
-/// A linear function along a circle: from `least` to `most`.
+/// The range of a linear function along a circle: from `least` to `most`.
 struct ArcRange {
   double least, most;
 };
 
-/// What a linear function does along a short arc, by its values and slopes at both ends: most planes clearly leave all
-/// of an arc or nothing, and that is told without trigonometry. `middle` is its value at the circle's centre; the arc
-/// is shorter than half a turn, so there is one extremum inside at most.
+/// Returns the range of a linear function along a short arc from its values and slopes at both ends. Most planes
+/// clearly leave all of an arc or nothing of it, and this finds out without trigonometry. `middle` is the function's
+/// value at the circle's centre. The arc is shorter than half a turn, so it has at most one extremum inside.
 inline ArcRange range_along(const std::array<double, 2>& value, const std::array<double, 2>& slope, double middle) {
   ArcRange range{std::min(value[0], value[1]), std::max(value[0], value[1])};
   if (slope[0] * slope[1] < 0) {
@@ -79,7 +79,7 @@ inline ArcRange range_along(const std::array<double, 2>& value, const std::array
   return range;
 }
 
-/// The three points of a short arc that ranges are told by: begin, middle and end, and the way onwards there.
+/// Three points of a short arc from which ranges are computed: begin, middle and end, with the tangents at both ends.
 struct ArcPoints {
   std::array<glm::dvec3, 3> point, onwards;
 

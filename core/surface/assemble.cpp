@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the stages from a reduced surface to the finished surface, and repeats them with grown radii where ties demand
+// Runs the stages from a reduced surface to the finished surface, and repeats them with grown radii where ties require
 // it.
 #include "core/surface/compute_surface.h"
 
@@ -115,7 +115,7 @@ SurfaceCounts Surface::counts() const {
 
 SurfaceCounts counts_of(const Surface& s, const std::function<bool(std::uint32_t)>& is_counted) {
   SurfaceCounts n;
-  // A part of a surface may hold several patches of one atom or probe; they are next to each other.
+  // In a part of a surface, one atom or probe may have several patches; they are adjacent.
   for (std::size_t c = 0; c < s.convex.size(); ++c)
     n.convex += (c == 0 || s.convex[c].atom != s.convex[c - 1].atom) && is_counted(s.convex[c].atom);
   for (std::size_t c = 0; c < s.concave.size(); ++c) {

@@ -25,38 +25,38 @@ namespace meniscus {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kMisfit = 1e-9;       // of a loop, beyond which its turning is not trusted
-constexpr double kShort = 3;           // radian: of arcs that are told without trigonometry
-constexpr double kClear = 1e-9;        // of the probe radius: rounding is a millionth of it
-constexpr double kLargestRest = 1e-4;  // Å², of a patch: what shares are known to be off by at corners that are blurred
-constexpr double kTouching = 1 - 5e-9;  // of the probe radius; the cap beyond such a plane is 1e-4 radian wide
+constexpr double kMisfit = 1e-9;        // largest misfit of a loop for which its turning is trusted
+constexpr double kShort = 3;            // radians: shorter arcs are classified without trigonometry
+constexpr double kClear = 1e-9;         // relative to the probe radius: rounding is a millionth of it
+constexpr double kLargestRest = 1e-4;   // Å² per patch: the known error of shares at blurred corners
+constexpr double kTouching = 1 - 5e-9;  // relative to the probe radius; the cap beyond such a plane is 1e-4 radian wide
 
 /// One thread's lists.
 struct DividerScratch {
   std::vector<glm::dvec3> contacts;
-  std::vector<double> area;  // Å² by contact
+  std::vector<double> area;  // Å² per contact
   std::vector<std::uint32_t> planes;
   ArcIntervals cell;
-  std::vector<glm::dvec2> ends;  // of what is kept of a bisector, begin and end of each part; fewer if one is not short
-  struct Course {                // of the cosine of the distance to a contact along an arc
+  std::vector<glm::dvec2> ends;  // begin and end of each kept part of a bisector; fewer if one part is not short
+  struct Course {                // the cosine of the distance to a contact, along an arc
     std::array<double, 3> value, slope;
     double middle;
   };
-  std::vector<Course> courses;  // by contact
+  std::vector<Course> courses;  // per contact
 
-  /// What a contact has of a border, between two parameters of the border.
+  /// The part of a border that is nearest to one contact, between two parameters of the border.
   struct Line {
     std::uint32_t border, contact;
-    bool is_backwards;  ///< the half of the border that the face has
+    bool is_backwards;  ///< the half-border that belongs to the face
     double from, to;
   };
   bool keeps_lines = false;
-  std::vector<Line> lines;                                // of all borders of the patch
-  std::vector<std::array<std::uint32_t, 2>> bisected_by;  // contacts that have a line of their bisector
+  std::vector<Line> lines;                                // on all borders of the patch
+  std::vector<std::array<std::uint32_t, 2>> bisected_by;  // pairs of contacts with a common line on their bisector
 };
 
-/// The way of the probe's centre while it touches a border of a contact patch. At the rim of a part there is no saddle
-/// that has it: then the border seen from the atom's centre, `ratio` times as large.
+/// Returns the path of the probe's centre while the probe touches a border of a contact patch. At the rim of a part of
+/// a surface no saddle has this path; there it is the border seen from the atom's centre, `ratio` times as large.
 Border way_of_probe(const Surface& surface, Border border, const glm::dvec3& center, double ratio) {
   border.center = center + (border.center - center) * ratio;
   border.radius *= ratio;
@@ -70,11 +70,11 @@ Border way_of_probe(const Surface& surface, Border border, const glm::dvec3& cen
 
 class AreaDivider {
  public:
-  /// group_of_face: empty where all faces are of one group.
+  /// group_of_face: empty if all faces belong to one group.
   explicit AreaDivider(const Surface& surface, std::span<const std::uint32_t> group_of_face = {})
       : s_(surface), group_of_face_(group_of_face) {}
 
-  /// One for each group.
+  /// Returns the areas of each group.
   std::vector<AtomAreas> run(std::uint32_t count = 1) {
     const std::vector<double> none(s_.atoms.size(), 0.0);
     areas_.assign(count, AtomAreas{none, none});
@@ -95,7 +95,7 @@ class AreaDivider {
     return std::move(areas_);
   }
 
-  // Checked for faces of either engine: the areas of the atoms add up to the surface.
+  // Checks, for faces of either engine, that the areas of the atoms add up to the surface's area.
   static void require_sum(const std::vector<AtomAreas>& areas, double of_surface) {
     const double noise = 1e-6 * (1 + of_surface);
     double sum = 0, least = 0;
@@ -111,7 +111,7 @@ class AreaDivider {
                     sum, least, of_surface));
   }
 
-  // The same for each patch alone, after run().
+  // Lists the atoms of patches whose shares do not add up; call it after run().
   void list_contradicted(std::vector<std::uint32_t>& atoms) const {
     for (const ConcavePatch& patch : s_.concave) {
       double left = 0;
@@ -123,12 +123,12 @@ class AreaDivider {
     }
   }
 
-  // The cell of a contact holds the points of the sphere that no other contact is nearer to. Its border consists of
-  // parts of the patch's borders and of the bisectors. A cell never holds the antipode of its own contact, which any
-  // other contact is nearer to: so the contact serves as the pole of the integral.
-  // Returns Å² by contact. A probe that does no more than touch the sphere cuts nothing of it, but the plane towards it
-  // may take a hair from a bisector, which no border makes up for: such planes are left out. What planes and borders
-  // disagree about is asked with all of them.
+  // Computes the shares of the contacts, Å². The cell of a contact holds the points of the sphere to which no other
+  // contact is nearer. Its border consists of parts of the patch's borders and of the bisectors. A cell never holds the
+  // antipode of its own contact, because every other contact is nearer to it: so the contact serves as the pole of the
+  // integral. A probe that only touches the sphere cuts nothing off, but its plane may take a tiny part of a bisector
+  // for which no border compensates: such planes are left out. To find disagreement between planes and borders, all
+  // planes are used.
   enum class Cuts { beyond_touching, all };
   const std::vector<double>& divide(const ConcavePatch& patch, Cuts cuts, DividerScratch& w) const {
     w.area.assign(patch.contact_count, 0.0);
@@ -147,7 +147,7 @@ class AreaDivider {
   }
 
  private:
-  /// Those of a face's group; a patch without any has no area to add.
+  /// Returns the areas of a face's group; a patch without any face has no area to add.
   AtomAreas& areas_of(std::uint32_t face) {
     return areas_[group_of_face_.empty() || face == kNone ? 0 : group_of_face_[face]];
   }
@@ -159,8 +159,8 @@ class AreaDivider {
     }
   }
 
-  // The contacts are the two ends of the tube's arc: half-way in angle the nearest one changes. A patch has two faces
-  // at most, and each of them two shares, which are added in the order of the patches.
+  // The contacts are the two ends of the tube's arc, so the nearest contact changes half-way in angle. A patch has at
+  // most two faces, and each face two shares, which are added in the order of the patches.
   void add_toroidal() {
     std::vector<std::array<double, 4>> shares(s_.toroidal.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.toroidal.size(), 128), [&](const auto& range) {
@@ -185,7 +185,7 @@ class AreaDivider {
 
   void add_borders(const Face& face, const glm::dvec3& center, DividerScratch& w) const {
     for_each_half_border(s_, face, [&](HalfBorder half) {
-      // Seen from inside of the sphere the face is on the other side.
+      // Seen from inside the sphere, the face is on the other side.
       const SphereArc arc = sphere_arc(s_.borders[border_of(half)], !is_backwards(half), center, s_.probe_radius);
       const SphereCircle circle = circle_of(arc);
       const bool is_short = std::abs(arc.sweep) < kShort && std::abs(arc.sweep) > kClear;
@@ -222,19 +222,19 @@ class AreaDivider {
     }
   }
 
-  // How much nearer contact j is than contact k, along one half of the arc.
+  // Returns how much nearer contact j is than contact k, along one half of the arc.
   static ArcRange nearer(std::size_t j, std::size_t k, std::size_t half, const DividerScratch& w) {
     const DividerScratch::Course &a = w.courses[j], &b = w.courses[k];
     return range_along({a.value[half] - b.value[half], a.value[half + 1] - b.value[half + 1]},
                        {a.slope[half] - b.slope[half], a.slope[half + 1] - b.slope[half + 1]}, a.middle - b.middle);
   }
 
-  // Whether contact j takes nothing of the arc from contact k, whatever rounding may say of its ends.
+  // True if contact j takes nothing of the arc from contact k, even with rounding at its ends.
   static bool surely_farther(std::size_t j, std::size_t k, const DividerScratch& w) {
     return nearer(j, k, 0, w).most < -kClear && nearer(j, k, 1, w).most < -kClear;
   }
 
-  // Whether other contacts take all of the arc from contact k: to either half there is a nearer one all along.
+  // True if other contacts take all of the arc from contact k: along each half, one contact is nearer throughout.
   static bool surely_elsewhere(std::size_t k, const DividerScratch& w) {
     const auto taken = [&](std::size_t half) {
       for (std::size_t j = 0; j < w.courses.size(); ++j)
@@ -270,9 +270,9 @@ class AreaDivider {
     return probes;
   }
 
-  // Counter-clockwise about its axis the bisector has the cell of k on its left, that of j on its right. The side
-  // between the two contacts cuts it first, as a rule, and what is left needs no other plane: in whatever order they
-  // come, the same is left.
+  // Adds the bisector of two contacts. Counter-clockwise about its axis it has the cell of k on its left and the cell
+  // of j on its right. As a rule the side between the two contacts cuts it first, and the remainder needs no other
+  // plane; the order of the planes does not change the result.
   void add_bisector(const ConcavePatch& patch, std::uint32_t j, std::uint32_t k, DividerScratch& w) const {
     const SphereCircle circle = great_circle(glm::normalize(w.contacts[k] - w.contacts[j]));
     ArcIntervals& common = w.cell;
@@ -302,7 +302,7 @@ class AreaDivider {
     }
   }
 
-  // Whether the plane takes nothing of what is kept, whatever rounding may say of its ends.
+  // True if the plane takes nothing of the kept parts, even with rounding at their ends.
   bool surely_within(const SphereCircle& circle, const Plane& plane, const glm::dvec3& center,
                      const DividerScratch& w) const {
     if (w.ends.size() != 2 * w.cell.kept().size()) return false;
@@ -324,11 +324,11 @@ class AreaDivider {
   const Surface& s_;
   std::span<const std::uint32_t> group_of_face_;
   std::vector<AtomAreas> areas_;
-  std::vector<double> shares_;  // of re-entrant patches, by contact
+  std::vector<double> shares_;  // shares of re-entrant patches, per contact
 };
 
-/// Lists shares, and finds which of them meet: those of one patch where it is divided, those of two where they have a
-/// part of a border in common.
+/// Lists shares and finds the pairs that meet: shares of one patch where it is divided, and shares of two patches with
+/// a part of a border in common.
 class ShareLister {
  public:
   explicit ShareLister(const Surface& surface) : s_(surface), ends_(surface.borders.size()) {}
@@ -346,7 +346,7 @@ class ShareLister {
   }
 
  private:
-  /// What a share has of a border.
+  /// The part of a border that belongs to a share.
   struct Line {
     std::uint32_t share;
     double from, to;
@@ -383,7 +383,7 @@ class ShareLister {
     }
   }
 
-  /// Of the two contacts the nearer one has a point of the tube, and of a contact circle its own atom all of it.
+  /// On the tube the nearer of the two contacts has each point; on a contact circle its own atom has all points.
   void add_border(const ToroidalPatch& patch, const std::array<std::uint32_t, 2>& share, HalfBorder half) {
     const Border& border = s_.borders[border_of(half)];
     if (border.kind == BorderKind::contact) {
@@ -419,7 +419,8 @@ class ShareLister {
   DividerScratch scratch_;
   ArcIntervals cell_;
   AtomShares shares_;
-  std::vector<std::array<std::vector<Line>, 2>> ends_;  // of each border, from its left face and from its right one
+  std::vector<std::array<std::vector<Line>, 2>>
+      ends_;  // per border: the lines from its left face and from its right face
 };
 
 }  // namespace
@@ -449,16 +450,16 @@ double accessible_area(const Surface& surface) {
   if (surface.sums) return surface.sums->accessible;
   double area = 0.0;
   for (const ConvexPatch& patch : surface.convex) {
-    double of_atom = 0.0;  // in the order in which blocks add it up
+    double of_atom = 0.0;  // summed in the same order as in blocks
     for (const Face& face : faces_of(surface, patch)) of_atom += accessible_area(surface, face);
     area += of_atom;
   }
   return area;
 }
 
-// Where the probe's centre is seen from the atom's centre, there it touches: face and accessible part fill the same
-// solid angle. It is measured on the grown sphere, for on one that is tiny beside its coordinates rounding moves
-// borders; but that of the face counts where ties have left loops open.
+// Seen from the atom's centre, the probe's centre and its point of contact lie in one direction, so face and accessible
+// part fill the same solid angle. It is measured on the SAS sphere, because rounding moves borders on a sphere that is
+// tiny compared with its coordinates. Where ties have left loops open, the solid angle of the face counts.
 double accessible_area(const Surface& surface, const Face& face) {
   const Ball& atom = surface.atoms[surface.convex[face.patch].atom];
   const double grown = atom.radius + surface.probe_radius, ratio = grown / atom.radius;

@@ -86,18 +86,6 @@ class Taking {
   BlockPatches taken_;
 };
 
-// Calls visit(block, place) for the rows of all blocks, which have rising atoms in each, in the order of their atoms.
-template <typename Row, typename AtomOf, typename Visit>
-void for_each_by_atom(std::span<const std::uint32_t> block_of, std::span<const BlockPatches> blocks,
-                      std::vector<Row> BlockPatches::*rows, const AtomOf& atom_of, const Visit& visit) {
-  std::vector<std::uint32_t> next(blocks.size(), 0);
-  for (std::uint32_t a = 0; a < block_of.size(); ++a) {
-    const BlockPatches& block = blocks[block_of[a]];
-    for (std::uint32_t& n = next[block_of[a]]; n < (block.*rows).size() && atom_of(block, (block.*rows)[n]) == a; ++n)
-      visit(block_of[a], n);
-  }
-}
-
 class Joining {
  public:
   Joining(std::span<const std::uint32_t> block_of, std::span<BlockPatches> blocks, Surface& whole)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -38,5 +39,19 @@ BlockPatches take_patches(const Surface& surface, std::span<const std::uint32_t>
 /// match. block_of: the block of each atom. Throws CapacityError.
 std::vector<std::uint32_t> join_patches(std::span<const std::uint32_t> block_of, std::span<BlockPatches> blocks,
                                         Surface& whole);
+
+/// Calls visit(block, place) for the rows of all blocks in the order of their atoms. block_of: the block of each atom;
+/// rows: the member of a block that has its rows, of rising atom_of(block, row).
+template <typename Blocks, typename Rows, typename AtomOf, typename Visit>
+void for_each_by_atom(std::span<const std::uint32_t> block_of, const Blocks& blocks, const Rows& rows,
+                      const AtomOf& atom_of, const Visit& visit) {
+  std::vector<std::uint32_t> next(blocks.size(), 0);
+  for (std::uint32_t a = 0; a < block_of.size(); ++a) {
+    const auto& block = blocks[block_of[a]];
+    const auto& own = std::invoke(rows, block);
+    for (std::uint32_t& n = next[block_of[a]]; n < own.size() && atom_of(block, own[n]) == a; ++n)
+      visit(block_of[a], n);
+  }
+}
 
 }  // namespace meniscus

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/math/union_find.h"
+#include "core/surface/block_patches.h"
 #include "core/surface/certificate.h"
 #include "core/surface/components.h"
 #include "core/surface/measure.h"
@@ -104,13 +105,12 @@ class BlockSum {
   template <typename Visit>
   void for_each_face(const Visit& visit) const {
     for (std::size_t kind = 0; kind < 3; ++kind) {
-      std::vector<std::size_t> next(parts_.size(), 0);
-      for (std::uint32_t a = 0; a < block_of_.size(); ++a) {
-        const std::uint32_t b = block_of_[a];
-        const std::vector<FaceSum>& faces = parts_[b].faces[kind];
-        for (std::size_t& n = next[b]; n < faces.size() && faces[n].atom == a; ++n)
-          visit(faces[n], root_of(b, faces[n].piece));
-      }
+      const auto faces = [kind](const BlockPart& part) -> const std::vector<FaceSum>& { return part.faces[kind]; };
+      const auto atom_of = [](const BlockPart&, const FaceSum& face) { return face.atom; };
+      for_each_by_atom(block_of_, parts_, faces, atom_of, [&](std::uint32_t b, std::uint32_t n) {
+        const FaceSum& face = faces(parts_[b])[n];
+        visit(face, root_of(b, face.piece));
+      });
     }
   }
 

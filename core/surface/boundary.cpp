@@ -21,7 +21,7 @@
 namespace meniscus {
 namespace {
 
-// What the chained half-borders of a spherical patch come to.
+// The numbers of faces, loops and half-borders that one spherical patch yields.
 struct PatchNumbers {
   std::uint32_t loops = 0;
   std::uint32_t faces = 0;
@@ -44,8 +44,8 @@ class BoundaryBuilder {
  private:
   double p() const { return s_.probe_radius; }
 
-  // Half-borders by atom, those that toroidal patches have between them, then by probe: where each patch chains its
-  // own.
+  // Lists the half-borders that toroidal patches have between them, by atom and then by probe, so that each patch can
+  // chain its own.
   void list_walks() {
     list_convex_patches();
     const auto count = [&](std::size_t t) { return numbers_of(placed_.of_patch[t]); };
@@ -94,7 +94,7 @@ class BoundaryBuilder {
     std::vector<std::uint32_t> next(first_of_atom_.begin(), first_of_atom_.end() - 1);
     std::vector<HalfBorder>& of_atom = s_.half_borders;
     for (std::uint32_t t = 0; t < s_.toroidal.size(); ++t) {
-      // Counter-clockwise about the axis the convex patch of atom[0] lies on the right, that of atom[1] on the left.
+      // Counter-clockwise about the axis, the convex patch of atom[0] lies on the right, that of atom[1] on the left.
       of_atom[next[s_.toroidal[t].atom[0]]++] = placed_.of_patch[t].contact(0) * 2 + 1;
       of_atom[next[s_.toroidal[t].atom[1]]++] = placed_.of_patch[t].contact(flat_ ? 0 : 1) * 2;
     }
@@ -154,7 +154,7 @@ class BoundaryBuilder {
     });
   }
 
-  // As many half-borders as a patch has, those behind them: of the patches that come next.
+  // Prefetches as many half-borders as a patch has, from the patches that come next.
   void prefetch_walk(std::size_t half_border, std::size_t count) const {
     for (std::size_t n = 0; n < count; ++n) prefetch_border(s_, half_border + n);
   }
@@ -168,8 +168,8 @@ class BoundaryBuilder {
     return {s_.half_borders.data() + first_of_probe_[s], s_.half_borders.data() + first_of_probe_[s + 1]};
   }
 
-  // Puts a patch's half-borders into the order of its faces, and of their loops. Where a loop begins is how long it
-  // is, twice, and 1 more if it is its face's first.
+  // Puts a patch's half-borders into the order of its faces and their loops. The first half-border of a loop stores
+  // twice the loop's length, plus 1 if the loop is the first of its face.
   PatchNumbers put_in_order(std::span<HalfBorder> walk, const PatchFaces& faces) {
     auto next = walk.begin();
     for (std::uint32_t f = 0; f < faces.face_count; ++f) {
@@ -186,7 +186,7 @@ class BoundaryBuilder {
     return {static_cast<std::uint32_t>(faces.loop_sizes.size()), faces.face_count, faces.closed};
   }
 
-  // How many faces, loops and half-borders there are, or how many are before those of a patch.
+  // Numbers of faces, loops and half-borders: totals, or counts before a patch.
   struct Numbers {
     std::uint32_t face = 0, loop = 0, half_border = 0;
     Numbers& operator+=(const Numbers& more) {
@@ -203,7 +203,7 @@ class BoundaryBuilder {
     return borders.free ? Numbers{1, 2, 2} : Numbers{1, 1, 4};
   }
 
-  // Faces are numbered in the order of convex, toroidal and concave patches; then each patch lists its own.
+  // Numbers the faces in the order of convex, toroidal and concave patches; then each patch lists its own.
   void number_faces() {
     const auto of_convex = [&](std::size_t c) {
       return Numbers{convex_numbers_[c].faces, convex_numbers_[c].loops, index(walk_of_convex(c).size())};
@@ -239,7 +239,7 @@ class BoundaryBuilder {
     for (const ProbeSide& side : probes_.sides_of(s)) s_.certificate.open_atoms.push_back(side.from);
   }
 
-  // Of a spherical patch.
+  // Lists the faces of a spherical patch.
   template <typename Patch>
   void list_faces(const Numbers& own, PatchKind kind, Patch& patch, std::uint32_t number, Numbers& next) {
     patch.first_face = next.face;
@@ -261,7 +261,7 @@ class BoundaryBuilder {
     return next.face++;
   }
 
-  // Of the half-borders that come next.
+  // Closes a loop of the next `size` half-borders.
   void close_loop(std::uint32_t face, std::uint32_t size, Numbers& next) {
     s_.loops[next.loop++] = {next.half_border, size};
     ++s_.faces[face].loop_count;
@@ -307,7 +307,7 @@ class BoundaryBuilder {
     }
   }
 
-  // The faces at borders that have no second one.
+  // Adds the faces at borders that have no second face.
   void add_open_borders() {
     for (const Border& border : s_.borders) {
       if (border.face[0] != kNone && border.face[1] != kNone) continue;
@@ -328,11 +328,12 @@ class BoundaryBuilder {
   const FixedProbes& probes_;
   const CuspParts& cusps_;
   const ReducedSurface& rs_;
-  const bool flat_;  // probe radius 0: toroidal and concave patches have no area, convex patches meet directly
+  const bool
+      flat_;  // true for a probe of radius 0: toroidal and concave patches have no area, convex patches meet directly
   PlacedBorders placed_;
-  std::vector<std::uint32_t> first_of_atom_;   // per atom, and one more: its half-borders begin there
-  std::vector<std::uint32_t> first_of_probe_;  // the same per probe
-  std::vector<std::uint32_t> first_cusp_;      // per probe, and one more, into cusp_of_probe_
+  std::vector<std::uint32_t> first_of_atom_;   // first half-border of each atom; one past the last closes the list
+  std::vector<std::uint32_t> first_of_probe_;  // first half-border of each probe; one past the last closes the list
+  std::vector<std::uint32_t> first_cusp_;      // per probe, into cusp_of_probe_; one past the last closes the list
   std::vector<HalfBorder> cusp_of_probe_;
   std::unique_ptr<std::uint32_t[]> loop_size_;  // per half-border of a spherical patch that begins a loop
   std::vector<PatchNumbers> convex_numbers_;

@@ -11,9 +11,10 @@
 
 namespace meniscus {
 
-/// Fills in surface.vertices, borders, half_borders, loops, faces and components (kinds and areas come later, from
-/// measure_surface) and the patches' face ranges. `surface` holds atoms, toroidal and concave patches; `probes` and
-/// `cusps` are what they were made of. Adds atoms to the certificate where borders do not close.
+/// Computes surface.vertices, borders, half_borders, loops, faces and components (without kinds and areas, which
+/// measure_surface adds) and the face ranges of the patches. `surface` holds atoms, toroidal and concave patches;
+/// `probes` and `cusps` are the tables that they were made from. Adds atoms to the certificate where borders do not
+/// close.
 void build_boundary(Surface& surface, const FixedProbes& probes, const CuspParts& cusps, const ReducedSurface& rs);
 
 }  // namespace meniscus

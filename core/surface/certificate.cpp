@@ -21,10 +21,10 @@
 namespace meniscus {
 namespace {
 
-constexpr double kSlack = 1e-9;  // relative, of areas and volumes that may be 0 or whole
+constexpr double kSlack = 1e-9;  // relative: of areas and volumes that may be 0 or whole
 constexpr double kLargest = std::numeric_limits<double>::max();
-constexpr double kBeside = 1e-5;  // Å for a probe of no size: what merging probes may turn a plane by
-constexpr double kClose = 1e-3;   // Å, half the distance of probes whose bisector rounding may turn
+constexpr double kBeside = 1e-5;  // Å for a probe of radius 0: the largest shift of a plane by merged probes
+constexpr double kClose = 1e-3;   // Å: half the distance of probes whose bisector rounding may turn
 
 std::array<glm::dvec3, 32> spread_directions() {
   std::array<glm::dvec3, 32> directions;
@@ -61,7 +61,7 @@ class Examination {
     });
   }
 
-  // What this thread has found.
+  // Returns the atoms that this thread has found.
   std::vector<std::uint32_t>& open() { return open_.local(); }
 
   void add_atoms_of(const Face& face) {
@@ -107,14 +107,14 @@ class Examination {
       open().push_back(patch.atom);
   }
 
-  // If the bordering circles leave little, all planes do, and nobody need find them.
+  // If the bordering circles leave little, all planes do, and none need be found.
   bool leaves_most(std::uint32_t convex) const {
     const Ball& atom = s_.atoms[s_.convex[convex].atom];
     return most_is_left(planes_.of(convex, PlaneChoice::bordering), atom) &&
            most_is_left(planes_.of(convex, PlaneChoice::all), atom);
   }
 
-  // Whether the clip planes leave most of an atom's sphere, judged by points spread evenly.
+  // True if the clip planes leave most of an atom's sphere, judged by evenly spread points.
   bool most_is_left(const std::vector<Plane>& planes, const Ball& atom) const {
     std::size_t left = 0;
     for (const glm::dvec3& direction : spread_) {
@@ -129,8 +129,8 @@ class Examination {
                   s_.contacts.begin() + patch.first_contact + patch.contact_count);
   }
 
-  // Every contact lies within the planes of all sides: the contacts go round the right way, and without a corner
-  // inwards.
+  // Checks that every contact lies within the planes of all sides: then the contacts go around in the right sense,
+  // without a reflex corner.
   void check_contacts(const ConcavePatch& patch) {
     for (std::uint32_t n = 0; n < patch.side_count; ++n)
       for (std::uint32_t m = 0; m < patch.contact_count; ++m) {
@@ -149,8 +149,8 @@ class Examination {
     return found;
   }
 
-  // A re-entrant patch of several probes in one, cut from close by, cut to no avail, or with blurred corners: divided
-  // among its atoms along its planes it has the area that its borders give.
+  // Checks the area of a re-entrant patch that merges several probes, has a nearby cut, has a cut without effect, or
+  // has blurred corners: divided among its atoms along its planes, it must have the area that its borders give.
   void check_planes(const ConcavePatch& patch) {
     double sum = 0;
     bool doubtful = patch.contact_count > 3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a finished surface must satisfy, in its combinatorics and in its numbers, whichever device computed it.
+// The conditions that a finished surface must satisfy, in its combinatorics and in its numbers, on every device.
 #pragma once
 
 #include "core/surface/measure.h"
@@ -9,27 +9,28 @@ namespace meniscus {
 
 class ConvexPlanes;
 
-/// Completes the certificate of a measured surface: adds the atoms of whatever fails to Certificate::open_atoms and
-/// sets Certificate::closed if there are none. Checked are
-///  * the Euler characteristic of every component: even and at most 2 (theorem 3);
-///  * the area of every face: from 0 to that of its whole sphere or torus, of a concave one to half of it, for a probe
-///    has all atoms that it touches on one side; all faces of an atom together fill one sphere at most;
-///  * an atom that shows next to nothing or next to everything: its clip planes leave as much;
-///  * every face whose corners are blurred: both closed forms give one area (MeasurementDoubts);
-///  * every fixed probe: its contacts go round it the right way, without a corner inwards;
-///  * every component: volume positive for outer ones; a cavity (side_of_components()) has room for the probe;
-///  * every re-entrant patch with such a face, with more than three contacts, cut from close by, or cut without a cusp:
-///  its
-///    planes and its borders give one area (divided_area()).
+/// Completes the certificate of a measured surface: adds the atoms of every violated condition to
+/// Certificate::open_atoms, and sets Certificate::closed if there are none. The conditions are:
+///  * The Euler characteristic of every component is even and at most 2 (theorem 3).
+///  * The area of every face lies between 0 and that of its whole sphere or torus. The area of a concave face is at
+///    most half of its sphere, because a probe has all atoms that it touches on one side. All faces of an atom together
+///    fill at most one sphere.
+///  * The clip planes of an atom that shows almost nothing or almost everything leave as much as its faces have.
+///  * Both closed forms give one area for every face with blurred corners (MeasurementDoubts).
+///  * The contacts of every fixed probe go around it in the right sense, without a reflex corner.
+///  * The volume of every outer component is positive; every cavity (side_of_components()) has room for the probe.
+///  * The planes and the borders of a re-entrant patch give one area (divided_area()). This is checked for patches with
+///    a blurred face, with more than three contacts, with a nearby cut, or with a cut that has no cusp.
 void certify(Surface& surface, const MeasurementDoubts& doubts, const ConvexPlanes& planes);
 
-/// Of these the first and the last but one: those of a component as a whole.
+/// True if a component as a whole is sound: the first of these conditions, and the condition on volumes.
 bool is_sound(const Component& component, double probe_radius);
 
-/// All others: the atoms at which they fail, in rising order.
+/// Returns the atoms at which one of the other conditions is violated, in ascending order.
 std::vector<std::uint32_t> unsound_atoms(const Surface& surface, const MeasurementDoubts& doubts,
                                          const ConvexPlanes& planes);
 
-void certify(Surface& surface, const MeasurementDoubts& doubts);  ///< by the planes that its tables list
+void certify(Surface& surface,
+             const MeasurementDoubts& doubts);  ///< uses the clip planes listed in the surface's tables
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joins faces to components, computes their Euler characteristics, and tells outer components from cavities.
+// Joins faces to components, computes their Euler characteristics, and distinguishes outer components from cavities.
 #include "core/surface/components.h"
 
 #include <algorithm>
@@ -25,13 +25,13 @@
 namespace meniscus {
 namespace {
 
-// Calls visit(range) for parts of a table, each long enough for what a part costs by itself.
+// Calls visit(range) for parts of a table, each long enough to outweigh its own overhead.
 template <typename Visit>
 void for_each_part(std::size_t size, const Visit& visit) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size, 1024), visit);
 }
 
-// Adds to the Euler characteristics, as a rule many times to the same one before another's turn.
+// Adds to the Euler characteristics; most additions in a row go to the same component.
 class EulerSum {
  public:
   explicit EulerSum(std::vector<Component>& components) : components_(components) {}
@@ -89,7 +89,7 @@ class ComponentFinder {
     return closed;
   }
 
-  // A set is named by its smallest face, so the names in rising order are the components in the order of first faces.
+  // A set is named by its smallest face, so ascending names are components in the order of their first faces.
   void number_components(SharedUnionFind& joined) {
     const RowNumbers<std::uint32_t> numbers(s_.faces.size(), 0,
                                             [&](std::size_t f) { return joined.find(index(f)) == f ? 1u : 0u; });
@@ -108,7 +108,7 @@ class ComponentFinder {
     });
   }
 
-  // Vertices - borders with ends + sum over faces of (2 - loops); whole circles count nothing.
+  // Counts vertices - borders with ends + sum over faces of (2 - loops); whole circles count nothing.
   void count_borders() {
     for_each_part(s_.borders.size(), [&](const auto& range) {
       EulerSum euler(s_.components);
@@ -122,7 +122,7 @@ class ComponentFinder {
     });
   }
 
-  // Each vertex is counted once: with the first border that has it.
+  // Counts each vertex once, with the first border that has it.
   void claim_vertices(const Border& border, std::uint32_t b) {
     if (border.vertex[0] == kNone) return;
     for (const std::uint32_t v : border.vertex) {
@@ -139,7 +139,7 @@ class ComponentFinder {
   static std::uint32_t index(std::size_t n) { return static_cast<std::uint32_t>(n); }
 
   Surface& s_;
-  std::unique_ptr<std::atomic<std::uint32_t>[]> first_border_;  // of each vertex
+  std::unique_ptr<std::atomic<std::uint32_t>[]> first_border_;  // per vertex
 };
 
 }  // namespace
@@ -148,7 +148,7 @@ bool connect_components(Surface& surface) { return ComponentFinder(surface).run(
 
 namespace {
 
-// No axis, diagonal or other direction that molecules are likely to be aligned with.
+// A direction along which molecules are not likely to be aligned.
 const glm::dvec3 kDirection = glm::normalize(glm::dvec3(0.5377266, 0.3183099, 0.7788008));
 
 double farthest_of(const Border& border) {
@@ -190,7 +190,7 @@ class SideTest {
   }
 
  private:
-  // Each thread has its own list: of numbers that are only compared the largest is the same in any order.
+  // Finds the extents of the borders. Each thread has its own list; the largest number is the same in any order.
   void look_at_borders() {
     tbb::enumerable_thread_specific<std::vector<double>> lists(
         [&] { return std::vector<double>(farthest_.size(), -std::numeric_limits<double>::infinity()); });
@@ -209,18 +209,19 @@ class SideTest {
     if (glm::dot(border.center, kDirection) + border.radius > best) best = std::max(best, farthest_of(border));
   }
 
-  // What a pole has to be beyond to change anything: a convex one beyond the borders, a concave one beyond those too.
+  // Returns the extent that a pole must exceed to matter: a convex pole that of the borders, a concave pole also that
+  // of the convex poles.
   static double threshold(const Farthest& farthest, double Farthest::*which) {
     const double beside = which == &Farthest::concave ? std::max(farthest.convex, farthest.border) : farthest.border;
     return std::max(farthest.*which, beside);
   }
 
-  // Of the patches of one table; `ball_of` says on which sphere a patch lies, `without_pole` whether its planes cut off
-  // the pole.
+  // Finds the extents of the poles in one table of patches. `ball_of` returns the sphere of a patch, `without_pole` is
+  // true if the patch's planes cut off the pole.
   template <typename Patch, typename BallOf, typename WithoutPole>
   void look_at_poles(const std::vector<Patch>& patches, const BallOf& ball_of, const WithoutPole& without_pole,
                      double Farthest::*which) {
-    tbb::enumerable_thread_specific<std::vector<std::uint32_t>> lists;  // patches that hold their pole
+    tbb::enumerable_thread_specific<std::vector<std::uint32_t>> lists;  // patches that contain their pole
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, patches.size(), 64), [&](const auto& range) {
       for (std::size_t n = range.begin(); n != range.end(); ++n) {
         if (!may_be_farthest(patches[n], ball_of(patches[n]), which)) continue;
@@ -245,7 +246,7 @@ class SideTest {
                                [&](const Face& face) { return reached > threshold(farthest_[face.component], which); });
   }
 
-  // The face of the patch that holds the pole: the one whose loops have it farthest on their left.
+  // Returns the face of the patch that contains the pole: the face whose loops have it farthest on their left.
   template <typename Patch>
   std::uint32_t face_at_pole(const Patch& patch, const Ball& ball) {
     std::uint32_t best = patch.first_face;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hands out the clip planes of convex patches, whether a surface lists them or not.
+// Provides the clip planes of convex patches, whether a surface lists them or not.
 #pragma once
 
 #include <algorithm>
@@ -16,28 +16,28 @@
 namespace meniscus {
 
 enum class PlaneChoice {
-  bordering,  ///< at least the contact circles that border the patch: what they leave holds all of it
-  all         ///< those that leave the patch and nothing else
+  bordering,  ///< at least the contact circles that border the patch; the region that they leave contains the patch
+  all         ///< the planes that leave the patch and nothing else
 };
 
-/// The clip planes of convex patches, each by its index: those in the tables of a surface, or of code that finds them
-/// for the few that are asked for. Several threads may ask.
+/// The clip planes of convex patches by index: from the tables of a surface, or found on request. Several threads may
+/// use it at once.
 class ConvexPlanes {
  public:
   virtual ~ConvexPlanes() = default;
 
   virtual std::vector<Plane> of(std::uint32_t convex, PlaneChoice choice) const = 0;
 
-  /// Does a plane cut off the point of the patch's sphere that lies in this direction of its centre?
+  /// True if a plane cuts off the point of the patch's sphere in this direction from its centre.
   virtual bool cut_off(std::uint32_t convex, const glm::dvec3& direction) const = 0;
 };
 
-/// Is the point outside of any of the half-spaces?
+/// True if the point lies outside any of the half-spaces.
 inline bool cut_off_by(std::span<const Plane> planes, const glm::dvec3& point) {
   return std::ranges::any_of(planes, [&](const Plane& p) { return glm::dot(p.normal, point) > p.offset; });
 }
 
-/// Those that the tables list.
+/// The clip planes that the tables of a surface list.
 class ListedPlanes final : public ConvexPlanes {
  public:
   explicit ListedPlanes(const Surface& surface) : s_(surface) {}

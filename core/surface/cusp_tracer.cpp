@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes cut lists and cusp arcs on the CPU; probes on one spindle circle, a pencil, are decided by their order.
+// Computes cut lists and cusp arcs on the CPU. The order of probes decides on one spindle circle, a pencil.
 #include "core/surface/cusp_tracer.h"
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 namespace meniscus {
 namespace {
 
-constexpr double kThroughCusp = 1e-7;  // Å²: decision weights move a sphere by less
-constexpr double kHair = 1e-6;         // of the circle's radius
+constexpr double kThroughCusp = 1e-7;  // Å²: an upper limit of the shift of a sphere by decision weights
+constexpr double kHair = 1e-6;         // relative to the circle's radius
 
 }  // namespace
 
@@ -64,13 +64,13 @@ std::vector<std::array<std::uint32_t, 2>> mutual_pairs(const CutLists& cuts) {
   return pairs;
 }
 
-// The spindle circles that a pair shares.
+// The spindle circles that a pair of probes shares.
 struct Pencils {
   using uint = std::uint32_t;
   const CuspProblem* problem = nullptr;
   std::vector<uint> pencil_sides;
 
-  bool hold_pencils(uint count) {
+  bool reserve_pencils(uint count) {
     if (pencil_sides.size() < count) pencil_sides.resize(count);
     return true;
   }
@@ -82,8 +82,8 @@ struct Pencils {
   std::span<const uint> all() const { return {pencil_sides.data(), pencil_count}; }
 };
 
-// Where the pair's circle comes to the axis of a pencil, relative to the lower probe, and the direction in which it
-// goes on before the axis.
+// The point where the pair's circle meets the axis of a pencil, relative to the lower probe, and the direction in which
+// the circle continues before the axis.
 struct AxisPoint {
   glm::dvec3 point;
   glm::dvec3 onwards;
@@ -104,7 +104,7 @@ PairTracer::PairTracer(const CuspProblem& problem, const CutLists& cuts)
 PairTracer::~PairTracer() = default;
 PairTracer::PairTracer(PairTracer&&) noexcept = default;
 
-// Past the axis of a shared spindle circle nothing of the pair's circle is left. False if that is all of it.
+// Removes the pair's circle past the axis of a shared spindle circle. False if that is all of it.
 bool PairTracer::set_halves(std::uint32_t s, std::uint32_t t) {
   scratch_->halves.clear();
   scratch_->axis_points.clear();
@@ -134,9 +134,9 @@ bool PairTracer::set_halves(std::uint32_t s, std::uint32_t t) {
   return true;
 }
 
-// Another probe may pass through an axis cusp but cannot hold it (theorem 1.2): whatever rounding says, the pair's
-// circle begins there. Lists the others that may cover some of it; one that takes over right at the cusp finds the
-// circle beginning a hair before.
+// Lists the other probes that may cover part of the pair's circle. Another probe may pass through an axis cusp but
+// cannot contain it (theorem 1.2), so the pair's circle begins there in spite of rounding. A probe that takes over
+// exactly at the cusp is compared with a circle that begins slightly before it.
 void PairTracer::list_others(std::uint32_t s, std::uint32_t t, const Blockers& near) {
   Scratch& scratch = *scratch_;
   scratch.others.restart(problem_->weights[s]);
@@ -179,7 +179,7 @@ class CpuCuspTracer final : public CuspTracer {
  public:
   CutLists list_cuts(const CuspProblem& problem) override {
     grid_ = std::make_unique<BallGrid>(problem.positions, problem.probe_radius);
-    // Each chunk of probes has one list, and each probe's part of it is put into order at once.
+    // The number of probes in a chunk. Each chunk has one list, and each probe's part of it is sorted at once.
     constexpr std::uint32_t kChunk = 64;
     const std::uint32_t count = problem.count(), chunks = (count + kChunk - 1) / kChunk;
     std::vector<std::vector<std::uint32_t>> cuts(chunks);

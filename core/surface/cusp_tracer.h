@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two questions about singularities that run in parallel: which probe cuts which, and which arcs remain.
+// The two parallel steps in the search for singularities: which probe cuts which, and which arcs remain.
 #pragma once
 
 #include <array>
@@ -27,11 +27,13 @@ struct CuspSide {
   glm::dvec3 circle_center{0.0};
 };
 
-/// All fixed probes, ready to be cut. Sides of probe s: sides[first_side[s]] to sides[first_side[s + 1] - 1].
+/// All fixed probes in the form that the search needs. The sides of probe s are sides[first_side[s]] to
+/// sides[first_side[s + 1] - 1].
 struct CuspProblem {
   double probe_radius = 0.0;
   std::span<const glm::dvec3> positions;
-  std::span<const double> heights;  ///< over the contacts; only probes lower than their radius are cut (theorem 1.3)
+  std::span<const double>
+      heights;  ///< height over the contacts; only probes lower than their radius are cut (theorem 1.3)
   std::span<const std::uint32_t> first_side;
   std::vector<CuspSide> sides;
   std::vector<double> weights;  ///< decision weights
@@ -43,7 +45,7 @@ struct CuspProblem {
   }
 };
 
-/// Lists of probes by probe, each ascending: those of s are probe[first[s]] to probe[first[s + 1] - 1].
+/// Lists of probes per probe, each ascending: the list of s is probe[first[s]] to probe[first[s + 1] - 1].
 struct CutLists {
   std::vector<std::uint32_t> first;
   std::vector<std::uint32_t> probe;
@@ -52,13 +54,14 @@ struct CutLists {
   }
 };
 
-/// Arc ends are named by the probe that covers the circle beyond, or, with this bit, by the side (of the lower probe)
-/// whose spindle axis ends it.
+/// The bit that marks an arc end on an axis. An arc end is named by the probe that covers the circle beyond it, or,
+/// with this bit, by the side of the lower probe whose spindle axis ends the arc.
 using kernel::kAxisLabel;
 static_assert(kNone == kernel::kNone);
 
-/// What is left of the circle of two probes among all others: from `begin` to `end` (unit vectors from its centre),
-/// counter-clockwise about the axis from the lower probe to the higher; `by` kNone twice: all of it.
+/// The part of the circle of two probes that no other probe covers: from `begin` to `end` (unit vectors from its
+/// centre), counter-clockwise about the axis from the lower to the higher probe. `by` is kNone twice for the whole
+/// circle.
 struct TracedArc {
   std::array<std::uint32_t, 2> probe{};  ///< ascending
   std::array<std::uint32_t, 2> by{kNone, kNone};
@@ -66,36 +69,37 @@ struct TracedArc {
   glm::dvec3 end{0.0};
 };
 
-/// Answers both questions on some device.
+/// Carries out both steps on some device.
 class CuspTracer {
  public:
   virtual ~CuspTracer() = default;
 
-  /// For each low probe all probes whose bisector reaches into its spherical polygon.
+  /// Lists, for each low probe, all probes whose bisector reaches into its spherical polygon.
   virtual CutLists list_cuts(const CuspProblem& problem) = 0;
 
-  /// The exposed arcs of the circles of all pairs that cut each other, in any order.
+  /// Returns the exposed arcs of the circles of all pairs that cut each other, in any order.
   virtual std::vector<TracedArc> trace(const CuspProblem& problem, const CutLists& cuts) = 0;
 };
 
-/// On the CPU, in double and quadruple precision, on all cores.
+/// Makes a tracer that runs on all cores of the CPU, in double and quadruple precision.
 std::unique_ptr<CuspTracer> make_cpu_cusp_tracer();
 
-/// Whether the ball of a probe at `other` reaches into the spherical polygon of probe s.
+/// True if the ball of a probe at `other` reaches into the spherical polygon of probe s.
 bool reaches(const CuspProblem& problem, std::uint32_t s, const glm::dvec3& other);
 
-/// What is known without arithmetic, and what arithmetic cannot tell when two probes nearly coincide: partners on a
-/// spindle circle always cut each other, for both patches end in its axis cusps; and the ends of an arc of at most half
-/// a turn on a circle as large as the probe never do, for what is nearer to the other lies past the axis.
+/// Corrects the lists where the answer is known without arithmetic, and where arithmetic cannot decide because two
+/// probes nearly coincide. Partners on a spindle circle always cut each other, because both patches end in its axis
+/// cusps. The probes at the ends of an arc of at most half a turn, on a circle as large as the probe, never cut each
+/// other, because every point nearer to the other probe lies past the axis.
 void settle_neighbors(const CuspProblem& problem, CutLists& cuts);
 
-/// Pairs s < t that are in each other's lists.
+/// Returns the pairs s < t in which each probe is in the other's list.
 std::vector<std::array<std::uint32_t, 2>> mutual_pairs(const CutLists& cuts);
 
 class Blockers;
 
-/// Traces pairs on the host: `near` holds all probes closer than 2p to s, relative to it. Appends to `found`. Only
-/// probes that cut both patches can cover the circle where it lies on both; whatever others do is beside them.
+/// Traces pairs on the host. `near` holds all probes closer than 2p to s, relative to it. Appends to `found`. Only
+/// probes that cut both patches can cover the circle where it lies on both patches; other probes do not matter.
 class PairTracer {
  public:
   PairTracer(const CuspProblem& problem, const CutLists& cuts);

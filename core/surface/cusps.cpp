@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Has a tracer find cusp curves, keeps the arcs that lie on patches, and joins them at their ends.
+// Finds cusp curves with a tracer, keeps the arcs that lie on patches, and joins them at their ends.
 #include "core/surface/cusps.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-// Å for a probe of no size: what merging (fixed_probes.h) may move a point by.
+// Å for a probe of radius 0: the largest shift of a point by merging (fixed_probes.h).
 const double kBlur = geometry::kMergeDistance;
 
 struct FoundArc {
@@ -31,7 +31,7 @@ struct FoundArc {
   std::array<std::uint32_t, 2> by{kNone, kNone};
 };
 
-// The end of a cusp arc where three probes meet.
+// The end of a cusp arc at which three probes meet.
 struct TripleEnd {
   std::array<std::uint32_t, 3> probe;
   std::uint32_t side;
@@ -107,7 +107,7 @@ class CuspSearch {
     });
   }
 
-  // For each end of an arc of a spindle circle: which probe ends the covered gap beyond it?
+  // Finds, for each end of an arc of a spindle circle, the probe that ends the covered gap beyond it.
   void find_gaps() {
     std::vector<std::array<std::uint32_t, 2>> side_at(toroidal_.size());  // patch, end -> side
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, probes_.sides.size(), 1024), [&](const auto& range) {
@@ -121,7 +121,7 @@ class CuspSearch {
     });
   }
 
-  // Of the circle whose first arc is `first`; `around` is scratch.
+  // Finds the gaps of the circle whose first arc is `first`; `around` is scratch memory.
   void find_gaps_of(std::uint32_t first, std::span<const std::array<std::uint32_t, 2>> side_at,
                     std::vector<std::pair<double, std::uint32_t>>& around) {
     const ToroidalPatch& lead = toroidal_[first];
@@ -144,7 +144,7 @@ class CuspSearch {
     }
   }
 
-  // Takes traced arcs over that lie on the patches, and places them.
+  // Keeps and places the traced arcs that lie on the patches.
   void adopt_all(const std::vector<TracedArc>& traced) {
     std::vector<FoundArc> arcs(traced.size());
     std::vector<DepthRange> depths(traced.size());
@@ -192,9 +192,9 @@ class CuspSearch {
     double highest = -kUnbounded;
   };
 
-  // How deep the circle's piece lies in the cones of both probes, Å. It lies on both patches all along, or nowhere, so
-  // of three points the clearest decides; where the piece also has a point clearly on the other side the search for its
-  // ends failed. The ends lie on borders, so of a piece only what is farthest out between them counts.
+  // Returns the depth of the circle's piece in the cones of both probes, Å. The piece lies on both patches throughout
+  // or nowhere, so the clearest of three points decides; if the piece also has a point clearly on the other side, the
+  // search for its ends failed. The ends lie on borders, so only the farthest point between them counts.
   DepthRange depth_on_both_patches(const CuspArc& arc) const {
     DepthRange range;
     for (const double part : {0.5, 0.3, 0.7}) {
@@ -208,7 +208,7 @@ class CuspSearch {
     return range;
   }
 
-  // Of the point of the piece that is farthest beyond a side of the probe's cone, where that is no end of the piece.
+  // Returns the depth of the piece's farthest point beyond a side of the probe's cone, if that point is not an end.
   double least_depth(const CuspArc& arc, std::uint32_t s) const {
     double least = kUnbounded;
     for_each_side(s, [&](const glm::dvec3& normal) {
@@ -226,7 +226,7 @@ class CuspSearch {
     return depth;
   }
 
-  // The unit normals of the planes through the probe and two neighbouring contacts; they point out of the cone.
+  // Visits the unit normals of the planes through the probe and two neighbouring contacts; they point out of the cone.
   template <typename Visit>
   void for_each_side(std::uint32_t s, const Visit& visit) const {
     const auto sides = problem_.sides_of(s);
@@ -236,7 +236,7 @@ class CuspSearch {
     }
   }
 
-  // Names the points where three probes meet by the three, as arc ends of fixed probes are named by their atoms.
+  // Names each point where three probes meet by the three probes, as arc ends of fixed probes are named by their atoms.
   void join_triples() {
     std::vector<TripleEnd> ends;
     for (std::uint32_t n = 0; n < found_.size(); ++n)
@@ -272,7 +272,8 @@ class CuspSearch {
     return origin + geometry::probe_of_three(b, c, p_ * p_, p_ * p_, p_ * p_, end.side ? 1.0 : -1.0, h2);
   }
 
-  // Decided with the decision weights, placed with the true radius: start and sweep follow the end points.
+  // Refines an arc: decided with the decision weights, placed with the true radius; start and sweep follow from the end
+  // points.
   void refine(CuspArc& arc) const {
     if (arc.vertex[0] == kNone) return;
     const auto direction = [&](int end) {
@@ -310,7 +311,7 @@ glm::dvec3 axis_cusp(const ToroidalPatch& patch, double probe_radius, int side) 
 
 std::vector<std::uint32_t> first_on_circle(std::span<const ToroidalPatch> toroidal, const ReducedComponents* within) {
   std::vector<std::uint32_t> first(toroidal.size());
-  std::uint32_t begin = 0;  // of the patches between these atoms
+  std::uint32_t begin = 0;  // range of the patches between these atoms
   for (std::uint32_t t = 0; t < toroidal.size(); ++t) {
     if (toroidal[t].atom != toroidal[begin].atom) begin = t;
     first[t] = begin;

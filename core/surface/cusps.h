@@ -38,18 +38,18 @@ struct CuspParts {
   std::vector<std::uint32_t> first_cut;    ///< per probe, into cuts; one past the last closes the list
   std::vector<std::uint32_t> cuts;         ///< probes whose ball reaches into the probe's spherical polygon, ascending
   std::vector<std::uint32_t> open_probes;  ///< probes at triples that not exactly three arcs agree on; empty if closed
-  std::vector<std::uint32_t> first_on_circle;  ///< as first_on_circle() has it; empty with a probe of no size
+  std::vector<std::uint32_t> first_on_circle;  ///< the result of first_on_circle(); empty with a probe of radius 0
 };
 
-/// The axis cusp of the spindle circle of toroidal patch t near atom[side]: at most p from the circle's centre.
+/// Returns the axis cusp near atom[side] on the spindle circle of a toroidal patch: at most p from the circle's centre.
 glm::dvec3 axis_cusp(const ToroidalPatch& patch, double probe_radius, int side);
 
-/// Axis cusps are named after the first toroidal patch on their circle, and of their component if there are several:
-/// patch -> that patch.
+/// Maps each toroidal patch to the first patch on its circle, by which axis cusps are named. With `within`, only
+/// patches of one component share a circle.
 std::vector<std::uint32_t> first_on_circle(std::span<const ToroidalPatch> toroidal,
                                            const ReducedComponents* within = nullptr);
 
-/// `within`: only probes of one component of the reduced surface cut each other; without it all do.
+/// Finds cuts and cusp curves. With `within`, only probes of one component of the reduced surface cut each other.
 CuspParts find_cusps(std::span<const Ball> atoms, double probe_radius, const FixedProbes& probes,
                      std::span<const ToroidalPatch> toroidal, CuspTracer& tracer,
                      const ReducedComponents* within = nullptr);

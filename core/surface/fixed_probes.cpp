@@ -24,9 +24,9 @@
 namespace meniscus {
 namespace {
 
-constexpr double kLittle = 0.01;  // radian
+constexpr double kLittle = 0.01;  // radians
 
-// One end of an exposed arc as the fixed probe that is there: its atoms a < b < c and the side of their plane.
+// One end of an exposed arc as the fixed probe at that end: its atoms a < b < c and the side of their plane.
 struct ArcEnd {
   std::uint32_t b;
   std::uint32_t c;
@@ -65,8 +65,8 @@ class Placement {
   double extended(std::uint32_t atom) const { return atoms_[atom].radius + probe_radius_; }
   double weight(std::uint32_t atom) const { return decision_weight(extended(atom), number_of(numbers_, atom)); }
 
-  // Buckets arc ends by their smallest atom, then sorts the small buckets: cheaper than one large sort. In a bucket
-  // they first are as threads come; sorted, no two are equal.
+  // Buckets arc ends by their smallest atom, then sorts the small buckets, which is cheaper than one large sort.
+  // Threads fill a bucket in any order, but no two ends are equal, so the sorted order is unique.
   void collect_triples() {
     std::vector<std::uint32_t> first(atoms_.size() + 1, 0);
     const auto for_each_end = [&](const auto& visit) {
@@ -90,7 +90,7 @@ class Placement {
       const auto [a, b, c, side] = geometry::triple_at(arcs_[n].i, arcs_[n].j, by, end != 0);
       ends[take(next[a])] = {b, c, static_cast<std::uint32_t>(n) * 2 + end, side};
     });
-    // Calls visit(first, past) for what is at one triple of which `a` is the smallest atom.
+    // Calls visit(first, past) for the arc ends of each triple with smallest atom `a`.
     const auto for_each_triple = [&](std::size_t a, const auto& visit) {
       const auto end = ends.begin() + first[a + 1];
       for (auto e = ends.begin() + first[a]; e != end;) {
@@ -146,7 +146,7 @@ class Placement {
     height_[t] = height;
   }
 
-  // Whether an arc with coincident ends is nothing, as the decisions saw it.
+  // True if an arc with coincident ends was empty for the decisions.
   bool vanishes(const RsArc& arc) const {
     namespace q = quad_geometry;
     const auto local = [&](std::uint32_t atom) {
@@ -161,8 +161,8 @@ class Placement {
 
   bool coincide(std::uint32_t s, std::uint32_t t) const {
     const glm::dvec3 d = position_[s] - position_[t];
-    if (geometry::stand_together(d, height_[s], height_[t])) return true;
-    if (!geometry::may_stand_together(d, height_[s], height_[t])) return false;
+    if (geometry::are_coincident(d, height_[s], height_[t])) return true;
+    if (!geometry::may_be_coincident(d, height_[s], height_[t])) return false;
     const auto [flat, sharp] = geometry::is_flat(height_[s]) ? std::pair(s, t) : std::pair(t, s);
     return std::ranges::all_of(triples_[flat].atom, [&, at = position_[sharp]](std::uint32_t a) {
       return geometry::touches_atom(at - atoms_[a].center, extended(a));
@@ -201,8 +201,8 @@ class Placement {
       parts_.exact_within = std::max(parts_.exact_within, geometry::kLargestGrowth);
   }
 
-  // A cluster whose remaining sides are not one ring is a cavity too small for the probe to move in: all its arcs are
-  // tiny, and none vanishes.
+  // Splits clusters that are cavities. A cluster whose remaining sides do not form one ring is a cavity too small for
+  // the probe to move in: all its arcs are tiny, and none vanishes.
   void split_cavities(UnionFind& clusters) {
     std::map<std::uint32_t, std::vector<ProbeSide>> sides;
     for (std::uint32_t t = 0; t < triples_.size(); ++t)
@@ -222,7 +222,8 @@ class Placement {
     clusters = std::move(kept);
   }
 
-  // The members of a merged probe all are where the one highest over its atoms does: it is placed most sharply.
+  // Places all members of a merged probe at the position of the member that is highest over its atoms, because that
+  // position is the most accurate.
   void settle(const Members& cluster) {
     std::uint32_t sharpest = cluster.first;
     for (const std::uint32_t t : cluster.more)
@@ -253,8 +254,8 @@ class Placement {
       if (contradicted[n]) parts_.open_atoms.insert(parts_.open_atoms.end(), {arcs_[n].i, arcs_[n].j});
   }
 
-  // An arc that the decisions saw as next to nothing and the positions as nearly all of the circle, or the other way
-  // round: the probes at its ends are in the wrong order. Nothing that follows would notice.
+  // True if an arc was almost empty for the decisions and is almost a whole circle in the positions, or the reverse:
+  // then the probes at its ends are in the wrong order, which no later stage would notice.
   bool contradicts(const RsArc& arc, const ToroidalPatch& patch) const {
     const bool little = patch.sweep<kLittle, much = patch.sweep> 2 * std::numbers::pi - kLittle;
     return !patch.free() && (little || much) && little != vanishes(arc);
@@ -322,7 +323,7 @@ class Placement {
     if (!numbers_.empty()) number_probes();
   }
 
-  // By their atoms, so that a probe has one number whichever other probes there are.
+  // Numbers probes by their atoms, so that the number of a probe does not depend on other probes.
   void number_probes() {
     FixedProbes& probes = parts_.probes;
     probes.numbers.resize(probes.count());
@@ -333,14 +334,14 @@ class Placement {
     }
   }
 
-  // How many sides of a triple belong to arcs that have not vanished.
+  // Returns the number of sides of a triple that belong to arcs that have not vanished.
   std::uint32_t sides_left(std::uint32_t triple) const {
     std::uint32_t count = 0;
     for (const std::uint32_t end : triples_[triple].arc_and_end) count += vanished_[end / 2] ? 0 : 1;
     return count;
   }
 
-  // Writes them; returns what comes behind them.
+  // Writes the sides of a triple; returns the iterator past them.
   template <typename Out>
   Out list_sides_of(std::uint32_t triple, Out side) const {
     for (const std::uint32_t end : triples_[triple].arc_and_end) {
@@ -352,7 +353,7 @@ class Placement {
     return side;
   }
 
-  // Orders sides head to tail, starting at the smallest atom. False if they are not one ring.
+  // Orders sides head to tail, starting at the smallest atom. False if they do not form one ring.
   static bool chain(std::span<ProbeSide> sides) {
     if (sides.size() < 3) return false;
     auto first = std::min_element(sides.begin(), sides.end(), [](auto& x, auto& y) { return x.from < y.from; });

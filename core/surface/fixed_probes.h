@@ -23,10 +23,11 @@ struct ProbeSide {
 /// sides[first_side[s]] to sides[first_side[s + 1] - 1], counter-clockwise seen from the probe.
 struct FixedProbes {
   std::vector<glm::dvec3> position;
-  std::vector<double> height;  ///< least distance from the probe to a plane of three of its contacts
+  std::vector<double> height;  ///< smallest distance from the probe to a plane through three of its contacts
   std::vector<std::uint32_t> first_side;
   std::vector<ProbeSide> sides;
-  std::vector<std::uint32_t> numbers;  ///< by which probe_decision_weight() grows them; empty: their indices
+  std::vector<std::uint32_t>
+      numbers;  ///< the numbers by which probe_decision_weight() grows the probes; empty: their indices
 
   std::size_t count() const { return position.size(); }
   std::span<const ProbeSide> sides_of(std::uint32_t probe) const {
@@ -36,14 +37,14 @@ struct FixedProbes {
 
 struct RollingParts {
   FixedProbes probes;
-  std::vector<ToroidalPatch> toroidal;  ///< sorted by atoms; faces not filled in yet
+  std::vector<ToroidalPatch> toroidal;  ///< sorted by atoms; their faces are filled in later
   std::vector<std::uint32_t>
-      open_atoms;             ///< atoms of triples that not exactly three arc ends agree on; empty if closed
-  double exact_within = 0.0;  ///< Å by which radii may have to change at most for probes to be where they are placed
+      open_atoms;             ///< atoms of triples in which the number of arc ends is not three; empty if closed
+  double exact_within = 0.0;  ///< largest change of radii, Å, for which the probes are exactly where they are placed
 };
 
-/// Places probes and toroidal patches. Probes closer than 1e-6 Å that a vanishing arc connects become one probe with n
-/// contacts, and that arc disappears.
+/// Places fixed probes and toroidal patches. Probes closer than 1e-6 Å that a vanishing arc connects become one probe
+/// with n contacts, and that arc disappears.
 RollingParts place_rolling_parts(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs);
 
 }  // namespace meniscus

@@ -18,18 +18,18 @@
 namespace meniscus {
 namespace {
 
-/// Integral over the arc of its directions from the circle's centre.
+/// Returns the integral over the arc of its directions from the circle's centre.
 template <typename Arc>
 glm::dvec3 integrated_direction(const Arc& arc) {
   return std::sin(arc.sweep) * arc.start + (1 - std::cos(arc.sweep)) * glm::cross(arc.axis, arc.start);
 }
 
-/// A saddle patch's circle as its two atoms see it.
+/// A saddle patch's circle as seen from its two atoms.
 struct SharedCircle {
-  std::array<double, 2> height;           ///< Å, of the circle's centre above each atom's along the axis
-  double distance;                        ///< Å, between the atoms
+  std::array<double, 2> height;           ///< Å: height of the circle's centre above each atom's, along the axis
+  double distance;                        ///< Å: distance of the atoms
   std::array<double, 2> extended_radius;  ///< Å
-  glm::dvec3 direction;                   ///< integrated over the arc
+  glm::dvec3 direction;                   ///< the direction from the circle's centre, integrated over the arc
 
   SharedCircle(const Surface& surface, const ToroidalPatch& patch) : direction(integrated_direction(patch)) {
     for (std::size_t side = 0; side < 2; ++side) {
@@ -40,13 +40,13 @@ struct SharedCircle {
     distance = height[0] - height[1];
   }
 
-  /// Integral over the arc of the vectors from the atom's centre to the arc's points, by angle.
+  /// Returns the integral over the arc, by angle, of the vectors from the atom's centre to the arc's points.
   glm::dvec3 seen_from(std::size_t side, const ToroidalPatch& patch) const {
     return height[side] * patch.sweep * patch.axis + patch.radius * direction;
   }
 };
 
-/// Integral of x * dx / 2 about `origin` along a border, the vector area of what it bounds together with others.
+/// Returns the integral of x * dx / 2 about `origin` along a border; over a closed loop it is the vector area inside.
 glm::dvec3 swept_area(const Border& border, bool backwards, const glm::dvec3& origin) {
   const glm::dvec3 chord = border.radius * ((std::cos(border.sweep) - 1) * border.start +
                                             std::sin(border.sweep) * glm::cross(border.axis, border.start));
@@ -55,8 +55,8 @@ glm::dvec3 swept_area(const Border& border, bool backwards, const glm::dvec3& or
   return backwards ? -forwards : forwards;
 }
 
-/// Adds to each atom the vector area of the part of its extended sphere where the probe's centre may be, scaled by
-/// scale(atom). Stokes: half the integral of x * dx along the borders, whatever sphere lies between.
+/// Adds to each atom the vector area of the accessible part of its SAS sphere, scaled by scale(atom). By Stokes'
+/// theorem it is half the integral of x * dx along the borders, for any surface between them.
 template <typename Scale>
 void add_vector_areas(const Surface& surface, const Scale& scale, Gradient& gradient) {
   for (const ToroidalPatch& patch : surface.toroidal) {
@@ -70,7 +70,7 @@ void add_vector_areas(const Surface& surface, const Scale& scale, Gradient& grad
   }
 }
 
-/// What makes the integral of a face's speed: `pull`, so that dot(pull, velocity of the probe) is the change.
+/// The derivative of a face's integral by the position of its probe: dot(pull, velocity of the probe) is the change.
 class ProbePulls {
  public:
   explicit ProbePulls(const Surface& surface) : s_(surface), pull_(surface.concave.size(), glm::dvec3(0.0)) {
@@ -82,7 +82,7 @@ class ProbePulls {
                     tied.size(), fmt::join(tied, ", ")));
   }
 
-  /// Of each probe the vector area of what there is of its patch, towards the probe.
+  /// Adds, for each probe, the vector area of its patch, directed towards the probe.
   void add_vector_areas(double scale) {
     for (std::size_t n = 0; n < s_.concave.size(); ++n)
       for (const Face& face : faces_of(s_, s_.concave[n]))
@@ -91,8 +91,8 @@ class ProbePulls {
         });
   }
 
-  /// Along a cusp both patches grow by the motion of the cusp along the other's normal: tan(half the angle between the
-  /// normals) times the integral of each one's speed.
+  /// Adds the growth of both patches along a cusp: the motion of the cusp along the other patch's normal, tan(half the
+  /// angle between the normals) times the integral of each speed.
   void add_cusps() {
     for (const Border& border : s_.borders) {
       if (border.kind != BorderKind::cusp) continue;
@@ -105,7 +105,8 @@ class ProbePulls {
     }
   }
 
-  /// A probe keeps its distance from the three atoms it touches: dot(n_k, its velocity) = dot(n_k, the k-th atom's).
+  /// Distributes each pull to atoms. A probe keeps its distance from the three atoms that it touches: dot(n_k, velocity
+  /// of the probe) = dot(n_k, velocity of the k-th atom).
   void add_to(Gradient& gradient) const {
     for (std::size_t n = 0; n < s_.concave.size(); ++n) {
       const ConcavePatch& patch = s_.concave[n];
@@ -123,8 +124,8 @@ class ProbePulls {
   std::vector<glm::dvec3> pull_;
 };
 
-/// Integrals over a slice of a saddle of the cosine and the sine of the tube angle, each weighed by the area or by its
-/// change along the normal.
+/// Integrals over a slice of a saddle of the cosine and the sine of the tube angle, weighted by area or by the change
+/// of area along the normal.
 struct SliceMoments {
   double cosine, sine;
 };
@@ -134,8 +135,8 @@ SliceMoments area_moments(const Surface& surface, const ToroidalPatch& patch, do
   return {moments.y, moments.z};
 }
 
-/// The sum of principal curvatures is -1/p + cos psi / (T - p cos psi); times the area element p (T - p cos psi) that
-/// is 2 p cos psi - T.
+/// Returns the moments weighted by curvature. The sum of principal curvatures is -1/p + cos psi / (T - p cos psi);
+/// times the area element p (T - p cos psi) it is 2 p cos psi - T.
 SliceMoments curvature_moments(const Surface& surface, const ToroidalPatch& patch, double low, double high) {
   const double p = surface.probe_radius, radius = patch.radius;
   const auto primitive = [&](double psi) {
@@ -146,8 +147,8 @@ SliceMoments curvature_moments(const Surface& surface, const ToroidalPatch& patc
   return {b.cosine - a.cosine, b.sine - a.sine};
 }
 
-/// Where the rolling probe is at some angle, it keeps its distance from both atoms; its normal at tube angle psi,
-/// cos psi e - sin psi axis, is a sum of the directions to them, whose speeds are known.
+/// Adds the saddles. At each angle the rolling probe keeps its distance from both atoms; its normal at tube angle psi,
+/// cos psi e - sin psi axis, is a sum of the directions to them, and their speeds are known.
 template <typename Moments>
 void add_saddles(const Surface& surface, const Moments& moments_of, Gradient& gradient) {
   for (const ToroidalPatch& patch : surface.toroidal) {
@@ -173,12 +174,12 @@ Gradient accessible_area_gradient(const Surface& surface, std::span<const double
   Gradient gradient(surface.atoms.size(), glm::dvec3(0.0));
   for (const ToroidalPatch& patch : surface.toroidal) {
     const SharedCircle circle(surface, patch);
-    std::array<double, 2> weight;  // times the radius
+    std::array<double, 2> weight;  // weight of each atom times its radius
     for (std::size_t side = 0; side < 2; ++side)
       weight[side] = (weights.empty() ? 1.0 : weights[patch.atom[side]]) * circle.extended_radius[side];
-    // When the second atom moves by v, the arc moves on the first one's sphere by -n_2 v / sin(angle between n_1, n_2)
-    // away from the accessible part; and likewise. With sin = distance * radius / (R_1 R_2) nothing is divided by what
-    // may vanish but the distance.
+    // When the second atom moves by v, the arc on the first atom's sphere moves by -n_2 v / sin(angle between n_1, n_2)
+    // away from the accessible part, and the same holds with the atoms exchanged. With sin = distance * radius / (R_1
+    // R_2), the only divisor is the distance.
     const glm::dvec3 pull =
         (weight[0] * circle.seen_from(1, patch) - weight[1] * circle.seen_from(0, patch)) / circle.distance;
     gradient[patch.atom[0]] += pull;
@@ -203,7 +204,7 @@ std::vector<std::uint32_t> tied_atoms(const Surface& surface) {
 
 Gradient volume_gradient(const Surface& surface) {
   Gradient gradient(surface.atoms.size(), glm::dvec3(0.0));
-  // A contact patch is the accessible one, shrunk towards the atom.
+  // A contact patch is the accessible patch, scaled down towards the atom.
   add_vector_areas(
       surface,
       [&](std::uint32_t a) {

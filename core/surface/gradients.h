@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How areas and volumes change when atoms move: exact first derivatives by their positions, in closed form.
+// Exact first derivatives of areas and volumes by the positions of atoms, in closed form.
 #pragma once
 
 #include <cstdint>
@@ -12,33 +12,34 @@ namespace meniscus {
 
 struct Surface;
 
-/// A derivative by the position of each of Surface::atoms; zero for buried atoms.
+/// One derivative per Surface::atoms; zero for buried atoms.
 using Gradient = std::vector<glm::dvec3>;
 
-/// Of the solvent-accessible area, the sum over atoms of weight * area (atom_areas.h), Å² * weight / Å; empty weights:
-/// 1 for all. Only arcs move the borders of accessible patches, so it is a sum over saddle patches (Perrot et al. 1992,
-/// equations 10 to 19; Edelsbrunner & Koehl 2003, weighted area theorem). It is continuous wherever no two spheres
-/// touch in one point from inside or outside. A surface with a probe of radius 0 has the area of the balls themselves
-/// here.
+/// Returns the gradient of the solvent-accessible area, the sum over atoms of weight * area (atom_areas.h), in Å² *
+/// weight / Å. Empty weights are 1 for all atoms. Only arcs move the borders of accessible patches, so the gradient is
+/// a sum over saddle patches (Perrot et al. 1992, equations 10 to 19; Edelsbrunner & Koehl 2003, weighted area
+/// theorem). It is continuous wherever no two spheres touch in one point from inside or outside. For a probe of radius
+/// 0 the area is that of the balls.
 Gradient accessible_area_gradient(const Surface& surface, std::span<const double> weights = {});
 
-/// Of the volume inside of the solvent-accessible surface, Å³ / Å: of each atom's sphere the vector area of what is
-/// accessible (Edelsbrunner & Koehl 2005, volume derivative theorem).
+/// Returns the gradient of the volume inside the solvent-accessible surface, Å³ / Å: the vector area of the accessible
+/// part of each atom's sphere (Edelsbrunner & Koehl 2005, volume derivative theorem).
 Gradient accessible_volume_gradient(const Surface& surface);
 
-/// The atoms of the first probe that touches more than three of them; empty: there is none, and all derivatives exist.
+/// Returns the atoms of the first probe that touches more than three atoms. Empty: there is no such probe, and all
+/// derivatives exist.
 std::vector<std::uint32_t> tied_atoms(const Surface& surface);
 
-/// Of Surface::volume, Å³ / Å: the integral of the speed with which the surface moves along its normal. A contact patch
-/// goes with its atom, a re-entrant one with its probe, which keeps touching its three atoms, and the slices of a
-/// saddle with the rolling probe. Cusps move, too, but what they sweep has no volume.
-/// Throws RequestError, naming tied_atoms, where a probe touches more than three atoms: which three of them it will go
-/// on touching depends on how they move, so there is no derivative.
+/// Returns the gradient of Surface::volume, Å³ / Å: the integral of the speed with which the surface moves along its
+/// normal. A contact patch moves with its atom, a re-entrant patch with its probe, which keeps touching its three
+/// atoms, and the slices of a saddle move with the rolling probe. Cusps move, too, but sweep no volume. Throws
+/// RequestError, naming tied_atoms, where a probe touches more than three atoms: the three atoms that it will keep
+/// touching depend on the motion, so there is no derivative.
 Gradient volume_gradient(const Surface& surface);
 
-/// Of Surface::area, Å² / Å: the integral of speed times the sum of principal curvatures, and along each cusp what its
-/// motion adds to both sides. Throws as volume_gradient does. A surface with a probe of radius 0 has that of
-/// accessible_area_gradient.
+/// Returns the gradient of Surface::area, Å² / Å: the integral of speed times the sum of principal curvatures, and
+/// along each cusp the area that its motion adds to both sides. Throws RequestError as volume_gradient does. For a
+/// probe of radius 0 it equals accessible_area_gradient.
 Gradient area_gradient(const Surface& surface);
 
 }  // namespace meniscus

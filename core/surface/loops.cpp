@@ -17,7 +17,7 @@ std::uint32_t vertex_at(std::span<const Border> borders, HalfBorder h, int end) 
 }  // namespace
 
 void LoopChainer::chain_loops(std::span<const Border> borders, std::span<const HalfBorder> walk) {
-  // By begin, so that the next one is found quickly on atoms with thousands of borders, too.
+  // The list is sorted by begin, so that the next half-border is found quickly on atoms with thousands of borders.
   open_.clear();
   for (const HalfBorder h : walk) open_.emplace_back(vertex_at(borders, h, 0), h);
   std::sort(open_.begin(), open_.end());
@@ -73,7 +73,7 @@ void LoopChainer::group_loops() {
       left_[m * count + k] = lies_left_of(arcs_of(m), arcs_of(k));
       one_piece = one_piece && left_[m * count + k];
     }
-  if (one_piece) return;  // as a rule; the question below takes the cube of the number of loops
+  if (one_piece) return;  // as a rule; the search below takes the cube of the number of loops
   const auto left = [&](std::size_t m, std::size_t k) { return left_[m * count + k] != 0; };
   UnionFind same(count);
   for (std::size_t m = 0; m < count; ++m)

@@ -21,9 +21,9 @@
 namespace meniscus {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of a solid angle
-constexpr double kMisfit = 1e-9;    // of a loop, beyond which its turning is not trusted
-constexpr double kShort = 1e-6;  // of an arc, radian on the sphere: the way that corners turn hangs on next to nothing
+constexpr double kRounding = 1e-9;  // relative to a solid angle
+constexpr double kMisfit = 1e-9;    // largest misfit of a loop for which its turning is trusted
+constexpr double kShort = 1e-6;     // radians: on shorter arcs the turning at corners is not reliable
 
 struct Trust {
   bool doubtful = false;  // corners are blurred: the area was integrated about a pole
@@ -98,7 +98,7 @@ class Measurement {
       integrals.trust.disputed =
           !(std::abs(area - area_about_pole(face, center, radius, seen_from_inside, loop)) <= 1e-5 + 8 * kShort);
     }
-    // What rounding and blurred corners may have taken from nothing or added to everything.
+    // The largest error of a zero or whole area by rounding and blurred corners.
     const double blur = kRounding + 8 * misfit;
     if (area < blur && area > -blur) area = std::max(area, 0.0);
     if (area > 4 * std::numbers::pi - blur && area < 4 * std::numbers::pi + blur)
@@ -110,8 +110,8 @@ class Measurement {
     return integrals;
   }
 
-  // The solid angle of a face whose corners are too blurred for Gauss-Bonnet: integrated about a pole whose antipode
-  // is known to lie in the face or beside it.
+  // Returns the solid angle of a face with corners too blurred for Gauss-Bonnet: integrated about a pole whose antipode
+  // is known to lie inside or outside the face.
   double area_about_pole(const Face& face, const glm::dvec3& center, double radius, bool seen_from_inside,
                          std::vector<SphereArc>& loop) const {
     const Antipode antipode = face.kind == PatchKind::concave ? beside_concave(s_.concave[face.patch])
@@ -129,8 +129,8 @@ class Measurement {
     bool inside;
   };
 
-  // A concave patch lies in a half-space of the probe: within all sides, hence behind the plane whose normal is the
-  // sum of theirs. The patch is at least a quarter turn away from that normal.
+  // A concave patch lies in a half-space of the probe: it is within all sides, hence behind the plane whose normal is
+  // the sum of theirs. The patch is at least a quarter turn away from that normal.
   Antipode beside_concave(const ConcavePatch& patch) const {
     glm::dvec3 normal(0.0);
     for (std::uint32_t n = patch.first_plane; n < patch.first_plane + patch.side_count; ++n)
@@ -138,8 +138,9 @@ class Measurement {
     return {glm::normalize(normal), false};
   }
 
-  // Of the middles of the caps that neighbours cover, none of which is in the patch, and, if the patch is one piece, of
-  // some fixed directions whose side all planes know: the one farthest from the face's loops.
+  // Returns the candidate that is farthest from the face's loops. Candidates are the middles of the caps that
+  // neighbours cover, none of which is in the patch, and, if the patch is one piece, some fixed directions with a side
+  // that all planes decide.
   Antipode farthest_known(const Face& face, const glm::dvec3& center, double radius,
                           std::vector<SphereArc>& loop) const {
     std::vector<Antipode> candidates;
@@ -258,9 +259,9 @@ glm::dvec3 toroidal_moments(const Surface& surface, const ToroidalPatch& patch, 
   const double p = surface.probe_radius;
   const auto primitive = [&](double psi) {
     const double s = std::sin(psi), c = std::cos(psi);
-    return glm::dvec3(p * (patch.radius * psi - p * s),                  // of p (T - p cos psi)
-                      p * (patch.radius * s - p * 0.5 * (psi + s * c)),  // ... times cos psi
-                      p * (-patch.radius * c + 0.5 * p * c * c));        // ... times sin psi
+    return glm::dvec3(p * (patch.radius * psi - p * s),                  // integral of p (T - p cos psi)
+                      p * (patch.radius * s - p * 0.5 * (psi + s * c)),  // integral of the same times cos psi
+                      p * (-patch.radius * c + 0.5 * p * c * c));        // integral of the same times sin psi
   };
   return primitive(high) - primitive(low);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large tables made on all cores: their memory, and the numbers of rows of varying length.
+// Large tables built on all cores: their memory, and the numbering of rows of varying length.
 #pragma once
 
 #if defined(__linux__)
@@ -15,15 +15,15 @@
 
 namespace meniscus {
 
-/// Asks for new memory of [begin, begin + bytes) now, chunk by chunk on all threads: page by page, when it is first
-/// written, takes more time, and one thread's. Nothing changes where the memory is there already, or where the system
-/// (before Linux 5.14) knows no such request.
+/// Requests new memory for [begin, begin + bytes) at once, chunk by chunk on all threads. Memory that comes page by
+/// page, when it is first written, takes more time on a single thread. Nothing changes where the memory is already
+/// there, or where the system (before Linux 5.14) does not know the request.
 inline void populate(void* begin, std::size_t bytes) {
 #ifdef MADV_POPULATE_WRITE
   constexpr std::size_t kPage = 4096, kChunk = 1 << 20, kWorthIt = 32 << 20;
   if (bytes < kWorthIt) return;
   const auto address = reinterpret_cast<std::uintptr_t>(begin);
-  const std::size_t first = (address + kPage - 1) / kPage * kPage - address;  // of whole pages, from `begin`
+  const std::size_t first = (address + kPage - 1) / kPage * kPage - address;  // the first whole page, from `begin`
   const std::size_t past = (address + bytes) / kPage * kPage - address;
   tbb::parallel_for(std::size_t{0}, (past - first + kChunk - 1) / kChunk, [&](std::size_t chunk) {
     const std::size_t from = first + chunk * kChunk, size = past - from < kChunk ? past - from : kChunk;
@@ -35,7 +35,7 @@ inline void populate(void* begin, std::size_t bytes) {
 #endif
 }
 
-/// What table.resize(size) does to an empty table.
+/// Resizes an empty table like table.resize(size), with its memory populated first.
 template <typename Row>
 void resize_large(std::vector<Row>& table, std::size_t size) {
   table.reserve(size);
@@ -43,13 +43,13 @@ void resize_large(std::vector<Row>& table, std::size_t size) {
   table.resize(size);
 }
 
-/// Counts, for each row of a table, whatever is numbered in the order of the rows. A `Sum` is a number, or a struct
-/// with
-/// +=, zero when made. The numbers do not depend on the threads that count.
+/// Numbers the items of all rows of a table, in the order of the rows, on all threads. A `Sum` is a number, or a struct
+/// with += that is zero when made. The numbers do not depend on the number of threads.
 template <typename Sum>
 class RowNumbers {
  public:
-  /// `count(n)` says how many row n has, for n from 0 to `rows` - 1. The first row's begin at `first`.
+  /// `count(n)` returns the number of items of row n, for n from 0 to `rows` - 1. The numbers of the first row begin at
+  /// `first`.
   template <typename Count>
   RowNumbers(std::size_t rows, const Sum& first, const Count& count) : rows_(rows), before_(chunks() + 1, Sum{}) {
     tbb::parallel_for(std::size_t{0}, chunks(), [&](std::size_t chunk) {
@@ -65,11 +65,11 @@ class RowNumbers {
     }
   }
 
-  /// What comes after the last row.
+  /// Returns the number after the last item of the last row.
   const Sum& past() const { return before_.back(); }
 
-  /// Calls `fill(n, next)` once for each row, in rising order within a chunk: `next` is the number of its first item,
-  /// and fill leaves it at that of the row behind.
+  /// Calls `fill(n, next)` once for each row, in ascending order within a chunk. `next` is the number of the row's
+  /// first item, and fill must leave it at the first number of the following row.
   template <typename Fill>
   void for_each(const Fill& fill) const {
     tbb::parallel_for(std::size_t{0}, chunks(), [&](std::size_t chunk) {
@@ -89,7 +89,7 @@ class RowNumbers {
   }
 
   std::size_t rows_;
-  std::vector<Sum> before_;  // of each chunk
+  std::vector<Sum> before_;  // the numbers before each chunk
 };
 
 }  // namespace meniscus

@@ -32,7 +32,7 @@ class Hull {
 
   bool empty() const { return arcs_.empty(); }
 
-  /// The point of all arcs that is farthest along a direction: exact, each arc has its farthest point in closed form.
+  /// Returns the farthest point of all arcs along a direction; it is exact, because each arc's is known in closed form.
   glm::dvec3 farthest(const glm::dvec3& direction) const {
     glm::dvec3 best(0.0);
     double most = -std::numeric_limits<double>::infinity();
@@ -55,11 +55,11 @@ class Hull {
   std::vector<const Border*> arcs_;
 };
 
-/// The point of the affine hull of some points that is nearest to the origin, if it is a mixture of them with positive
-/// weights; by Gram's equations, solved with pivoting.
+/// Returns the point of the affine hull of some points that is nearest to the origin, if it is a combination of them
+/// with positive weights; solves Gram's equations with pivoting.
 std::optional<glm::dvec3> nearest_inside(std::span<const glm::dvec3> points) {
   const std::size_t count = points.size();
-  // Unknowns: weights, then the multiplier of "weights sum to 1".
+  // The unknowns are the weights and the multiplier of "weights sum to 1".
   std::array<std::array<double, 6>, 5> rows{};
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = 0; j < count; ++j) rows[i][j] = glm::dot(points[i], points[j]);
@@ -88,8 +88,8 @@ std::optional<glm::dvec3> nearest_inside(std::span<const glm::dvec3> points) {
   return nearest;
 }
 
-/// Replaces a simplex of up to four points by the smallest face of it that holds its point nearest to the origin, and
-/// returns that point: all of its faces are tried.
+/// Replaces a simplex of up to four points by its smallest face that contains its point nearest to the origin, and
+/// returns that point. All faces are tried.
 glm::dvec3 reduce(std::vector<glm::dvec3>& simplex) {
   std::vector<glm::dvec3> best{simplex.back()};
   glm::dvec3 nearest = simplex.back();
@@ -113,7 +113,7 @@ std::optional<Plane> plane_between(const Surface& surface, std::span<const std::
   const Hull a(surface, inside), b(surface, outside);
   if (a.empty() || b.empty()) return std::nullopt;
   std::vector<glm::dvec3> simplex{a.farthest({1, 0, 0}) - b.farthest({1, 0, 0})};
-  glm::dvec3 between = simplex.front();  // from b to a, ever shorter
+  glm::dvec3 between = simplex.front();  // from b to a; its length decreases
   std::optional<Plane> best;
   double widest = kClearance;
   constexpr int kMostSteps = 200;
@@ -131,15 +131,15 @@ std::optional<Plane> plane_between(const Surface& surface, std::span<const std::
     if (length - gap <= 1e-3 * length) break;
     simplex.push_back(last_of_a - first_of_b);
     between = reduce(simplex);
-    if (simplex.size() == 4) break;  // the origin is inside: the hulls meet
+    if (simplex.size() == 4) break;  // the origin is inside: the hulls intersect
   }
   return best;
 }
 
 namespace {
 
-/// The planes that part `faces` from every one of `others`; nothing if some cannot be parted. A plane that parts
-/// another one as well serves twice.
+/// Returns planes that separate `faces` from every one of `others`; nothing if some cannot be separated. A plane that
+/// separates several of them is listed once.
 std::optional<std::vector<Plane>> planes_around(const Surface& surface, std::span<const std::uint32_t> faces,
                                                 std::span<const std::uint32_t> others) {
   std::vector<Plane> planes;

@@ -30,7 +30,7 @@ class BorderPlacer {
  private:
   double p() const { return s_.probe_radius; }
 
-  // How many borders of toroidal patches there are and vertices on their axes, or how many are before those of one.
+  // Numbers of borders of toroidal patches and of vertices on their axes: totals, or counts before a patch.
   struct BorderNumbers {
     std::uint32_t border = 0, vertex = 0;
     BorderNumbers& operator+=(const BorderNumbers& more) {
@@ -40,8 +40,8 @@ class BorderPlacer {
     }
   };
 
-  // Vertices: one per contact of each probe (the probe itself when its radius is 0), two per spindle circle, one per
-  // point where three probes meet.
+  // Numbers the vertices: one per contact of each probe (the probe itself when its radius is 0), two per spindle
+  // circle, one per point where three probes meet.
   void number_borders() {
     const auto count = [&](std::size_t t) {
       const bool free = s_.toroidal[t].free(), spindle = s_.spindle(s_.toroidal[t]);
@@ -79,7 +79,7 @@ class BorderPlacer {
         s_.vertices[n] = atom.center + glm::normalize(probes_.position[probe] - atom.center) * atom.radius;
       }
     });
-    // All patches of a spindle circle say the same.
+    // All patches of a spindle circle write the same value.
     tbb::parallel_for(std::size_t{0}, s_.toroidal.size(), [&](std::size_t t) {
       if (placed_.axis_vertex[t] == kNone || cusps_.first_on_circle[t] != t) return;
       for (int side = 0; side < 2; ++side)
@@ -99,12 +99,12 @@ class BorderPlacer {
     tbb::parallel_for(std::size_t{0}, cusps_.arcs.size(), [&](std::size_t n) { place_cusp_border(n); });
   }
 
-  // The vertex of the probe at `end` of patch t on atom `side` of the patch.
+  // Returns the vertex where the probe at `end` of patch t touches atom `side` of the patch.
   std::uint32_t contact_vertex(std::size_t t, int end, int side) const {
     const std::uint32_t n = side_at_[t][end];
     const std::uint32_t probe = s_.toroidal[t].probe[end];
     if (flat_) return probe;
-    // At its start the side runs from atom[0] to atom[1], at its end the other way.
+    // At the start of the patch the side runs from atom[0] to atom[1], at its end from atom[1] to atom[0].
     if (end == side) return n;
     return n + 1 == probes_.first_side[probe + 1] ? probes_.first_side[probe] : n + 1;
   }
@@ -138,13 +138,14 @@ class BorderPlacer {
     }
   }
 
-  // The shorter great-circle arc of the probe's sphere from vertex a to vertex b, in the plane of the patch's axis.
+  // Returns the shorter great-circle arc of the probe's sphere from vertex a to vertex b, in the plane of the patch's
+  // axis.
   Border edge_border(const glm::dvec3& probe, const ToroidalPatch& patch, std::uint32_t a, std::uint32_t b) const {
     const glm::dvec3 d0 = s_.vertices[a] - probe, d1 = s_.vertices[b] - probe;
     Border border;
     border.kind = BorderKind::edge;
     border.center = probe;
-    // Seen from the probe the axis of the patch is upright and the walk goes up.
+    // Seen from the probe, the axis of the patch is upright and the walk goes up.
     border.axis = glm::normalize(glm::cross(glm::dvec3(patch.center - probe), patch.axis));
     if (patch.radius < 1e-9) border.axis = glm::normalize(glm::cross(d0, d1));
     border.radius = p();
@@ -174,10 +175,10 @@ class BorderPlacer {
   Surface& s_;
   const FixedProbes& probes_;
   const CuspParts& cusps_;
-  const bool flat_;  // probe radius 0: toroidal patches have no area, convex patches meet directly
+  const bool flat_;  // true for a probe of radius 0: toroidal patches have no area, convex patches meet directly
   PlacedBorders placed_;
   std::uint32_t triple_vertex_ = 0;
-  std::vector<std::array<std::uint32_t, 2>> side_at_;  // toroidal patch, end -> side of the probe there
+  std::vector<std::array<std::uint32_t, 2>> side_at_;  // toroidal patch, end -> side of the probe at that end
 };
 
 }  // namespace

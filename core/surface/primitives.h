@@ -59,10 +59,10 @@ struct ToroidalPatch {
   double sweep = 0.0;     ///< in (0, 2 pi]; exactly 2 pi for a free edge
   std::uint32_t first_face = 0;
   std::uint32_t face_count = 0;  ///< 1, or 2 for a spindle (the piece of atom[0], then that of atom[1])
-  /// Of a spindle: which of its two pieces there are. Always both, but in a part of a surface (part.h).
+  /// For a spindle: which of its two pieces exist. Both exist except in a part of a surface (part.h).
   std::array<bool, 2> has_piece{true, true};
   bool free() const { return probe[0] == kNone; }
-  /// Of a spindle: the piece that its n-th face is.
+  /// Returns the piece of a spindle that its n-th face is.
   int piece(std::uint32_t n) const { return has_piece[0] ? static_cast<int>(n) : 1; }
 };
 
@@ -78,9 +78,9 @@ inline bool crosses_axis(const ToroidalPatch& t, std::span<const Ball> atoms, do
   return t.radius < probe_radius && touches_axis(t, atoms, probe_radius);
 }
 
-/// Re-entrant patch: the sphere of one fixed probe (an RS face) inside all its planes: first `side_count` planes
+/// Re-entrant patch: the sphere of one fixed probe (an RS face) inside all its planes. First come `side_count` planes
 /// through the probe and two neighbouring contacts, then `cut_count` bisectors towards the probes in `cuts`, then
-/// `parting_count` planes that part it from faces that a part of a surface left behind (part.h).
+/// `parting_count` planes that separate it from faces that are not in a part of a surface (part.h).
 struct ConcavePatch {
   glm::dvec3 center{0.0};
   std::uint32_t first_contact = 0;  ///< into Surface::contacts: touched atoms, counter-clockwise seen from the probe
@@ -89,13 +89,13 @@ struct ConcavePatch {
   std::uint32_t side_count = 0;     ///< equals contact_count
   std::uint32_t cut_count = 0;
   std::uint32_t parting_count = 0;
-  std::uint32_t first_cut = 0;  ///< into Surface::cuts: the fixed probes behind the bisectors; kNone: left behind
+  std::uint32_t first_cut = 0;  ///< into Surface::cuts: the fixed probes behind the bisectors; kNone: not in the part
   std::uint32_t first_face = 0;
   std::uint32_t face_count = 0;  ///< 0 when other probes cut everything away
   std::uint32_t plane_count() const { return side_count + cut_count + parting_count; }
 };
 
-/// What a border lies on.
+/// The kind of curve that a border is.
 enum class BorderKind : std::uint8_t {
   contact,  ///< contact circle: convex | toroidal
   edge,     ///< side of a concave patch: toroidal | concave
@@ -146,36 +146,36 @@ struct Component {
   int euler = 2;        ///< Euler characteristic V - E + F
 };
 
-/// By what components are ordered. Areas that are equal but for rounding, which differs between systems, are equal
-/// here.
+/// Returns the key by which components are sorted. Areas that differ only by rounding, which varies between systems,
+/// have equal keys.
 inline float area_rank(double area) { return static_cast<float>(area); }
 
-/// What theorem 3 lets us check, and what was found.
+/// The result of the conditions of theorem 3 (certificate.h).
 struct Certificate {
   bool closed = false;
   std::vector<std::uint32_t> open_atoms;  ///< atoms at which the surface is not closed; empty when closed
-  double grown_by = 0.0;  ///< Å by which radii were grown at most to tell ties apart (compute_surface.h); 0 as a rule
-  double exact_within = 0.0;  ///< the surface is exact for radii that differ from the given ones by so many Å at most;
-                              ///< 0: for the given ones, whatever the order of the atoms
+  double grown_by = 0.0;      ///< largest growth of radii, Å, that resolved ties (compute_surface.h); 0 as a rule
+  double exact_within = 0.0;  ///< the surface is exact for radii that differ from the given ones by at most this, Å; 0:
+                              ///< for the given ones
 };
 
-/// Numbers that users and papers quote.
+/// The counts that users and papers quote.
 struct SurfaceCounts {
   std::size_t convex = 0;        ///< atoms with a convex patch
   std::size_t toroidal = 0;      ///< saddle patches: arcs + free edges
-  std::size_t concave = 0;       ///< fixed probes of which a part is on the surface
+  std::size_t concave = 0;       ///< fixed probes with a part on the surface
   std::size_t free_edges = 0;    ///< full circles
   std::size_t spindle = 0;       ///< toroidal patches that cross their axis
-  std::size_t fixed_probes = 0;  ///< distinct positions: closer than 1e-6 Å is one probe with n contacts
+  std::size_t fixed_probes = 0;  ///< distinct positions; probes closer than 1e-6 Å are one probe with n contacts
   std::size_t arcs = 0;          ///< RS edges with two ends; 2*arcs = sum of contacts over fixed probes
   SurfaceCounts& operator+=(const SurfaceCounts& more);
 };
 
-/// What the tables of a surface add up to, where they were computed block by block and some let go (blocks.h).
+/// The sums over the tables of a surface that was computed block by block and released some tables (blocks.h).
 struct SurfaceSums {
   SurfaceCounts counts;
   double accessible = 0.0;                            ///< Å²: the solvent-accessible area
-  std::vector<double> atom_surface, atom_accessible;  ///< Å², one an atom: AtomAreas
+  std::vector<double> atom_surface, atom_accessible;  ///< Å², one per atom: AtomAreas
 };
 
 /// The complete solvent-excluded surface of one set of balls. Patches are sorted by their atom indices.
@@ -194,25 +194,26 @@ struct Surface {
   std::vector<Border> borders;
   std::vector<HalfBorder> half_borders;
   std::vector<Loop> loops;
-  std::vector<Face> faces;  ///< those of one patch are together
+  std::vector<Face> faces;  ///< the faces of one patch are adjacent
 
   std::vector<Component> components;
   Certificate certificate;
   double area = 0.0;    ///< Å²
   double volume = 0.0;  ///< Å³ of the solid: outer components minus cavities
-  /// If the tables from `cuts` to `faces` were let go, so that patches refer to none of them; else none.
+  /// The sums, if the tables from `cuts` to `faces` were released; then patches refer to none of these tables. Else
+  /// null.
   std::shared_ptr<const SurfaceSums> sums;
 
   SurfaceCounts counts() const;
   bool spindle(const ToroidalPatch& t) const { return crosses_axis(t, atoms, probe_radius); }
 };
 
-/// The lowest of the atoms that a re-entrant patch touches.
+/// Returns the lowest atom that a re-entrant patch touches.
 inline std::uint32_t first_atom(const Surface& surface, const ConcavePatch& patch) {
   return surface.contacts[patch.first_contact];
 }
 
-/// Of the patches whose lowest atom is counted.
+/// Counts the patches with a lowest atom for which is_counted is true.
 SurfaceCounts counts_of(const Surface& surface, const std::function<bool(std::uint32_t atom)>& is_counted);
 
 }  // namespace meniscus

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joins fixed probes along arcs, and arcs across contact faces: everything the probe rolls over, but not its cusps.
+// Joins fixed probes along arcs, and arcs across contact faces: the places that the probe reaches by rolling, not its
+// cusps.
 #include "core/surface/reduced_components.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace {
 
 std::uint32_t index(std::size_t n) { return static_cast<std::uint32_t>(n); }
 
-/// What is joined: faces (of which only the convex ones count), toroidal patches, probes.
+/// A union-find over faces (only the convex ones count), toroidal patches and probes.
 class ComponentNames {
  public:
   explicit ComponentNames(const Surface& surface)
@@ -68,7 +69,7 @@ ReducedComponents in_order_of_faces(const Surface& surface) {
   return found;
 }
 
-/// With a probe of radius 0 convex faces meet, and nothing rolls.
+/// Returns the components for a probe of radius 0: convex faces meet, and nothing rolls.
 ReducedComponents without_probe(const Surface& surface) {
   ReducedComponents found;
   found.count = index(surface.components.size());

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The components of the reduced surface: the closed sheets on which the probe's centre can move.
 //
-// The probe's centre moves on arcs, over fixed probes and on the spheres of atoms; what it reaches from one place is a
-// component of the reduced surface (Sanner, Olson & Spehner 1996),
-// a closed sheet of the solvent-accessible surface. Components of the solvent-excluded surface are another matter:
-// probes of two components may be less than two radii apart and cut each other's patches, whereupon two sheets
-// become one; and a sheet may part into several where it pinches itself at a spindle. Programs that follow the reduced
-// surface, MSMS first of all, number its components, and cut the patches of each by its own probes only.
+// The probe's centre moves on arcs, over fixed probes and on the spheres of atoms. The region that it reaches from one
+// place is a component of the reduced surface (Sanner, Olson & Spehner 1996), a closed sheet of the solvent-accessible
+// surface. Components of the solvent-excluded surface differ from them: probes of two components may be less than two
+// radii apart and cut each other's patches, which joins two sheets; and a sheet may split where it pinches itself at a
+// spindle. Programs that follow the reduced surface, such as MSMS, number its components, and cut the patches of each
+// only by its own probes.
 #pragma once
 
 #include <cstdint>
@@ -20,21 +20,21 @@ namespace meniscus {
 class ReducedSurfaceEngine;
 class StageClock;
 
-/// Which component each part of a surface belongs to. Outer components come first, then cavities, each by falling area.
+/// The component of each part of a surface. Outer components come first, then cavities, each by falling area.
 struct ReducedComponents {
   std::uint32_t count = 0;
   std::vector<std::uint32_t> of_face;      ///< per Surface::faces
   std::vector<std::uint32_t> of_toroidal;  ///< per Surface::toroidal; empty with a probe of radius 0
-  std::vector<std::uint32_t> of_probe;     ///< per Surface::concave; empty likewise
+  std::vector<std::uint32_t> of_probe;     ///< per Surface::concave; empty with a probe of radius 0
 };
 
-/// Needs a closed surface. With a probe of radius 0 these are the components of the surface.
+/// Finds the components of a closed surface. With a probe of radius 0 they are the components of the surface.
 ReducedComponents reduced_components(const Surface& surface);
 
-/// Does a probe of one component cut a patch of another?
+/// True if a probe of one component cuts a patch of another.
 bool cut_each_other(const Surface& surface, const ReducedComponents& components);
 
-/// What one component adds up to.
+/// The areas and the volume of one component.
 struct ReducedComponentSize {
   double contact = 0.0;     ///< Å² of convex faces
   double toroidal = 0.0;    ///< Å²
@@ -44,19 +44,20 @@ struct ReducedComponentSize {
   double area() const { return contact + toroidal + reentrant; }
 };
 
-/// One for each component. A sheet of the surface counts for the component that its faces are of, so each of them must
-/// be of one: true after compute_component_surface(), or where components do not cut each other.
+/// Returns the size of each component. A sheet of the surface counts for the component of its faces, so each sheet must
+/// belong to one component: true after compute_component_surface(), or where components do not cut each other.
 std::vector<ReducedComponentSize> sizes_of(const Surface& surface, const ReducedComponents& components);
 
-/// A surface whose every sheet is of one component, cut by its own probes, and which component that is.
+/// A surface in which every sheet belongs to one component and is cut only by that component's probes.
 struct ComponentSurface {
   Surface surface;
   ReducedComponents components;
 };
 
-/// compute_surface() with the patches of each component cut by its own probes only: the exact surface of each side of
-/// the solvent-accessible surface as if the other components were not there. Where no component cuts another it is the
-/// surface itself, and costs as much. Look at the certificate; components are found where it holds.
+/// Computes the surface like compute_surface(), but cuts the patches of each component only by its own probes: the
+/// exact surface of each sheet of the solvent-accessible surface as if the other components did not exist. Where no
+/// component cuts another it is the surface itself, and costs as much. Look at the certificate; components are found
+/// only where it holds.
 ComponentSurface compute_component_surface(ReducedSurfaceEngine& engine, std::span<const Ball> atoms,
                                            double probe_radius, StageClock& clock);
 

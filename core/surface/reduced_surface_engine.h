@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a device does for a surface: it finds the reduced surface and traces the singularities.
+// Finds the reduced surface and traces the singularities on one device.
 #pragma once
 
 #include <cstddef>
@@ -14,26 +14,28 @@ namespace meniscus {
 
 class StageClock;
 
-/// Finds reduced surfaces on one device, frame after frame; all engines find the same. Used by one thread at a time.
+/// Finds reduced surfaces on one device, frame after frame. All engines find the same ones. One thread uses it at a
+/// time.
 class ReducedSurfaceEngine {
  public:
   virtual ~ReducedSurfaceEngine() = default;
 
-  /// atoms: van der Waals balls in Å; probe_radius >= 0 in Å. Adds the time of each stage to `clock`, batches added up.
-  /// Throws GpuError, CapacityError.
+  /// Finds the reduced surface. atoms: van der Waals balls in Å; probe_radius >= 0 in Å. Adds the time of each stage to
+  /// `clock`, with batches added up. Throws GpuError, CapacityError.
   virtual ReducedSurface reduce(std::span<const Ball> atoms, double probe_radius, StageClock& clock) = 0;
 
-  /// On the same device; lives as long as the engine.
+  /// Returns the tracer on the same device. It lives as long as the engine.
   virtual CuspTracer& cusp_tracer() = 0;
 
-  /// Of the last reduce().
+  /// Returns the statistics of the last reduce().
   virtual const CircleStats& stats() const = 0;
 
-  /// For people: "cpu (16 threads)", or GL renderer and version.
+  /// Returns the device's name for people: "cpu (16 threads)", or GL renderer and version.
   virtual std::string device() const = 0;
 };
 
-/// On all cores TBB may use, in double and, in doubt, quadruple precision; the result does not depend on their number.
+/// Makes an engine on all cores that TBB may use, in double and, where in doubt, quadruple precision. The result does
+/// not depend on the number of cores.
 std::unique_ptr<ReducedSurfaceEngine> make_cpu_engine();
 
 }  // namespace meniscus

@@ -21,14 +21,14 @@ glm::dvec3 rotated(const SphereArc& arc, double angle) {
   return along + std::cos(angle) * e + std::sin(angle) * glm::cross(arc.axis, e);
 }
 
-// Unit tangent of the walk at a point of the arc.
+// Returns the unit tangent of the walk at a point of the arc.
 glm::dvec3 tangent(const SphereArc& arc, const glm::dvec3& point) {
   const glm::dvec3 t = glm::cross(arc.axis, point);
   const double length = glm::length(t);
   return length > 0 ? t * ((arc.clockwise() ? -1.0 : 1.0) / length) : t;
 }
 
-// The point of the arc's whole circle that is nearest to a point of the sphere.
+// Returns the point of the arc's whole circle that is nearest to a point of the sphere.
 glm::dvec3 nearest_of_circle(const SphereArc& arc, const glm::dvec3& point) {
   const glm::dvec3 flat = point - arc.axis * glm::dot(arc.axis, point);
   const double length = glm::length(flat);
@@ -36,11 +36,11 @@ glm::dvec3 nearest_of_circle(const SphereArc& arc, const glm::dvec3& point) {
   return arc.axis * arc.height + flat * (std::sqrt(std::max(0.0, 1 - arc.height * arc.height)) / length);
 }
 
-// Whether a point of the arc's whole circle comes before the arc's end. The signs of two areas tell, unless one is
-// nearly nothing: then the angle does.
+// True if a point of the arc's whole circle comes before the arc's end. The signs of two areas decide, unless one area
+// is almost zero: then the angle decides.
 bool on_sweep(const SphereArc& arc, const glm::dvec3& point) {
-  constexpr double kClear = 1e-9;         // of the squared radius
-  constexpr double kLargeEnough = 1e-10;  // squared radius that rounding cannot turn by as much
+  constexpr double kClear = 1e-9;         // relative to the squared radius
+  constexpr double kLargeEnough = 1e-10;  // squared radius above which rounding is smaller than that
   const glm::dvec3 e = arc.from - arc.axis * arc.height, f = point - arc.axis * arc.height;
   const double turn = arc.clockwise() ? -1 : 1;
   const double past_begin = turn * glm::dot(arc.axis, glm::cross(e, f));
@@ -57,7 +57,7 @@ bool on_sweep(const SphereArc& arc, const glm::dvec3& point) {
   return angle < std::abs(arc.sweep);
 }
 
-// What distance_left_of() is made of: the cosine of the distance, and the side.
+// The parts of distance_left_of(): the cosine of the distance, and the side.
 struct Side {
   double nearest;
   bool left;
@@ -66,7 +66,7 @@ struct Side {
 
 Side side_of_loop(const glm::dvec3& point, std::span<const SphereArc> loop) {
   // The great circle from the point to the loop's nearest point meets the loop nowhere before, so it arrives on the
-  // side the point is on. No path has to dodge corners, so symmetry cannot spoil it.
+  // point's own side. No path has to avoid corners, so symmetry does no harm.
   Side side{-2, false};
   for (std::size_t n = 0; n < loop.size(); ++n) {
     const SphereArc& arc = loop[n];
@@ -76,7 +76,7 @@ Side side_of_loop(const glm::dvec3& point, std::span<const SphereArc> loop) {
     if (arc.whole) continue;
     if (const double cosine = glm::dot(arc.to, point); cosine > side.nearest) {
       const glm::dvec3 in = tangent(arc, arc.to), out = tangent(loop[n + 1 == loop.size() ? 0 : n + 1], arc.to);
-      // Half-way into the corner, for any interior angle from 0 to pi.
+      // The direction half-way into the corner, for any interior angle from 0 to pi.
       const glm::dvec3 inwards = out - in + glm::cross(arc.to, out + in);
       side = {cosine, glm::dot(inwards, point - arc.to) > 0};
     }
@@ -199,11 +199,12 @@ glm::dvec3 moment_of_steps(std::span<const SphereArc> loop) {
 }
 
 bool lies_left_of(std::span<const SphereArc> inner, std::span<const SphereArc> loop) {
-  constexpr double kClear = 0.01;  // far beyond what rounding moves, so that no other point is asked
+  constexpr double kClear = 0.01;  // far beyond rounding, so that no further point is tried
   double clearest = 0;
-  double nearest = std::numeric_limits<double>::infinity();  // cosine of that distance
+  double nearest = std::numeric_limits<double>::infinity();  // cosine of the distance of the clearest point
   bool left = false;
-  // A point as near to a corner of the loop as the clearest one is to all of it is not clearer.
+  // True if the point is as near to a corner of the loop as the clearest point is to the whole loop: then it is not
+  // clearer.
   const auto beside_corner = [&](const glm::dvec3& point) {
     return std::ranges::any_of(loop,
                                [&](const SphereArc& arc) { return !arc.whole && glm::dot(arc.to, point) >= nearest; });

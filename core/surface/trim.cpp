@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Clip planes of concave patches from their sides and cuts, of convex patches from their borders and what those leave.
+// Finds the clip planes of concave patches from sides and cuts, and of convex patches from borders and the region that
+// they leave.
 #include "core/surface/trim.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@
 namespace meniscus {
 namespace {
 
-// Contact-circle plane of atom a towards atom b: the patch lies where dot(normal, x) <= offset.
+// Returns the contact-circle plane of atom a towards atom b: the patch lies where dot(normal, x) <= offset.
 Plane contact_plane(const Ball& a, const Ball& b, double probe_radius) {
   const glm::dvec3 d = b.center - a.center;
   const double distance = glm::length(d);
@@ -44,7 +45,7 @@ struct BallColumns {
   const double *x, *y, *z, *weight;
 };
 
-// The power of a point to each ball, with the sign that is positive inside.
+// Computes the power of a point to each ball, with the sign that is positive inside.
 MENISCUS_VECTOR_CLONES
 void measure_inside(const glm::dvec3& point, const BallColumns& balls, std::size_t count, double* inside) {
   const double px = point.x, py = point.y, pz = point.z;
@@ -69,7 +70,7 @@ class ConvexTrimmer::Search {
 
   std::uint32_t patch_count() const { return static_cast<std::uint32_t>(s_.convex.size()); }
 
-  // One thread's lists.
+  // The scratch memory of one thread.
   struct Worker {
     std::vector<std::uint32_t> kept;
     Blockers blockers;
@@ -77,7 +78,7 @@ class ConvexTrimmer::Search {
     Contour contour;
   };
 
-  // Appends them; returns how many there are.
+  // Appends the planes of one patch; returns their number.
   std::uint32_t append_planes(std::uint32_t convex, PlaneChoice choice, Worker& w, std::vector<Plane>& planes) const {
     const std::uint32_t a = s_.convex[convex].atom;
     keep_bordering(a, w);
@@ -87,7 +88,7 @@ class ConvexTrimmer::Search {
   }
 
   // As a rule the planes of circles that border the patch cut off the point, or a ball covers it. All planes take more
-  // work, and are found only where neither does.
+  // work, and are found only where neither holds.
   bool cuts_off(std::uint32_t convex, const glm::dvec3& direction, Worker& w) const {
     const std::uint32_t a = s_.convex[convex].atom;
     const Ball& atom = s_.atoms[a];
@@ -117,7 +118,7 @@ class ConvexTrimmer::Search {
     return largest;
   }
 
-  // The true borders of every atom's patch, sorted by partner. From the far atom an arc runs the other way.
+  // Lists the true borders of every atom's patch, sorted by partner. For the far atom an arc runs the other way.
   void list_arcs(const ReducedSurface& rs) {
     first_.assign(s_.atoms.size() + 1, 0);
     for (const RsArc& arc : rs.arcs) {
@@ -149,8 +150,9 @@ class ConvexTrimmer::Search {
       if (std::find(w.kept.begin(), w.kept.end(), arc.partner) == w.kept.end()) keep(a, arc.partner, w);
   }
 
-  // While some kept circle shows an arc that another atom covers, that atom's circle is needed as well. When none
-  // does, the kept circles bound the patch: a spurious piece would have a spurious border on one of them.
+  // Keeps further circles. While some kept circle shows an arc that another atom covers, that atom's circle is needed
+  // as well. When there is no such arc, the kept circles bound the patch: a spurious piece would have a spurious border
+  // on one of them.
   void keep_covering(std::uint32_t a, Worker& w) const {
     for (std::size_t n = 0; n < w.blockers.size(); ++n) {
       w.contour.expose(w.blockers[n].center, w.blockers[n].weight, w.blockers, n);
@@ -163,7 +165,7 @@ class ConvexTrimmer::Search {
     }
   }
 
-  // An atom that covers part of what the contour shows of the circle (a, b), or kNone if the contour is right.
+  // Returns an atom that covers part of the contour on the circle (a, b), or kNone if the contour is right.
   std::uint32_t missing_on_circle(std::uint32_t a, std::uint32_t b, Worker& w) const {
     const auto arcs = arcs_of(a);
     const auto known = [&](const BorderArc& arc) { return std::find(arcs.begin(), arcs.end(), arc) != arcs.end(); };
@@ -177,13 +179,13 @@ class ConvexTrimmer::Search {
     return kNone;
   }
 
-  // As covering(), of the point of the contour's circle at this pseudo-angle.
+  // Returns covering() of the point of the contour's circle at this pseudo-angle.
   std::uint32_t covering_circle(std::uint32_t a, double pseudo, Worker& w) const {
     const geometry::Circle& c = w.contour.circle();
     return covering(a, s_.atoms[a].center + c.axis * c.height + c.radius * w.contour.direction(pseudo), w);
   }
 
-  // The atom, none of the kept ones, that covers this point of the SAS sphere of `a` deepest, or kNone.
+  // Returns the atom, not among the kept ones, that covers this point of the SAS sphere of `a` deepest, or kNone.
   std::uint32_t covering(std::uint32_t a, const glm::dvec3& point, Worker& w) const {
     const Balls& balls = this->balls();
     std::uint32_t deepest = kNone;
@@ -194,7 +196,7 @@ class ConvexTrimmer::Search {
       const auto of = [&](Column column) { return balls.table.column(column) + first; };
       measure_inside(point, {of(kX), of(kY), of(kZ), of(kWeight)}, count, w.inside.data());
       for (std::size_t n = 0; n < count; ++n) {
-        if (!(w.inside[n] > depth)) continue;  // as a rule
+        if (!(w.inside[n] > depth)) continue;  // the common case
         const std::uint32_t b = balls.grid.order()[first + n];
         if (b == a || std::find(w.kept.begin(), w.kept.end(), b) != w.kept.end()) continue;
         depth = w.inside[n];
@@ -208,8 +210,8 @@ class ConvexTrimmer::Search {
     return decision_weight(s_.atoms[a].radius + s_.probe_radius, number_of(numbers_, a));
   }
 
-  // All balls, cell by cell. Swallowed ones cover nothing: where they reach beyond the atom that holds them, by 1e-6 Å
-  // at most, their planes would take half of a patch.
+  // All balls, cell by cell. Swallowed balls cover nothing: where they reach beyond the atom that contains them, by at
+  // most 1e-6 Å, their planes would take half of a patch.
   struct Balls {
     explicit Balls(const Search& search) : grid(search.s_.atoms, search.largest_) {
       const std::vector<bool> swallowed = swallowed_atoms(search.s_.atoms);
@@ -228,7 +230,7 @@ class ConvexTrimmer::Search {
     ColumnTable<kColumnCount> table;
   };
 
-  // Who asks for bordering circles alone needs none.
+  // Requests for bordering circles alone do not need the balls.
   const Balls& balls() const {
     std::call_once(balls_asked_, [&] { balls_.emplace(*this); });
     return *balls_;

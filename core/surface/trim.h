@@ -16,7 +16,7 @@
 
 namespace meniscus {
 
-/// Fills in surface.concave, contacts, cuts and their planes: the sides of the spherical polygon, then the bisectors
+/// Computes surface.concave, contacts, cuts and their planes: the sides of each spherical polygon, then the bisectors
 /// towards every probe that reaches into it.
 void list_concave_patches(Surface& surface, const FixedProbes& probes, const CuspParts& cusps);
 
@@ -24,17 +24,17 @@ void list_concave_patches(Surface& surface, const FixedProbes& probes, const Cus
 /// circles bound no spurious piece of sphere any more.
 class ConvexTrimmer {
  public:
-  /// Both live longer.
+  /// Surface and reduced surface must outlive the trimmer.
   ConvexTrimmer(const Surface& surface, const ReducedSurface& rs);
   ~ConvexTrimmer();
 
-  /// Those of one convex patch. Several threads may ask, as they may for the next.
+  /// Returns the planes of one convex patch. Several threads may call this and the next function at once.
   std::vector<Plane> planes_of(std::uint32_t convex, PlaneChoice choice) const;
 
-  /// Do they cut off the point of the patch's sphere in this direction of its centre?
+  /// True if the planes cut off the point of the patch's sphere in this direction from its centre.
   bool cuts_off(std::uint32_t convex, const glm::dvec3& direction) const;
 
-  /// Appends those of all convex patches to the planes of the surface that it was made for.
+  /// Appends the planes of all convex patches to the surface that the trimmer was made for.
   void list_all(Surface& surface) const;
 
  private:
@@ -42,7 +42,7 @@ class ConvexTrimmer {
   std::unique_ptr<const Search> search_;
 };
 
-/// Planes that are found for the few patches that are asked for, by a trimmer that the first one makes.
+/// Clip planes found on request, by a trimmer that the first request makes.
 class PlanesWhenAsked final : public ConvexPlanes {
  public:
   PlanesWhenAsked(const Surface& surface, const ReducedSurface& rs) : s_(surface), rs_(rs) {}
@@ -66,7 +66,7 @@ class PlanesWhenAsked final : public ConvexPlanes {
   mutable std::optional<ConvexTrimmer> trimmer_;
 };
 
-/// Fills in the planes of the convex patches.
+/// Computes the planes of the convex patches.
 void trim_convex_patches(Surface& surface, const ReducedSurface& rs);
 
 }  // namespace meniscus

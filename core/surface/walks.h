@@ -13,24 +13,24 @@
 
 namespace meniscus {
 
-/// Of a Border, a ToroidalPatch, or whatever has `axis` and `start`: the unit vector from its circle's centre at angle
-/// t (radian) from the start, counter-clockwise about the axis.
+/// Returns the unit vector from the centre of an arc's circle at angle t (radians) from the start, counter-clockwise
+/// about the axis. An Arc is a Border, a ToroidalPatch, or any type with `axis` and `start`.
 template <typename Arc>
 glm::dvec3 arc_direction(const Arc& arc, double t) {
   return std::cos(t) * arc.start + std::sin(t) * glm::cross(arc.axis, arc.start);
 }
 
-/// The point there, Å; of a ToroidalPatch: where the probe's centre is.
+/// Returns the point of the arc at angle t, Å. For a ToroidalPatch it is the probe's centre.
 template <typename Arc>
 glm::dvec3 arc_point(const Arc& arc, double t) {
   return arc.center + arc.radius * arc_direction(arc, t);
 }
 
-/// Index of the border that is walked.
+/// Returns the index of the border that a half-border walks.
 inline std::uint32_t border_of(HalfBorder half) { return half / 2; }
 inline bool is_backwards(HalfBorder half) { return (half & 1) != 0; }
 
-/// The pieces of a patch.
+/// Returns the connected pieces of a patch.
 template <typename Patch>
 std::span<const Face> faces_of(const Surface& surface, const Patch& patch) {
   return {surface.faces.data() + patch.first_face, patch.face_count};
@@ -40,12 +40,12 @@ inline std::span<const Loop> loops_of(const Surface& surface, const Face& face) 
   return {surface.loops.data() + face.first_loop, face.loop_count};
 }
 
-/// In the order in which they are walked.
+/// Returns the half-borders of a loop in the order of the walk.
 inline std::span<const HalfBorder> half_borders_of(const Surface& surface, const Loop& loop) {
   return {surface.half_borders.data() + loop.first_half_border, loop.half_border_count};
 }
 
-/// Asks the memory for a border that will soon be walked: neighbours around a face lie far apart in the table of
+/// Prefetches a border that will soon be walked, because neighbours around a face lie far apart in the table of
 /// borders. `half_border` is an index into Surface::half_borders, or past its end.
 inline void prefetch_border(const Surface& surface, std::size_t half_border) {
   if (half_border >= surface.half_borders.size()) return;
@@ -54,10 +54,10 @@ inline void prefetch_border(const Surface& surface, std::size_t half_border) {
   __builtin_prefetch(border + sizeof(Border) - 1);
 }
 
-/// How many half-borders ahead that is worth its while.
+/// The number of half-borders to prefetch ahead.
 inline constexpr std::size_t kPrefetchAhead = 12;
 
-/// Calls visit(half border) loop after loop.
+/// Calls visit(half border) for every half-border of a face, loop after loop.
 template <typename Visit>
 void for_each_half_border(const Surface& surface, const Face& face, const Visit& visit) {
   for (const Loop& loop : loops_of(surface, face))
@@ -67,7 +67,7 @@ void for_each_half_border(const Surface& surface, const Face& face, const Visit&
     }
 }
 
-/// Calls visit(border) loop after loop.
+/// Calls visit(border) for every border of a face, loop after loop.
 template <typename Visit>
 void for_each_border(const Surface& surface, const Face& face, const Visit& visit) {
   for_each_half_border(surface, face, [&](HalfBorder half) { visit(surface.borders[border_of(half)]); });

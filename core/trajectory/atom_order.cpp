@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts bonds that are too long to be bonds, residue by residue.
+// Counts bonds that are too long, residue by residue.
 #include "core/trajectory/atom_order.h"
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 namespace meniscus {
 namespace {
 
-constexpr double kShortest = 0.5;      // Å; below it atoms have no places of their own yet, all at the origin, say
-constexpr double kShortestJump = 8.0;  // Å; no box is narrower than this and a bond
+constexpr double kShortest = 0.5;  // Å; shorter means that atoms have no positions yet, for example all at the origin
+constexpr double kShortestJump = 8.0;  // Å; a jump across any box is at least as long
 constexpr std::size_t kFewest = 3;
 
 bool makes_covalent_bonds(const Atom& atom) {
@@ -28,7 +28,7 @@ bool makes_covalent_bonds(const Atom& atom) {
 }
 
 double longest(const Atom& a, const Atom& b) {
-  constexpr double kStretch = 1.3;  // vibrations reach 1.15, the second neighbour begins at 1.5
+  constexpr double kStretch = 1.3;  // vibrations reach 1.15, second neighbours begin at 1.5
   const auto radius = [](const Atom& atom) { return double{gemmi::Element(int{atom.element}).covalent_r()}; };
   return kStretch * (radius(a) + radius(b));
 }
@@ -42,7 +42,7 @@ std::vector<bool> residues_of(std::span<const Atom> atoms) {
   return residues;
 }
 
-/// Bonds of the standard ones among these residues.
+/// Returns the bonds of the standard residues among these residues.
 std::vector<Bond> standard_bonds(std::span<const Atom> atoms, const std::vector<bool>& residues) {
   std::vector<Atom> part;
   std::vector<std::uint32_t> place;
@@ -61,7 +61,7 @@ std::vector<Bond> standard_bonds(std::span<const Atom> atoms, const std::vector<
   return bonds;
 }
 
-/// The bonds whose lengths can be compared.
+/// Returns the bonds whose lengths can be compared with the frame.
 std::vector<Bond> comparable_bonds(const Topology& topology, std::span<const Atom> used, bool has_positions) {
   const std::vector<Atom>& atoms = topology.atoms;
   const std::vector<bool> residues = residues_of(used);
@@ -95,7 +95,8 @@ class FrameDistances {
     shortest_jump_ = glm::max(0.5 * (high - low), glm::dvec3(kShortestJump));
   }
 
-  /// Nothing where the two may be on both sides of a box that the frame does not tell.
+  /// Returns the distance (Å) of two atoms, or nothing if they may be on opposite sides of a box that the frame does
+  /// not have.
   std::optional<double> between(std::uint32_t a, std::uint32_t b) const {
     const glm::dvec3 d = positions_[a] - positions_[b];
     if (cell_) return glm::length(cell_->shortest(d));
@@ -106,7 +107,7 @@ class FrameDistances {
  private:
   const std::vector<glm::dvec3>& positions_;
   std::optional<PeriodicCell> cell_;
-  glm::dvec3 shortest_jump_{0.0};  ///< along each axis, from one side of a box to the other
+  glm::dvec3 shortest_jump_{0.0};  ///< Å, along each axis; a longer distance may be a jump across a box
 };
 
 struct Count {

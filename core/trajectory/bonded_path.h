@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The way of bonded atoms from one frame to the next, on which groups turn and bonds keep their lengths.
+// A path of bonded atoms from one frame to the next, along which groups rotate and bonds keep their lengths.
 #pragma once
 
 #include <array>
@@ -15,18 +15,18 @@
 
 namespace meniscus {
 
-/// Which atoms are bonded to which, and which are neighbours of the same one.
+/// The bonds between atoms, and the neighbours of each atom.
 class BondNetwork {
  public:
-  /// atoms: how many there are. Bonds with both ends in `held` count.
-  BondNetwork(std::size_t atoms, std::span<const Bond> bonds, std::span<const std::uint32_t> held);
-  /// Of any pairs of atoms that are near each other; without angles.
+  /// Makes the network of the bonds that have both ends in `constrained`. atoms: number of atoms.
+  BondNetwork(std::size_t atoms, std::span<const Bond> bonds, std::span<const std::uint32_t> constrained);
+  /// Makes a network of any pairs of atoms that are near each other. It has no angles and no corners.
   BondNetwork(std::size_t atoms, std::vector<Bond> pairs);
 
   std::span<const Bond> bonds() const { return bonds_; }
-  /// Of each angle between two bonds both outer atoms.
+  /// The two outer atoms of each angle between two bonds.
   std::span<const Bond> angles() const { return angles_; }
-  /// An atom and three of its neighbours, whose order on its left or right hand is to stay.
+  /// An atom and three of its neighbours, whose handedness has to stay.
   using Corner = std::array<std::uint32_t, 4>;
   std::span<const Corner> corners() const { return corners_; }
   std::size_t atoms() const { return begin_.size() - 1; }
@@ -39,47 +39,51 @@ class BondNetwork {
 
   std::vector<Bond> bonds_, angles_;
   std::vector<Corner> corners_;
-  std::vector<std::size_t> begin_;  ///< per atom, of its neighbours, and the end
+  /// Index: atom; value: its first neighbour in neighbor_; one entry after the last atom closes the list.
+  std::vector<std::size_t> begin_;
   std::vector<std::uint32_t> neighbor_;
 };
 
-/// Two atoms and how far apart they are to be, Å.
+/// Two atoms and the distance that they should have, Å.
 struct Distance {
   std::uint32_t a, b;
-  double wanted;
+  double target;
 };
 
-/// On straight lines or curves from frame to frame atoms that turn, such as those of a methyl group, take short cuts.
-/// Here each atom turns together with its neighbours, evenly about one axis (as rigid as possible: M. Alexa, D.
-/// Cohen-Or & D. Levin, Proc. SIGGRAPH 2000, 157), and atoms are moved from the curve so that their bonds are as these
-/// turns want them. At last bonds and angles are held to what lies between their lengths at both ends (SHAKE: J.-P.
-/// Ryckaert, G. Ciccotti & H. J. C. Berendsen, J. Comput. Phys. 23, 327, 1977).
+/// The path of atoms between two frames, corrected for rotating groups. On straight lines or curves from frame to
+/// frame, atoms of groups that rotate, such as a methyl group, take short cuts. Therefore each atom rotates together
+/// with its neighbours, uniformly about one axis (as rigid as possible: M. Alexa, D. Cohen-Or & D. Levin, Proc.
+/// SIGGRAPH 2000, 157), and atoms are moved from the curve so that their bonds follow these rotations. Finally bonds
+/// and angles are constrained to lengths interpolated between both frames (SHAKE: J.-P. Ryckaert, G. Ciccotti & H. J.
+/// C. Berendsen, J. Comput. Phys. 23, 327, 1977).
 class BondedPath {
  public:
-  /// Positions of all atoms in both frames, Å. The network must stay.
+  /// Begins a path between the positions (Å) of all atoms in two frames. The network must outlive this object.
   BondedPath(const BondNetwork& network, std::vector<glm::dvec3> from, std::vector<glm::dvec3> to);
 
-  /// Corrects positions on a curve, at this share of the way in (0, 1). Afterwards bonds are within 0.01 Å of their
-  /// lengths wherever 300 rounds suffice.
+  /// Corrects the positions on a curve at this share of the way, in (0, 1). Afterwards bonds are within 0.01 Å of their
+  /// lengths, unless 300 rounds do not suffice.
   void correct(double share, std::vector<glm::dvec3>& positions) const;
 
-  /// Moves atoms so that the vectors between neighbours are those of groups that turn, instead of those that they have
-  /// in `instead_of`. stay: weight of the squared moves beside those of vectors; rounds: of Gauss and Seidel.
-  void turn_groups(double share, const std::vector<glm::dvec3>& instead_of, double stay, int rounds,
-                   std::vector<glm::dvec3>& positions) const;
-  /// Moves atoms until bonds, angles and volumes of corners are as they are to be, and none of `apart` are nearer than
-  /// they are to be.
-  void hold_lengths(double share, std::span<const Distance> apart, std::vector<glm::dvec3>& positions) const;
+  /// Moves atoms so that the vectors between neighbours change from those in `instead_of` to those of the rotating
+  /// groups. move_weight: weight of the squared moves relative to the squared errors of the vectors. rounds: number of
+  /// Gauss-Seidel iterations.
+  void rotate_groups(double share, const std::vector<glm::dvec3>& instead_of, double move_weight, int rounds,
+                     std::vector<glm::dvec3>& positions) const;
+  /// Moves atoms until bonds, angles and volumes of corners have their interpolated values, and until the pairs in
+  /// `minimum_distances` have at least their distances.
+  void constrain_lengths(double share, std::span<const Distance> minimum_distances,
+                         std::vector<glm::dvec3>& positions) const;
 
-  /// Positions on straight ways between both frames.
-  std::vector<glm::dvec3> straight(double share) const;
+  /// Returns the positions (Å) of all atoms on straight lines between both frames.
+  std::vector<glm::dvec3> interpolate(double share) const;
 
  private:
-  void turn_alike();
+  void choose_directions();
 
   const BondNetwork& network_;
   std::vector<glm::dvec3> from_, to_;
-  std::vector<glm::dquat> turns_;  ///< per atom, of it and its neighbours
+  std::vector<glm::dquat> rotations_;  ///< rotation of each atom with its neighbours
 };
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads and writes lists of frames.
+// Parses and writes lists of frames.
 #include "core/trajectory/frame_list.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace meniscus {
 namespace {
 
-/// FIRST, FIRST-LAST, FIRST- or FIRST-LAST:STEP.
+/// A part of a list: FIRST, FIRST-LAST, FIRST- or FIRST-LAST:STEP.
 struct Part {
   std::uint64_t first = 0, last = 0, step = 1;
 };
@@ -52,7 +52,7 @@ class ListParser {
     return value;
   }
 
-  /// From the beginning, from the end, or the last.
+  /// Parses a frame that counts from the beginning or from the end, or that is "last".
   std::uint64_t frame(std::string_view& rest) const {
     constexpr std::string_view kLast = "last";
     if (rest.starts_with(kLast)) {
@@ -134,7 +134,7 @@ std::string frame_list_text(const std::vector<std::uint64_t>& frames) {
       step = frames[end] - frames[begin];
       while (end < frames.size() && frames[end] > frames[end - 1] && frames[end] - frames[end - 1] == step) ++end;
     }
-    if (end - begin == 2 && step > 1) end = begin + 1;  // two frames apart are no series yet
+    if (end - begin == 2 && step > 1) end = begin + 1;  // two distant frames make no series
     if (!text.empty()) text += ',';
     text += fmt::format("{}", frames[begin]);
     if (end - begin > 1) text += fmt::format("-{}", frames[end - 1]);

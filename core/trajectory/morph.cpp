@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the atoms that structures have in common, and bends them from one to the next.
+// Finds the atoms that structures have in common, and deforms one structure into the next.
 #include "core/trajectory/morph.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::uint32_t kNowhere = 0xffffffffu;
+constexpr std::uint32_t kNoAtom = 0xffffffffu;
 
 std::vector<std::uint32_t> all_of(const std::vector<Atom>& atoms) {
   std::vector<std::uint32_t> all(atoms.size());
@@ -27,7 +27,7 @@ std::vector<std::uint32_t> all_of(const std::vector<Atom>& atoms) {
   return all;
 }
 
-/// Pairs that one, two or three bonds join.
+/// Returns the pairs of atoms that one, two or three bonds connect, each once and in ascending order.
 std::vector<Bond> pairs_along_bonds(const BondNetwork& network) {
   std::vector<Bond> pairs;
   for (std::uint32_t a = 0; a < network.atoms(); ++a)
@@ -49,12 +49,13 @@ std::vector<Bond> pairs_along_bonds(const BondNetwork& network) {
 CommonAtoms common_atoms(std::span<const Structure> structures, std::span<const std::vector<bool>> superposed) {
   const std::vector<Atom>& first = structures.front().atoms;
   const std::vector<bool> all_first(first.size(), true);
-  std::vector<std::vector<std::uint32_t>> partners;  // of each structure but the first, per atom of the first
+  // The atom of each structure but the first that corresponds to each atom of the first.
+  std::vector<std::vector<std::uint32_t>> partners;
   std::vector<bool> is_common(first.size(), true), is_fitted = superposed.front();
   CommonAtoms common;
   for (std::size_t n = 1; n < structures.size(); ++n) {
     const std::vector<Atom>& other = structures[n].atoms;
-    std::vector<std::uint32_t>& partner = partners.emplace_back(first.size(), kNowhere);
+    std::vector<std::uint32_t>& partner = partners.emplace_back(first.size(), kNoAtom);
     std::vector<AtomPair> fitted;
     for (const AtomPair& pair : corresponding_atoms(first, all_first, other, std::vector<bool>(other.size(), true))) {
       partner[pair.reference] = pair.moved;
@@ -68,7 +69,7 @@ CommonAtoms common_atoms(std::span<const Structure> structures, std::span<const 
                       escaped(structures.front().file)));
     common.fits.push_back(superposition(first, other, fitted));
     for (std::size_t a = 0; a < first.size(); ++a) {
-      is_common[a] = is_common[a] && partner[a] != kNowhere;
+      is_common[a] = is_common[a] && partner[a] != kNoAtom;
       is_fitted[a] = is_fitted[a] && is_common[a] && superposed[n][partner[a]];
     }
   }
@@ -89,8 +90,8 @@ CommonAtoms common_atoms(std::span<const Structure> structures, std::span<const 
 Morph::Morph(CommonAtoms common)
     : common_(std::move(common)),
       bonds_(common_.atoms.size(), molecule_bonds(common_.atoms, {}), all_of(common_.atoms)),
-      related_(pairs_along_bonds(bonds_)) {
-  networks_.reserve(stops());  // paths refer to them
+      bonded_pairs_(pairs_along_bonds(bonds_)) {
+  networks_.reserve(stops());  // the paths refer to the networks, which must not move
   for (std::size_t stop = 0; stop + 1 < stops(); ++stop) {
     networks_.emplace_back(common_.atoms.size(), near_pairs(stop));
     body_.emplace_back(networks_.back(), at(stop), at(stop + 1));
@@ -110,8 +111,9 @@ std::vector<Bond> Morph::near_pairs(std::size_t stop) const {
   return pairs;
 }
 
-std::vector<Distance> Morph::too_near(std::size_t stop, const std::vector<glm::dvec3>& positions) const {
-  constexpr double kShare = 0.8, kMargin = 0.3;  // of radii; Å, what may come nearer while others are moved
+std::vector<Distance> Morph::find_contacts(std::size_t stop, const std::vector<glm::dvec3>& positions) const {
+  // Share of the radii; Å, margin for pairs that come nearer while other atoms are moved.
+  constexpr double kShare = 0.8, kMargin = 0.3;
   const std::vector<glm::dvec3>&from = at(stop), &to = at(stop + 1);
   double largest = 0.0;
   for (const Atom& atom : common_.atoms) largest = std::max(largest, atom.radius);
@@ -119,7 +121,7 @@ std::vector<Distance> Morph::too_near(std::size_t stop, const std::vector<glm::d
   std::vector<Distance> near;
   for (std::uint32_t a = 0; a < positions.size(); ++a)
     grid.for_each_near(positions[a], kShare * (common_.atoms[a].radius + largest) + kMargin, [&](std::uint32_t b) {
-      if (a >= b || std::ranges::binary_search(related_, Bond{a, b})) return;
+      if (a >= b || std::ranges::binary_search(bonded_pairs_, Bond{a, b})) return;
       const double least = std::min({kShare * (common_.atoms[a].radius + common_.atoms[b].radius),
                                      glm::distance(from[a], from[b]), glm::distance(to[a], to[b])});
       if (glm::distance(positions[a], positions[b]) < least + kMargin) near.push_back({a, b, least});
@@ -129,53 +131,53 @@ std::vector<Distance> Morph::too_near(std::size_t stop, const std::vector<glm::d
 
 double Morph::overlap(std::size_t stop, const std::vector<glm::dvec3>& positions) const {
   double most = 0.0;
-  for (const Distance& distance : too_near(stop, positions))
-    most = std::max(most, distance.wanted - glm::distance(positions[distance.a], positions[distance.b]));
+  for (const Distance& distance : find_contacts(stop, positions))
+    most = std::max(most, distance.target - glm::distance(positions[distance.a], positions[distance.b]));
   return most;
 }
 
-std::vector<glm::dvec3> Morph::between(std::size_t stop, double share) const {
-  constexpr double kBodyStays = 1e-3, kGroupsStay = 0.05;
+std::vector<glm::dvec3> Morph::smooth_model(std::size_t stop, double share) const {
+  constexpr double kBodyMoveWeight = 1e-3, kGroupMoveWeight = 0.05;
   constexpr int kBodyRounds = 300, kGroupRounds = 60;
-  const std::vector<glm::dvec3> straight = body_[stop].straight(share);
+  const std::vector<glm::dvec3> straight = body_[stop].interpolate(share);
   std::vector<glm::dvec3> positions = straight;
-  body_[stop].turn_groups(share, straight, kBodyStays, kBodyRounds, positions);
-  path_[stop].turn_groups(share, std::vector<glm::dvec3>(positions), kGroupsStay, kGroupRounds, positions);
-  // Nothing but its neighbours says where a body is: it stays where the ends are superposed.
+  body_[stop].rotate_groups(share, straight, kBodyMoveWeight, kBodyRounds, positions);
+  path_[stop].rotate_groups(share, std::vector<glm::dvec3>(positions), kGroupMoveWeight, kGroupRounds, positions);
+  // Only its neighbours determine the position of a body. It is moved back to where both stops are superposed.
   const RigidMotion back = superposition(straight, positions, common_.fitted);
   for (glm::dvec3& x : positions) x = back(x);
   return positions;
 }
 
-void Morph::hold(std::size_t stop, double share, std::vector<glm::dvec3>& positions) const {
+void Morph::constrain(std::size_t stop, double share, std::vector<glm::dvec3>& positions) const {
   constexpr int kTries = 5;
   constexpr double kEnough = 0.05;  // Å
   for (int n = 0; n < kTries; ++n) {
-    path_[stop].hold_lengths(share, too_near(stop, positions), positions);
+    path_[stop].constrain_lengths(share, find_contacts(stop, positions), positions);
     if (overlap(stop, positions) < kEnough) return;
   }
 }
 
-std::vector<std::vector<glm::dvec3>> Morph::way(std::size_t stop, std::size_t steps) const {
+std::vector<std::vector<glm::dvec3>> Morph::models(std::size_t stop, std::size_t steps) const {
   constexpr int kSweeps = 30;
-  constexpr double kDraw = 0.5;
+  constexpr double kRelaxation = 0.5;
   const auto share = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(steps); };
   std::vector<std::vector<glm::dvec3>> models{at(stop)}, smooth{at(stop)};
-  for (std::size_t n = 1; n < steps; ++n) smooth.push_back(between(stop, share(n)));
+  for (std::size_t n = 1; n < steps; ++n) smooth.push_back(smooth_model(stop, share(n)));
   models = smooth;
   const auto after = [&](const auto& path, std::size_t n) -> const std::vector<glm::dvec3>& {
     return n + 1 < steps ? path[n + 1] : at(stop + 1);
   };
-  for (std::size_t n = 1; n < steps; ++n) hold(stop, share(n), models[n]);
+  for (std::size_t n = 1; n < steps; ++n) constrain(stop, share(n), models[n]);
   for (int sweep = 0; sweep < kSweeps; ++sweep)
     for (std::size_t n = 1; n < steps; ++n) {
-      const std::vector<glm::dvec3>&before = models[n - 1], &behind = after(models, n);
-      // What the smooth way bends by itself is not drawn straight.
+      const std::vector<glm::dvec3>&before = models[n - 1], &next = after(models, n);
+      // The bending of the smooth path itself is not straightened.
       for (std::size_t a = 0; a < models[n].size(); ++a) {
         const glm::dvec3 bend = 0.5 * (smooth[n - 1][a] + after(smooth, n)[a]) - smooth[n][a];
-        models[n][a] += kDraw * (0.5 * (before[a] + behind[a]) - models[n][a] - bend);
+        models[n][a] += kRelaxation * (0.5 * (before[a] + next[a]) - models[n][a] - bend);
       }
-      hold(stop, share(n), models[n]);
+      constrain(stop, share(n), models[n]);
     }
   return models;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A path from one structure of a molecule to another, on which it bends like an elastic body.
+// A path between structures of a molecule, along which it deforms like an elastic body.
 #pragma once
 
 #include <array>
@@ -17,23 +17,25 @@
 
 namespace meniscus {
 
-/// The atoms that several structures have in common, and where they are in each.
+/// The atoms that several structures have in common, and their positions in each of them.
 struct CommonAtoms {
-  std::vector<Atom> atoms;                         ///< of the first, in its order; with radii
-  std::vector<std::vector<glm::dvec3>> positions;  ///< in each structure, superposed on the first
-  std::vector<Superposition> fits;                 ///< of all but the first
-  std::vector<std::uint32_t> fitted;               ///< those of the atoms by which all are superposed; at least three
+  std::vector<Atom> atoms;                         ///< atoms of the first structure, in its order, with radii
+  std::vector<std::vector<glm::dvec3>> positions;  ///< Å, for each structure, superposed on the first
+  std::vector<Superposition> fits;                 ///< superposition of each structure but the first
+  std::vector<std::uint32_t> fitted;               ///< places of the atoms by which all are superposed, at least three
 };
 
-/// Atoms correspond by sequence (corresponding_atoms). superposed: those of them that are brought together, per atom of
-/// each structure. Throws InputError for a structure that has no chain in common with the first.
+/// Finds the common atoms of structures by sequence (corresponding_atoms) and superposes the structures. superposed:
+/// for each structure and each of its atoms, true if it takes part in the superposition. Throws InputError for a
+/// structure that has no chain in common with the first.
 CommonAtoms common_atoms(std::span<const Structure> structures, std::span<const std::vector<bool>> superposed);
 
-/// Between two stops everything near an atom turns with it, evenly about one axis, so that domains move as bodies (as
-/// rigid as possible: M. Alexa, D. Cohen-Or & D. Levin, Proc. SIGGRAPH 2000, 157), on the network of atoms that are
-/// near each other at both ends (as in M. K. Kim, R. L. Jernigan & G. S. Chirikjian, Biophys. J. 83, 1620, 2002). Then
-/// groups along bonds turn, bonds and angles are held, and atoms that come too near are moved apart: nearer than at
-/// both ends and nearer than 0.8 times the sum of their radii.
+/// A path through a sequence of structures, the stops. Between two stops the neighbourhood of each atom rotates with
+/// it, uniformly about one axis, so that domains move as bodies (as rigid as possible: M. Alexa, D. Cohen-Or & D.
+/// Levin, Proc. SIGGRAPH 2000, 157). The neighbourhood is the network of atoms that are near each other at both stops
+/// (as in M. K. Kim, R. L. Jernigan & G. S. Chirikjian, Biophys. J. 83, 1620, 2002). Then groups rotate about bonds,
+/// and bonds and angles are constrained. Atoms are moved apart if they are nearer than at both stops and nearer than
+/// 0.8 times the sum of their radii.
 class Morph {
  public:
   explicit Morph(CommonAtoms common);
@@ -41,26 +43,27 @@ class Morph {
   const std::vector<Atom>& atoms() const { return common_.atoms; }
   std::size_t stops() const { return common_.positions.size(); }
   const std::vector<glm::dvec3>& at(std::size_t stop) const { return common_.positions[stop]; }
-  /// The models from a stop to before the next one, `steps` of them; the first is the stop itself.
-  std::vector<std::vector<glm::dvec3>> way(std::size_t stop, std::size_t steps) const;
+  /// Returns the positions (Å) of `steps` models from a stop to before the next one. The first is the stop itself.
+  std::vector<std::vector<glm::dvec3>> models(std::size_t stop, std::size_t steps) const;
 
-  /// By how much two atoms of a model are nearer than they may be, Å; 0: none are. stop: where its way begins.
+  /// Returns the greatest overlap of two atoms of a model, Å: by how much they are nearer than they may be. Returns 0
+  /// if none overlap. stop: where the path of the model begins.
   double overlap(std::size_t stop, const std::vector<glm::dvec3>& positions) const;
 
-  /// The bonds that are held.
+  /// The bonds whose lengths are constrained.
   std::span<const Bond> bonds() const { return bonds_.bonds(); }
 
  private:
   std::vector<Bond> near_pairs(std::size_t stop) const;
-  std::vector<glm::dvec3> between(std::size_t stop, double share) const;
-  void hold(std::size_t stop, double share, std::vector<glm::dvec3>& positions) const;
-  std::vector<Distance> too_near(std::size_t stop, const std::vector<glm::dvec3>& positions) const;
+  std::vector<glm::dvec3> smooth_model(std::size_t stop, double share) const;
+  void constrain(std::size_t stop, double share, std::vector<glm::dvec3>& positions) const;
+  std::vector<Distance> find_contacts(std::size_t stop, const std::vector<glm::dvec3>& positions) const;
 
   CommonAtoms common_;
   BondNetwork bonds_;
-  std::vector<Bond> related_;            ///< along three bonds at most, ascending: these may be near
-  std::vector<BondNetwork> networks_;    ///< per way from stop to stop, of atoms near each other
-  std::vector<BondedPath> body_, path_;  ///< likewise
+  std::vector<Bond> bonded_pairs_;  ///< pairs that at most three bonds connect, ascending; these may be near each other
+  std::vector<BondNetwork> networks_;    ///< for each path between two stops the network of atoms near each other
+  std::vector<BondedPath> body_, path_;  ///< for each path between two stops
 };
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes molecules whole, centres, superposes and smooths the frames of a trajectory; reads some ahead into a queue.
+// Makes molecules whole, centres, superposes and smooths the frames of a trajectory, and reads some ahead into a queue.
 #include "core/trajectory/prepared_frames.h"
 
 #include <algorithm>
@@ -27,26 +27,27 @@ glm::dvec3 mean_of(const std::vector<glm::dvec3>& positions, const std::vector<s
   return sum / static_cast<double>(atoms.size());
 }
 
-/// The weights of the frames around a place, in order. The two frames beside the place are in the middle.
-using PathWeights = std::array<double, 2 * kPathReach + 2>;
+/// The weights of the frames around a place, in order. The two frames next to the place are in the middle.
+using PathWeights = std::array<double, 2 * kPathNeighbors + 2>;
 
-/// The path between two frames has in both the speed and the acceleration that differences of frames give there. Those
-/// of the fourth order would make it slow at frames, for where these are noise it turns there. The share kMore of the
-/// next difference, and the second differences over two and three frames, are those by which it pulses least, at most
-/// by 2.5 %, where frames are independent of each other and where their steps are; cubics are kept.
+/// Returns the weights of the frames for the path at t in (0, 1) between two frames. At both frames its speed and its
+/// acceleration are finite differences of the frames. Differences of fourth order would make it slow at frames, because
+/// the path turns at frames that are noise. The share kMore of the next difference, and the second differences over two
+/// and three frames (kTwo, kThree), are those with which the speed varies least. It varies by at most 2.5 %, both for
+/// frames that are independent of each other and for frames whose steps are independent. Cubics are reproduced.
 PathWeights path_weights(double t) {
   constexpr double kMore = 0.076, kTwo = -0.42, kThree = -0.0485;
   constexpr std::array kSpeed{2.0 / 3.0 + 5.0 * kMore, -1.0 / 12.0 - 4.0 * kMore, kMore};
   constexpr std::array kAcceleration{1.0 - 4.0 * kTwo - 9.0 * kThree, kTwo, kThree};
-  static_assert(kSpeed.size() == kPathReach && kAcceleration.size() == kPathReach);
+  static_assert(kSpeed.size() == kPathNeighbors && kAcceleration.size() == kPathNeighbors);
   const double t2 = t * t, t3 = t2 * t, to = t3 * (10.0 - 15.0 * t + 6.0 * t2);
   const std::array position{1.0 - to, to}, speed{t - t3 * (6.0 - 8.0 * t + 3.0 * t2), t3 * (7.0 * t - 4.0 - 3.0 * t2)},
       acceleration{0.5 * t2 * (1.0 - t * (3.0 - 3.0 * t + t2)), t3 * (0.5 - t + 0.5 * t2)};
   PathWeights weights{};
   for (std::size_t end = 0; end < 2; ++end) {
-    const std::size_t here = kPathReach + end;
+    const std::size_t here = kPathNeighbors + end;
     weights[here] += position[end];
-    for (std::size_t k = 1; k <= kPathReach; ++k) {
+    for (std::size_t k = 1; k <= kPathNeighbors; ++k) {
       const double of_speed = speed[end] * kSpeed[k - 1], of_bend = acceleration[end] * kAcceleration[k - 1];
       weights[here - k] += of_bend - of_speed;
       weights[here] -= 2.0 * of_bend;
@@ -56,8 +57,9 @@ PathWeights path_weights(double t) {
   return weights;
 }
 
-/// Without frames beyond the first and the last one: there all goes on straight, as fast as over the two steps before.
-PathWeights within(PathWeights weights, std::size_t first, std::size_t last) {
+/// Returns weights that use no frames before `first` or after `last`. Beyond them the path goes on straight, with the
+/// speed of the last two steps.
+PathWeights restrict_weights(PathWeights weights, std::size_t first, std::size_t last) {
   const std::size_t steps = std::min<std::size_t>(2, last - first);
   const auto fold = [&](std::size_t beyond, std::size_t end, std::size_t other, std::size_t far) {
     const double ways = static_cast<double>(far) / static_cast<double>(steps);
@@ -76,11 +78,11 @@ PreparedFrames::PreparedFrames(Trajectory& trajectory, Preparation preparation)
     : trajectory_(trajectory), preparation_(std::move(preparation)) {
   if (preparation_.superposed.empty() && preparation_.centered.empty()) return;
   Frame frame;
-  read_placed(preparation_.reference, frame);  // moves nothing yet, as there is no reference
+  read_aligned(preparation_.reference, frame);  // does not move anything yet, because there is no reference
   reference_ = std::move(frame.positions);
 }
 
-void PreparedFrames::read_placed(std::uint64_t number, Frame& frame) {
+void PreparedFrames::read_aligned(std::uint64_t number, Frame& frame) {
   trajectory_.read(number, frame);
   std::vector<glm::dvec3>& positions = frame.positions;
   if (preparation_.whole) {
@@ -99,28 +101,29 @@ void PreparedFrames::read_placed(std::uint64_t number, Frame& frame) {
   }
 }
 
-const Frame& PreparedFrames::placed(std::uint64_t number) {
-  for (const Kept& kept : kept_)
+const Frame& PreparedFrames::aligned(std::uint64_t number) {
+  for (const CachedFrame& kept : cache_)
     if (kept.number == number) return kept.frame;
-  // One window of smoothing, or those of a path, and one neighbour on each side for velocities.
-  const std::size_t around = preparation_.bonds ? 2 * kPathReach + 1 : 0;
-  if (kept_.size() > 2 * preparation_.smooth_half + around + 2) kept_.pop_front();
-  Kept fresh{number, {}};
-  read_placed(number, fresh.frame);
-  return kept_.emplace_back(std::move(fresh)).frame;
+  // Room for one window of smoothing or of a path, and one neighbour on each side for velocities.
+  const std::size_t around = preparation_.bonds ? 2 * kPathNeighbors + 1 : 0;
+  if (cache_.size() > 2 * preparation_.smooth_half + around + 2) cache_.pop_front();
+  CachedFrame fresh{number, {}};
+  read_aligned(number, fresh.frame);
+  return cache_.emplace_back(std::move(fresh)).frame;
 }
 
 void PreparedFrames::read(std::uint64_t number, Frame& frame) {
-  if (number >= trajectory_.frame_count()) return trajectory_.read(number, frame);  // says what is wrong
+  // Throws an error that describes the fault.
+  if (number >= trajectory_.frame_count()) return trajectory_.read(number, frame);
   const auto last = static_cast<std::int64_t>(trajectory_.frame_count()) - 1;
   const std::int64_t half = std::min(static_cast<std::int64_t>(preparation_.smooth_half), last);
   if (half == 0) {
-    frame = placed(number);
+    frame = aligned(number);
     return;
   }
   std::vector<glm::dvec3> sum(trajectory_.atom_count(), glm::dvec3(0.0));
   const auto add = [&](std::int64_t n, double weight) {
-    const Frame& one = placed(static_cast<std::uint64_t>(n));
+    const Frame& one = aligned(static_cast<std::uint64_t>(n));
     for (std::size_t a = 0; a < sum.size(); ++a) sum[a] += weight * one.positions[a];
   };
   const auto here = static_cast<std::int64_t>(number);
@@ -133,22 +136,22 @@ void PreparedFrames::read(std::uint64_t number, Frame& frame) {
       add(2 * end - n, -1.0);
     }
   }
-  frame = placed(number);
+  frame = aligned(number);
   for (std::size_t a = 0; a < sum.size(); ++a) frame.positions[a] = sum[a] / static_cast<double>(2 * half + 1);
 }
 
 void PreparedFrames::read_between(const BetweenFrames& place, Frame& frame) {
   std::array<Frame, std::tuple_size_v<PathWeights>> frames;
-  std::size_t first = kPathReach, last = kPathReach + 1;
+  std::size_t first = kPathNeighbors, last = kPathNeighbors + 1;
   const Frame &from = frames[first], &to = frames[last];
   read(place.from, frames[first]);
   read(place.to, frames[last]);
   refuse_jumps(place.from, from, place.to, to);
-  // Where a frame cannot be read, or atoms jump, the path ends as the run does.
-  const auto read_on = [&](const std::vector<std::uint64_t>& numbers, std::uint64_t near, bool is_behind) {
-    std::size_t& end = is_behind ? last : first;
+  // The path ends as a run does where a frame cannot be read or atoms jump.
+  const auto read_on = [&](const std::vector<std::uint64_t>& numbers, std::uint64_t near, bool is_after) {
+    std::size_t& end = is_after ? last : first;
     for (const std::uint64_t number : numbers) {
-      const std::size_t beyond = is_behind ? end + 1 : end - 1;
+      const std::size_t beyond = is_after ? end + 1 : end - 1;
       try {
         read(number, frames[beyond]);
         refuse_jumps(near, frames[end], number, frames[beyond]);
@@ -160,8 +163,8 @@ void PreparedFrames::read_between(const BetweenFrames& place, Frame& frame) {
     }
   };
   read_on(place.before, place.from, false);
-  read_on(place.behind, place.to, true);
-  const PathWeights weights = within(path_weights(place.share), first, last);
+  read_on(place.after, place.to, true);
+  const PathWeights weights = restrict_weights(path_weights(place.share), first, last);
   frame = from;
   if (from.time && to.time) frame.time = *from.time + place.share * (*to.time - *from.time);
   for (std::size_t a = 0; a < frame.positions.size(); ++a) {
@@ -179,7 +182,8 @@ const BondedPath& PreparedFrames::path(const BetweenFrames& place, const Frame& 
   return *path_;
 }
 
-/// Between two frames of a run nothing moves by half of the box; what does has come in at its other side.
+/// Throws InputError for an atom that moves by more than half of the box between two frames. Such an atom has left the
+/// box and come in at its other side.
 void PreparedFrames::refuse_jumps(std::uint64_t number, const Frame& from, std::uint64_t next, const Frame& to) const {
   if (!from.cell || !to.cell) return;
   const std::optional<PeriodicCell> cell = PeriodicCell::of(*to.cell);
@@ -196,9 +200,9 @@ void PreparedFrames::refuse_jumps(std::uint64_t number, const Frame& from, std::
 
 namespace {
 
-constexpr std::uint32_t kUnseen = 0xffffffffu;
+constexpr std::uint32_t kUnassigned = 0xffffffffu;
 
-/// Neighbours of each atom, one list behind the other.
+/// The neighbours of each atom, as one list after another.
 struct Neighbors {
   std::vector<std::size_t> begin;
   std::vector<std::uint32_t> atom;
@@ -218,13 +222,13 @@ struct Neighbors {
   }
 };
 
-/// A residue in several pieces: nobody could say where they belong.
+/// Throws InputError for a residue in several pieces, whose relative positions are unknown.
 void refuse_pieces(std::span<const Atom> atoms, std::span<const std::uint32_t> molecule,
-                   const std::vector<bool>& is_taken, const std::string& file) {
+                   const std::vector<bool>& is_chosen, const std::string& file) {
   for (std::size_t n = 1; n < atoms.size(); ++n) {
     const bool same_residue = atoms[n].residue == atoms[n - 1].residue;
     if (!same_residue || molecule[n] == molecule[n - 1]) continue;
-    if (!is_taken[molecule[n]] && !is_taken[molecule[n - 1]]) continue;
+    if (!is_chosen[molecule[n]] && !is_chosen[molecule[n - 1]]) continue;
     throw InputError(
         file, 0,
         message(
@@ -245,38 +249,38 @@ glm::dvec3 center_of(std::span<const glm::dvec3> positions, std::span<const std:
 WholeMolecules::WholeMolecules(std::span<const Atom> atoms, std::span<const Bond> bonds,
                                std::span<const std::uint32_t> wanted, const std::string& file) {
   const Neighbors neighbors(atoms.size(), bonds);
-  std::vector<std::uint32_t> molecule(atoms.size(), kUnseen);
+  std::vector<std::uint32_t> molecule(atoms.size(), kUnassigned);
   std::vector<std::vector<Step>> molecules;
   for (std::uint32_t first = 0; first < atoms.size(); ++first) {
-    if (molecule[first] != kUnseen) continue;
+    if (molecule[first] != kUnassigned) continue;
     const auto number = static_cast<std::uint32_t>(molecules.size());
     std::vector<Step>& steps = molecules.emplace_back();
     molecule[first] = number;
     steps.push_back({first, first});
-    for (std::size_t n = 0; n < steps.size(); ++n) {  // breadth first
+    for (std::size_t n = 0; n < steps.size(); ++n) {  // breadth-first search
       const std::uint32_t from = steps[n].atom;
       for (const std::uint32_t next : neighbors.of(from)) {
-        if (molecule[next] != kUnseen) continue;
+        if (molecule[next] != kUnassigned) continue;
         molecule[next] = number;
         steps.push_back({next, from});
       }
     }
   }
-  std::vector<bool> is_taken(molecules.size());
-  for (const std::uint32_t a : wanted) is_taken[molecule[a]] = true;
-  refuse_pieces(atoms, molecule, is_taken, file);
-  std::vector<std::uint32_t> taken;
+  std::vector<bool> is_chosen(molecules.size());
+  for (const std::uint32_t a : wanted) is_chosen[molecule[a]] = true;
+  refuse_pieces(atoms, molecule, is_chosen, file);
+  std::vector<std::uint32_t> chosen;
   for (std::uint32_t number = 0; number < molecules.size(); ++number)
-    if (is_taken[number]) taken.push_back(number);
-  std::ranges::stable_sort(taken,
+    if (is_chosen[number]) chosen.push_back(number);
+  std::ranges::stable_sort(chosen,
                            [&](std::uint32_t a, std::uint32_t b) { return molecules[a].size() > molecules[b].size(); });
   begins_.push_back(0);
-  for (const std::uint32_t number : taken) {
+  for (const std::uint32_t number : chosen) {
     steps_.insert(steps_.end(), molecules[number].begin(), molecules[number].end());
     begins_.push_back(steps_.size());
   }
   for (const Bond& bond : bonds)
-    if (is_taken[molecule[bond[0]]]) bonds_.push_back(bond);
+    if (is_chosen[molecule[bond[0]]]) bonds_.push_back(bond);
 }
 
 void WholeMolecules::apply(const glm::dmat3& vectors, std::vector<glm::dvec3>& positions,
@@ -285,10 +289,10 @@ void WholeMolecules::apply(const glm::dmat3& vectors, std::vector<glm::dvec3>& p
   if (!cell) throw InputError(where, 0, message("has a periodic box without volume; leave @whole@ out"));
   for (const auto& [atom, from] : steps_)
     if (atom != from) positions[atom] = positions[from] + cell->shortest(positions[atom] - positions[from]);
-  // A bond that no step went along closes a ring; through the box it would join the molecule with its own image.
+  // A bond that is not in steps_ closes a ring. If it crosses the box, it joins the molecule with its own image.
   for (const auto& [a, b] : bonds_) {
     const glm::dvec3 bond = positions[b] - positions[a];
-    // Equal but for rounding, or a vector of the lattice apart, which is longer than any bond.
+    // The two vectors are equal except for rounding, or they differ by a lattice vector, which is longer than any bond.
     if (glm::length(bond - cell->shortest(bond)) > 1e-3) {
       throw InputError(where, 0,
                        message("atoms {} and {} are bonded across the periodic box to an image of their own molecule, "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prepared frames: molecules whole, centred, superposed and smoothed; and frames read ahead on a thread.
+// Preparation of frames: making molecules whole, centring, superposing, smoothing, and reading ahead on a thread.
 #pragma once
 
 #include <condition_variable>
@@ -24,113 +24,119 @@
 
 namespace meniscus {
 
+/// Makes molecules whole that a periodic box has cut.
 class WholeMolecules {
  public:
-  /// Molecules are what the bonds join; those with an atom in `wanted` are treated. Throws InputError(file) when a
-  /// residue of theirs falls apart because bonds are missing.
+  /// Finds the molecules, which are the atoms that bonds connect. Only those with an atom in `wanted` are made whole.
+  /// Throws InputError(file) if a residue of such a molecule falls apart because bonds are missing.
   WholeMolecules(std::span<const Atom> atoms, std::span<const Bond> bonds, std::span<const std::uint32_t> wanted,
                  const std::string& file);
 
-  /// Moves atoms by lattice vectors: each molecule is whole as it hangs together by its bonds, and its centre is as
-  /// near as can be to the centre of the one with most atoms. cell: columns a, b, c, Å. Throws InputError(where) for a
-  /// box without volume, and for a molecule that is bonded to its own image.
+  /// Moves atoms by lattice vectors, so that each molecule is connected by its bonds and its centre is as near as
+  /// possible to the centre of the largest molecule. cell: vectors a, b, c in the columns, Å. Throws InputError(where)
+  /// for a box without volume, and for a molecule that is bonded to its own image.
   void apply(const glm::dmat3& cell, std::vector<glm::dvec3>& positions, const std::string& where) const;
 
  private:
-  /// An atom, and the one before it in its molecule that it is bonded to; itself for the first.
+  /// An atom, and an earlier atom of its molecule that it is bonded to. For the first atom both are the same.
   struct Step {
     std::uint32_t atom, from;
   };
 
-  std::vector<Step> steps_;          ///< molecule after molecule, each atom behind the one it hangs on
-  std::vector<std::size_t> begins_;  ///< of the molecules in steps_, and its end; the largest comes first
-  std::vector<Bond> bonds_;          ///< of these molecules
+  std::vector<Step> steps_;  ///< molecule after molecule, each atom after the one that it is bonded to
+  /// First step of each molecule, the largest first; the last entry is the number of steps.
+  std::vector<std::size_t> begins_;
+  std::vector<Bond> bonds_;  ///< bonds of these molecules
 };
 
-/// What is done to each frame, in this order. Atoms are given by their place in the file.
+/// The changes of each frame, which are made in this order. Atoms are given by their place in the file.
 struct Preparation {
   std::optional<WholeMolecules> whole;
-  /// Turned and moved onto where they are in the reference frame, and all others with them; empty: not. At least 3.
+  /// Atoms that are superposed on their positions in the reference frame, at least three. All other atoms move with
+  /// them. Empty: no superposition.
   std::vector<std::uint32_t> superposed;
-  /// Moved, not turned, so that the mean of their positions stays where it is in the reference frame; empty: not.
+  /// Atoms whose mean position is moved to where it is in the reference frame, without rotation. Empty: no centring.
   std::vector<std::uint32_t> centered;
-  std::uint64_t reference = 0;  ///< a frame of the trajectory
-  /// Each position becomes the mean over the frames from this many before to as many after. Beyond an end of the
-  /// trajectory are the frames before it, reflected in the end: so the first and the last frame stay as they are, and
-  /// steps near them are as even as others.
+  std::uint64_t reference = 0;  ///< number of a frame of the trajectory
+  /// Each position becomes the mean over so many frames before and after. Beyond the ends of the trajectory its frames
+  /// are reflected in its first and last frame. So these two frames stay as they are, and steps near them are as smooth
+  /// as others.
   std::uint64_t smooth_half = 0;
-  /// For read_between(): atoms that are followed from frame to frame, and their bonds.
+  /// Atoms that read_between() follows from frame to frame, and their bonds.
   std::vector<std::uint32_t> followed;
   std::optional<BondNetwork> bonds;
 };
 
-/// How many frames on each side of two a path between them depends on.
-inline constexpr std::size_t kPathReach = 3;
+/// The number of frames before and after two frames that the path between these two depends on.
+inline constexpr std::size_t kPathNeighbors = 3;
 
-/// A place between two frames, and the frames on both sides of these, by their numbers in the trajectory.
+/// A place between two frames, and the frames around them. Frames are given by their numbers in the trajectory.
 struct BetweenFrames {
-  std::vector<std::uint64_t> before;  ///< kPathReach of them, or fewer where the run begins; the nearest first
+  std::vector<std::uint64_t>
+      before;  ///< the nearest first; kPathNeighbors of them, or fewer at the beginning of the run
   std::uint64_t from = 0, to = 0;
-  std::vector<std::uint64_t> behind;  ///< likewise, to the end of the run
-  double share = 0.0;                 ///< of the way from `from` to `to`, in (0, 1)
+  std::vector<std::uint64_t> after;  ///< the nearest first; kPathNeighbors of them, or fewer at the end of the run
+  double share = 0.0;                ///< share of the path from `from` to `to`, in (0, 1)
 };
 
-/// A prepared frame depends on the trajectory and its number only, not on what was read before: processes that share a
-/// run make equal frames.
+/// Reads frames of a trajectory and prepares them. A prepared frame depends on the trajectory and its number only, not
+/// on what was read before, so that processes that share a run make equal frames.
 class PreparedFrames {
  public:
-  /// `trajectory` must live as long. Throws as read does, for the reference frame.
+  /// Reads the reference frame if it is needed. `trajectory` must outlive this object. Throws as read() does.
   PreparedFrames(Trajectory& trajectory, Preparation preparation);
 
-  /// Throws InputError naming the frame: what Trajectory::read throws, a missing or flat box where molecules are to be
-  /// made whole, a molecule bonded to its own image.
+  /// Reads a frame and prepares it. Throws InputError with the number of the frame if Trajectory::read throws, if
+  /// molecules are to be made whole and the box is missing or flat, or if a molecule is bonded to its own image.
   void read(std::uint64_t number, Frame& frame);
 
-  /// Reads positions on a path through all frames, which have equal steps: polynomials of the fifth degree with
-  /// continuous acceleration. Its speeds and accelerations at frames are such that on the average atoms are as fast
-  /// there as halfway, also where frames are independent of each other. Uniform motion stays uniform, parabolas and
-  /// cubics are kept. Before the first frame and behind the last one it goes on straight; so it does where a frame
-  /// beyond cannot be read, or atoms jump on the way to it. Then it is corrected as by BondedPath. Time goes evenly.
-  /// Throws InputError as read() does, and for an atom of Preparation::followed that jumps across the periodic box from
-  /// one to the other.
+  /// Reads positions on a path through all frames, which are equally spaced. The path consists of polynomials of degree
+  /// five with continuous acceleration. Its speeds and accelerations at frames are chosen so that atoms are on average
+  /// as fast there as halfway, even if frames are independent of each other. Uniform motion stays uniform; parabolas
+  /// and cubics are reproduced. Before the first frame and after the last one the path is continued on a straight line.
+  /// The same holds where the next frame cannot be read or atoms jump on the way to it. The positions are then
+  /// corrected by BondedPath. Time is interpolated linearly.
+  /// Throws InputError as read() does, and for an atom of Preparation::followed that jumps across the periodic box
+  /// between the two frames.
   void read_between(const BetweenFrames& place, Frame& frame);
 
  private:
-  struct Kept {
+  struct CachedFrame {
     std::uint64_t number;
     Frame frame;
   };
-  void read_placed(std::uint64_t number, Frame& frame);
-  const Frame& placed(std::uint64_t number);
+  void read_aligned(std::uint64_t number, Frame& frame);
+  const Frame& aligned(std::uint64_t number);
   const BondedPath& path(const BetweenFrames& place, const Frame& from, const Frame& to);
   void refuse_jumps(std::uint64_t number, const Frame& from, std::uint64_t next, const Frame& to) const;
 
   Trajectory& trajectory_;
   Preparation preparation_;
-  std::vector<glm::dvec3> reference_;  ///< all atoms of the reference frame, whole
-  std::optional<BondedPath> path_;     ///< between the two frames that path_ends_ has
+  std::vector<glm::dvec3> reference_;  ///< Å, all atoms of the reference frame after they were made whole
+  std::optional<BondedPath> path_;     ///< path between the two frames of path_ends_
   std::pair<std::uint64_t, std::uint64_t> path_ends_;
-  std::deque<Kept> kept_;  ///< placed frames that smoothing and paths will ask for again
+  std::deque<CachedFrame> cache_;  ///< aligned frames that smoothing and paths may need again
 };
 
-/// A frame as it was read, or why it could not be.
+/// A frame, or the error of reading it.
 struct ReadFrame {
   std::uint64_t number = 0;
   Frame frame;
-  std::vector<glm::dvec3> velocities;  ///< Å per frame; empty unless the reader fills them in
-  std::exception_ptr error;            ///< then the rest is worthless
+  std::vector<glm::dvec3> velocities;  ///< Å per frame; empty unless the reader function computes them
+  std::exception_ptr error;            ///< if set, the other members are not valid
 };
 
+/// Reads frames ahead on a thread of its own.
 class ReadAhead {
  public:
-  /// Calls `read` for each number in order, on its thread, `depth` frames ahead at most.
+  /// Starts a thread that calls `read` for each number in order, at most `depth` frames ahead of next().
   ReadAhead(std::function<void(ReadFrame&)> read, std::vector<std::uint64_t> numbers, std::size_t depth = 3);
-  /// Waits for the frame that is being read.
+  /// Ends the thread after the frame that is being read.
   ~ReadAhead();
   ReadAhead(const ReadAhead&) = delete;
   ReadAhead& operator=(const ReadAhead&) = delete;
 
-  /// The next frame, as soon as it is there; nothing after the last.
+  /// Waits for the next frame and returns it; nothing after the last.
   std::optional<ReadFrame> next();
 
  private:

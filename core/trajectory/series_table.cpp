@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads tables with a number for each frame of a trajectory.
+// Reads tables with one number for each frame of a trajectory.
 #include "core/trajectory/series_table.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks and opens trajectories, joins several into one, and finds vectors of boxes from edges and angles.
+// Checks and opens trajectories, joins several into one, and computes boxes from edges and angles.
 #include "core/trajectory/trajectory.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ std::optional<glm::dmat3> cell_of_cosines(const glm::dvec3& edges, const glm::dv
   if (!(edges.x > 0.0 && edges.y > 0.0 && edges.z > 0.0)) return std::nullopt;
   const double sine = std::sqrt(1.0 - cosines.z * cosines.z);
   const double x = cosines.y, y = (cosines.x - cosines.y * cosines.z) / sine;
-  const double height = std::sqrt(1.0 - x * x - y * y);  // NaN where the angles do not fit together
+  const double height = std::sqrt(1.0 - x * x - y * y);  // NaN if the angles do not fit together
   return cell_of_vectors(glm::dmat3(glm::dvec3(edges.x, 0.0, 0.0), edges.y * glm::dvec3(cosines.z, sine, 0.0),
                                     edges.z * glm::dvec3(x, y, height)));
 }
@@ -32,7 +32,7 @@ std::optional<glm::dmat3> cell_of_angles(const glm::dvec3& edges, const glm::dve
   glm::dvec3 cosines;
   for (int n = 0; n < 3; ++n) {
     if (!(degrees[n] > 0.0 && degrees[n] < 180.0)) return std::nullopt;
-    // Of the complement, because the cosine of pi/2 is not zero in double precision.
+    // The sine of the complement is used, because the cosine of pi/2 is not zero in double precision.
     cosines[n] = std::sin((90.0 - degrees[n]) * (std::numbers::pi / 180.0));
   }
   return cell_of_cosines(edges, cosines);
@@ -50,7 +50,7 @@ void check_positions(const Frame& frame, std::uint64_t number, const std::string
   for (std::size_t n = 0; n < frame.positions.size(); ++n) {
     for (int axis = 0; axis < 3; ++axis) {
       const double coordinate = frame.positions[n][axis];
-      if (std::abs(coordinate) <= kLargestCoordinate) continue;  // false for NaN
+      if (std::abs(coordinate) <= kLargestCoordinate) continue;  // the comparison is false for NaN
       throw InputError(
           path, 0,
           message(
@@ -125,7 +125,7 @@ void JoinedFrames::warn_of_overlap(std::size_t part) {
     parts_[part - 1]->read(parts_[part - 1]->frame_count() - 1, last);
     parts_[part]->read(0, first);
   } catch (const InputError&) {
-    return;  // the code that makes this frame reports the fault
+    return;  // reading this frame later reports the error
   }
   if (!last.time || !first.time || *first.time > *last.time) return;
   warnings_.emplace_back(fmt::format("{} begins at {} ps, and {} ends at {} ps; no frame is left out",
@@ -133,8 +133,8 @@ void JoinedFrames::warn_of_overlap(std::size_t part) {
 }
 
 void JoinedFrames::read_unchecked(std::uint64_t number, Frame& frame) {
-  const auto behind = std::ranges::upper_bound(begin_, number);
-  const auto part = static_cast<std::size_t>(behind - begin_.begin()) - 1;
+  const auto next = std::ranges::upper_bound(begin_, number);
+  const auto part = static_cast<std::size_t>(next - begin_.begin()) - 1;
   parts_[part]->read(number - begin_[part], frame);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The RS faces that the paper draws (Krone, Dachsbacher & Ertl 2010, section 3.3), to measure what that misses.
+// Selects the RS faces that the paper draws (Krone, Dachsbacher & Ertl 2010, section 3.3), to measure what it leaves
+// out.
 #pragma once
 
 #include <cstdint>
@@ -21,21 +22,21 @@ struct RollingBuffers {
   std::uint32_t probe_count = 0;
 };
 
-/// Kernels of gpu_shaders/paper_selection and their buffers. Needs a current GL context.
+/// Kernels of gpu_shaders/paper_selection and their buffers. A GL context must be current.
 ///
-/// An atom is visible if its vdW sphere shows at the centre of a pixel; an RS face, if it has a visible atom and shows
-/// among all such faces; to these come the faces across their edges. Everything else is left out, cutting probes in
-/// deep clefts too. Whole vdW spheres are drawn.
+/// An atom is visible if its vdW sphere shows at the centre of a pixel. An RS face is visible if it has a visible atom
+/// and shows among all such faces. The selection adds the faces across their edges, and leaves out everything else,
+/// including cutting probes in deep clefts. Whole vdW spheres are drawn.
 class PaperSelection {
  public:
   explicit PaperSelection(ProgramCache& programs) : programs_(programs) {}
 
-  /// Takes away from the complete lists what the paper does not draw. atom_balls: vec4 per atom, centre from the middle
-  /// and SAS radius; view: of the frame.
+  /// Removes from the complete lists what the paper does not draw. atom_balls: vec4 per atom, centre from the middle
+  /// and SAS radius; view: that of the frame.
   void select(const PictureFrame& frame, const VisibleAtoms& view, const Buffer& atom_balls, std::uint32_t atom_count,
               double probe_radius, RollingBuffers& rolling);
 
-  /// 1 for atoms whose sphere is drawn.
+  /// Returns a buffer with 1 for each atom whose sphere is drawn.
   const Buffer& drawn() const { return drawn_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the stages of one view in order, each a kernel or two, with the buffers they pass on.
+// Runs the stages of one view in order, each a kernel or two, with the buffers that they pass on.
 #include "core/visible_surface/view_pipeline.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kProbeWord = 3 * kWord;  // of GpuScene::counters, as append_primitive.glsl has it
+constexpr std::size_t kProbeWord = 3 * kWord;  // in GpuScene::counters (append_primitive.glsl)
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void ViewPipeline::take_atoms(std::vector<Ball> atoms) {
   atoms_ = std::move(atoms);
   swallowed_ = swallowing_.of(atoms_);
   const BallExtent box = extent_of(atoms_);
-  middle_ = 0.5 * (box.low + box.high);  // as GpuNeighbors places it
+  middle_ = 0.5 * (box.low + box.high);  // as in GpuNeighbors
   extent_of_atoms_ = {box.low - middle_, box.high - middle_, box.largest_radius};
   uploaded_ = false;
 }
@@ -80,7 +80,8 @@ void ViewPipeline::prepare_once(const PictureFrame& frame, StageClock& clock) {
              extent_ != Extent::paper;
 }
 
-// A frame that was given up leaves open what it needed, and its successor trusts in nothing.
+// True if sizes of the last view can be assumed. A frame that was given up leaves counts unknown, and the next one
+// assumes nothing.
 bool ViewPipeline::can_trust() const {
   return trusted_ && arcs_.neighbors.can_trust(visible_.most_kept(atom_count())) &&
          probe_neighbors_.can_trust(probes_.capacity());
@@ -109,7 +110,7 @@ bool ViewPipeline::settle() {
   return had_room;
 }
 
-// Whatever is not as it was, so that the host has to look at it, fails here; made again it comes to light.
+// False if anything needs the host's attention; the repeated frame then finds out what.
 bool ViewPipeline::settle_arcs_and_probes() {
   if (!visible_.settle() || !arcs_.settle() || !settle_all({&probes_}, probe_counts_) || !is_closed() ||
       !probe_neighbors_.settle())
@@ -126,7 +127,8 @@ void ViewPipeline::upload_atoms(StageClock& clock) {
   all_probes_found_ = false;
   stats_ = {};
   stats_.atoms = atoms_.size();
-  if (!std::ranges::equal(atoms_, uploaded_radii_, {}, &Ball::radius)) {  // atoms move more often than they change
+  if (!std::ranges::equal(atoms_, uploaded_radii_, {},
+                          &Ball::radius)) {  // atoms move more often than their radii change
     uploaded_radii_.resize(atoms_.size());
     std::ranges::transform(atoms_, uploaded_radii_.begin(), &Ball::radius);
     radii_.upload(uploaded_radii_);
@@ -265,7 +267,7 @@ void ViewPipeline::list_arcs_by_atom() {
   atom_arc_texels_.view(atom_arcs_);
 }
 
-// Many invocations share an atom's arcs: how many there are of them differs from atom to atom.
+// Many invocations share an atom's arcs, because the number of arcs varies between atoms.
 void ViewPipeline::find_clips() {
   convex_clips_.resize(atom_count() * kWord);
   convex_clips_.fill(0);
@@ -302,7 +304,7 @@ kernel::ConvexParameters ViewPipeline::convex_parameters(const BallBatch& batch)
 }
 
 void ViewPipeline::append_primitives(const PictureFrame& frame) {
-  if (probe_radius_ > 0.0) {  // a probe of no size leaves tori and concave patches without area
+  if (probe_radius_ > 0.0) {  // for a probe of radius 0 tori and concave patches have no area
     const Program& toroidal = primitive_kernel("toroidal", frame);
     arcs_.circles.atoms.bind(0);
     radii_.bind(1);
@@ -339,7 +341,7 @@ void ViewPipeline::append_primitives(const PictureFrame& frame) {
   });
 }
 
-// The kernel with everything that append_primitive.glsl needs.
+// Returns the kernel with everything that append_primitive.glsl needs.
 const Program& ViewPipeline::primitive_kernel(const char* name, const PictureFrame& frame,
                                               const ShaderDefines& defines) {
   const Program& program = programs_.get(std::string("gpu_shaders/primitives/") + name + ".comp", defines);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The paper's pipeline: computes for every frame the part of the surface that the view needs, from atoms to primitives
-// on the GPU.
+// The paper's pipeline: computes, for every frame on the GPU, the part of the surface that the view needs, from atoms
+// to primitives.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 #include "core/render/gpu_scene.h"
 #include "core/render/picture.h"
 #include "core/render/ray_cast_scene.h"
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 #include "core/surface/primitives.h"
 #include "core/visible_surface/paper_selection.h"
 #include "core/visible_surface/visible_atoms.h"
@@ -27,47 +27,47 @@ namespace meniscus {
 
 class StageClock;
 
-/// What one view took.
+/// Statistics of one view.
 struct ViewStats {
   std::size_t atoms = 0;
-  std::size_t kept_atoms = 0;  ///< that can matter for a pixel
+  std::size_t kept_atoms = 0;  ///< atoms that can matter for a pixel
   std::size_t arcs = 0;        ///< RS edges between kept atoms
   std::size_t probes = 0;      ///< RS faces that can matter for a pixel
   std::size_t primitives = 0;
   CircleStats circles;
-  double grown_by = 0.0;  ///< Å by which radii were grown at most to tell ties apart, as Certificate::grown_by
+  double grown_by = 0.0;  ///< largest growth of radii, Å, to resolve ties, as in Certificate::grown_by
 };
 
-/// Draws atoms by the surface that one view needs; nothing but counters comes back from the GPU between the stages, and
-/// the few circles that double precision cannot decide. Keeps kernels and buffers from frame to frame. Needs a current
-/// GL context.
+/// Draws atoms by the part of the surface that one view needs. Between the stages only counters come back from the GPU,
+/// and the few circles that double precision cannot decide. Kernels and buffers are reused from frame to frame. A GL
+/// context must be current.
 ///
 /// Its four groups of stages are those of Krone, Dachsbacher & Ertl 2010, section 3: visible atoms; neighbours and
-/// potential RS faces and edges; the RS faces that are visible or cut what is visible; primitives and singularities.
-/// All atoms still act as blockers. The picture of what it finds equals that of the complete surface, pixel for pixel.
-/// A complete surface does not depend on the camera: for the same atoms and probe its arcs and RS faces are found once.
+/// potential RS faces and edges; the RS faces that are visible or cut visible ones; primitives and singularities. All
+/// atoms still act as blockers. The picture equals that of the complete surface, pixel for pixel. A complete surface
+/// does not depend on the camera: for the same atoms and probe its arcs and RS faces are found once.
 class ViewPipeline final : public Drawable {
  public:
-  /// Van der Waals balls, Å, of one frame; there must be one.
+  /// Sets the van der Waals balls, Å, of one frame; at least one.
   void set_atoms(std::vector<Ball> atoms);
-  /// One colour per atom; to be set after atoms of another number and before the next picture.
+  /// Sets one colour per atom; required after a change of the number of atoms and before the next picture.
   void set_coloring(const Coloring& coloring) { upload_coloring(coloring, scene_); }
-  /// What the next pictures are made of; probe_radius in Å, >= 0. At first 1.4 Å and visible.
+  /// Sets the surface of the next pictures; probe_radius in Å, >= 0. The default is 1.4 Å and visible.
   void set_surface(double probe_radius, Extent extent);
 
-  /// Whether prepare() reads buffer sizes back between its stages, or assumes those of the last view. The default is
-  /// the faster way for the device.
+  /// Sets whether prepare() reads buffer sizes back between its stages, or assumes the sizes of the last view. The
+  /// default is the faster choice for the device.
   void set_counting(Counting counting) { counting_ = counting; }
 
   std::span<const Ball> atoms() const override { return atoms_; }
 
-  /// Where the arcs around the view do not close for ties the radii grow slightly (compute_surface.h). Throws
-  /// OpenSurfaceError when that does not help, GpuError, CapacityError.
+  /// Grows the radii slightly where ties keep the arcs around the view from closing (compute_surface.h). Throws
+  /// OpenSurfaceError if that does not help, GpuError, CapacityError.
   const GpuScene& prepare(const PictureFrame& frame, StageClock& clock) override;
   void ask(Readback& readback) override;
   bool settle() override;
 
-  /// Of the last picture.
+  /// Returns the statistics of the last picture.
   const ViewStats& stats() const { return stats_; }
 
  private:
@@ -96,35 +96,36 @@ class ViewPipeline final : public Drawable {
   ProgramCache programs_;
   PrefixSum prefix_sum_{programs_};
   GpuArcs arcs_{programs_};
-  GpuNeighbors probe_neighbors_{programs_};  // of fixed probes
+  GpuNeighbors probe_neighbors_{programs_};  // neighbours of fixed probes
   VisibleAtoms visible_{programs_};
   PaperSelection paper_{programs_};
   ViewStats stats_;
   GpuScene scene_;
 
-  // The frame at work.
+  // The state of the current frame.
   std::vector<Ball> atoms_;
   SwallowedAtoms swallowing_;
   std::vector<bool> swallowed_;
   glm::dvec3 middle_{0.0};
-  BallExtent extent_of_atoms_;  // around their middle; radii without the probe
+  BallExtent extent_of_atoms_;  // relative to their middle; radii without the probe
   double probe_radius_ = 1.4;
   Extent extent_ = Extent::visible;
-  bool uploaded_ = false;          // atoms with this probe
-  bool all_probes_found_ = false;  // arcs and probes on the GPU are those of the complete surface
-  Buffer radii_;                   // double per atom: van der Waals
+  bool uploaded_ = false;          // true if the atoms with this probe are on the GPU
+  bool all_probes_found_ = false;  // true if arcs and probes on the GPU are those of the complete surface
+  Buffer radii_;                   // double per atom: van der Waals radius
   std::vector<double> uploaded_radii_;
   AppendList probes_{sizeof(kernel::ProbeRecord), 1 << 13};
   Buffer probe_counters_;
-  std::array<std::uint32_t, 7> probe_counts_{};       // probes, then sums over the ends of arcs
-  std::array<std::uint32_t, 3> primitive_counts_{};   // primitives, rows, whether a loop was cut short
-  bool trusted_ = false;                              // sizes of the last frame are known, and atoms as many
-  bool arcs_open_ = false, primitives_open_ = false;  // what the host has to know of the frame at work
+  std::array<std::uint32_t, 7> probe_counts_{};      // probes, then sums over the ends of arcs
+  std::array<std::uint32_t, 3> primitive_counts_{};  // primitives, rows, and whether a loop was cut short
+  bool trusted_ = false;  // true if the sizes of the last frame are known, and the number of atoms is the same
+  bool arcs_open_ = false,
+       primitives_open_ = false;  // true while the host still has to read counts of the current frame
   Buffer atom_arc_first_, atom_arc_rank_, atom_arcs_, marked_arcs_;
-  Buffer convex_clips_;  // uint per atom, as convex_clips.glsl has it
+  Buffer convex_clips_;  // uint per atom (convex_clips.glsl)
   TexelBuffer arc_texels_{TexelFormat::uint4}, atom_arc_first_texels_{TexelFormat::uint1},
       atom_arc_texels_{TexelFormat::uint4}, marked_arc_texels_{TexelFormat::uint4};
-  std::uint32_t arc_count_ = 0;  // at most
+  std::uint32_t arc_count_ = 0;  // an upper limit
   bool whole_spheres_ = false;   // drawn instead of convex patches
 };
 

@@ -19,9 +19,9 @@ namespace {
 using kernel::kNothing;
 using kernel::kTileEdge;
 
-/// Blocks small enough that an atom of common size covers several of them whole.
+/// Returns a block size that is small enough for an atom of common size to cover several blocks whole.
 int suitable_block_edge(const PictureFrame& frame) {
-  const double radius = 1.5 / frame.pixel_size;  // pixels
+  const double radius = 1.5 / frame.pixel_size;  // in pixels
   return radius > 40.0 ? 8 : radius > 10.0 ? 4 : radius > 4.0 ? 2 : 1;
 }
 
@@ -29,7 +29,7 @@ int suitable_block_edge(const PictureFrame& frame) {
 
 bool VisibleAtoms::theorem_applies(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame) const {
   if (frame.camera.projection == Projection::perspective) return in_solvent(atoms, probe_radius, frame.camera.position);
-  // Orthographic rays begin on a plane: all of it must lie in front of the solid.
+  // Orthographic rays begin on a plane, all of which must lie in front of the solid.
   return std::ranges::all_of(atoms, [&](const Ball& ball) {
     return glm::dot(ball.center - frame.camera.position, frame.basis.forward) > ball.radius + probe_radius;
   });
@@ -52,7 +52,8 @@ void VisibleAtoms::look(std::span<const Ball> atoms, const glm::dvec3& middle, d
   view_ = {.eye = glm::vec3(eye),
            .pixel_scale = static_cast<float>(orthographic ? frame.pixel_size : frame.pixel_size / frame.eye_distance),
            .right = glm::vec3(frame.basis.right),
-           // Several times the rounding of every bound in single precision; keeping too much is never wrong.
+           // The margin is several times the rounding of every bound in single precision; keeping too many atoms is
+           // never wrong.
            .margin = static_cast<float>(1e-3 + 4e-6 * farthest),
            .up = glm::vec3(frame.basis.up),
            .orthographic = orthographic,

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads CCP4 maps and MRC files: A. Cheng et al., J. Struct. Biol. 192, 146 (2015), and CCP4's maplib. Cheng et al., J.
-// Struct. Biol. 192, 146 (2015), and CCP4's maplib.
+// Reads CCP4 maps and MRC files (A. Cheng et al., J. Struct. Biol. 192, 146, 2015, and CCP4's maplib).
 //
-// gemmi reads them, too, but of the other byte order only floats, and it trusts the header's sizes.
+// gemmi reads them, too, but in the other byte order only floats, and it trusts the header's sizes.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -18,7 +17,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kHeader = 1024, kStamp = 208, kMachine = 212;
+constexpr std::size_t kHeader = 1024, kStamp = 208, kMachine = 212;  ///< bytes of the header; places of its stamps
 
 class Ccp4Reader {
  public:
@@ -38,21 +37,21 @@ class Ccp4Reader {
     if (word(25) == 1 && word(50) == 0 && word(51) == 0 && word(52) == 0 && real(26) != 0.0F)
       fail("is rotated against its cell (LSKFLG); write it without rotation");
     VolumeFrame frame;
-    std::array<std::size_t, 3> stride{};  // in the file, of the axes of space
+    std::array<std::size_t, 3> stride{};  // values of the file from one point to the next along each axis of space
     std::size_t run = 1;
     for (std::size_t n = 0; n < 3; ++n) {
       frame.size[axis_of[n]] = static_cast<std::size_t>(stored[n]);
       stride[axis_of[n]] = run;
       run *= static_cast<std::size_t>(stored[n]);
     }
-    place(axis_of, frame);
+    set_frame(axis_of, frame);
     return {path_, frame, values(frame, stride)};
   }
 
  private:
   [[noreturn]] void fail(const std::string& what) const { throw InputError(path_, 0, what); }
 
-  /// Words count from 1, as the format's description does.
+  /// Returns a word of the header as an integer. Words are counted from 1, as in the format's description.
   std::int32_t word(std::size_t number) const { return number_at<std::int32_t>(4 * (number - 1)); }
   float real(std::size_t number) const { return number_at<float>(4 * (number - 1)); }
 
@@ -65,10 +64,10 @@ class Ccp4Reader {
     return number;
   }
 
-  /// Which axis of space columns, rows and sections run along.
+  /// Returns the axes of space that columns, rows and sections run along.
   std::array<int, 3> axes() const {
     std::array<int, 3> axis_of{word(17) - 1, word(18) - 1, word(19) - 1};
-    if (axis_of == std::array<int, 3>{-1, -1, -1}) return {0, 1, 2};  // some programs leave it open
+    if (axis_of == std::array<int, 3>{-1, -1, -1}) return {0, 1, 2};  // some programs leave them open
     for (int axis = 0; axis < 3; ++axis)
       if (std::ranges::count(axis_of, axis) != 1)
         fail(fmt::format("has axes in the order {}, {}, {}; each of 1, 2, 3 must appear once", word(17), word(18),
@@ -76,7 +75,8 @@ class Ccp4Reader {
     return axis_of;
   }
 
-  void place(const std::array<int, 3>& axis_of, VolumeFrame& frame) const {
+  /// Sets the steps and the origin of the grid.
+  void set_frame(const std::array<int, 3>& axis_of, VolumeFrame& frame) const {
     glm::dvec3 angle(90.0), length(0.0), start(0.0);
     for (int axis = 0; axis < 3; ++axis) {
       const std::int32_t intervals = word(8 + axis);
@@ -87,7 +87,7 @@ class Ccp4Reader {
       if (!(angle[axis] > 1.0 && angle[axis] < 179.0))
         fail(fmt::format("has {:.6g}° as an angle of its cell", angle[axis]));
     }
-    const auto cosine = [&](int axis) {  // of a right angle exactly 0
+    const auto cosine = [&](int axis) {  // exactly 0 for a right angle
       return angle[axis] == 90.0 ? 0.0 : std::cos(angle[axis] * std::numbers::pi / 180.0);
     };
     const double alpha = cosine(0), beta = cosine(1), gamma = cosine(2), sine = std::sqrt(1.0 - gamma * gamma);

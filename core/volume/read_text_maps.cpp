@@ -17,7 +17,7 @@
 namespace meniscus {
 namespace {
 
-/// The next `count` numbers of a file, of any number a line. Throws InputError.
+/// Reads the next `count` numbers of a file, with any number of them per line. Throws InputError.
 std::vector<float> read_values(const TextFile& file, LineReader& lines, std::size_t count) {
   // Each value takes two bytes at least, so no count makes this reserve more than the file is worth.
   if (count > lines.bytes_left() / 2 + 1)
@@ -48,7 +48,7 @@ std::vector<float> read_values(const TextFile& file, LineReader& lines, std::siz
   return values;
 }
 
-/// OpenDX, as much of it as programs for potentials write:
+/// Reads OpenDX, as much of it as programs for potentials write:
 /// https://apbs.readthedocs.io/en/latest/formats/opendx.html
 class DxReader {
  public:
@@ -80,7 +80,7 @@ class DxReader {
     return std::ranges::find(fields, word) != fields.end();
   }
 
-  /// APBS says "# Comments" and "# POTENTIAL (kT/e)".
+  /// Takes title and unit from a comment. APBS writes "# Comments" and "# POTENTIAL (kT/e)".
   void note_comment(std::string_view line) {
     const std::size_t open = line.find('('), close = line.find(')');
     if (!line.starts_with("# POTENTIAL") || open == std::string_view::npos || close < open || close > open + 16) return;
@@ -111,6 +111,7 @@ class DxReader {
     for (int axis = 0; axis < 3; ++axis) frame_.size[axis] = static_cast<std::size_t>(size[axis]);
   }
 
+  /// Reads the values, and returns the grid.
   VolumeGrid finish(const std::vector<std::string_view>& fields) {
     if (frame_.count() == 0 || steps_ != 3) fail("values come before the grid's counts and its three 'delta'");
     if (has(fields, "binary") || !has(fields, "follows"))
@@ -177,11 +178,13 @@ class CubeReader {
     return line;
   }
 
+  /// Reads a line of the header: a whole number, which becomes `count`, and three numbers. `wanted` describes them in
+  /// messages.
   glm::dvec3 count_and_vector(std::int64_t& count, const char* wanted) {
     const std::vector<std::string_view> fields = fields_of(next_line());
     glm::dvec3 vector(0.0);
     bool good = fields.size() >= 4 && parse_whole_number(fields[0], count);
-    // A fifth number of the first line: values a point.
+    // A fifth number in the first line is the number of values per point.
     if (good && fields.size() > 4 && fields[4] != "1")
       fail("holds several values per point; write one of them as a cube");
     for (int axis = 0; good && axis < 3; ++axis) good = parse_number(fields[axis + 1], vector[axis]);
@@ -189,7 +192,7 @@ class CubeReader {
     return vector;
   }
 
-  /// A negative number of atoms: behind them are the numbers of orbitals.
+  /// Skips the lines of atoms. If their number is negative, a line with the numbers of orbitals follows.
   void skip_atoms(std::int64_t atoms) {
     for (std::int64_t n = 0; n < std::abs(atoms); ++n) next_line();
     if (atoms >= 0) return;

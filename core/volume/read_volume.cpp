@@ -10,7 +10,7 @@
 namespace meniscus {
 namespace {
 
-/// The first line that is not a comment begins as DX files do.
+/// True if the first line that is not a comment begins as in OpenDX files.
 bool is_dx(const TextFile& file) {
   LineReader lines(file.text);
   std::string_view line;
@@ -22,7 +22,7 @@ bool is_dx(const TextFile& file) {
   return false;
 }
 
-/// The third line begins with a whole number, as cube files have it.
+/// True if the third line has at least four fields, as in cube files.
 bool may_be_cube(const TextFile& file) {
   LineReader lines(file.text);
   std::string_view line;

@@ -10,21 +10,21 @@
 
 namespace meniscus {
 
-/// Reads OpenDX (as APBS writes it), Gaussian cube or CCP4/MRC, by content; gzipped too. Throws InputError naming file,
-/// line and value, CapacityError.
+/// Reads an OpenDX (as APBS writes it), Gaussian cube or CCP4/MRC file, recognised by its content; gzipped files, too.
+/// Throws InputError with file, line and value, and CapacityError.
 VolumeGrid read_volume(const std::string& path);
 
-/// OpenDX: a grid of regular positions and connections, its values as text. Coordinates in Å.
+/// Reads OpenDX: a grid of regular positions and connections with its values as text. Coordinates are in Å.
 VolumeGrid read_dx(const TextFile& file);
 
-/// Gaussian cube: one value a point. Lengths in Bohr, or in Å where the numbers of points are negative.
+/// Reads a Gaussian cube with one value per point. Lengths are in Bohr, or in Å if the numbers of points are negative.
 VolumeGrid read_cube(const TextFile& file);
 
-/// Whether these are the bytes of a CCP4 or MRC 2014 map, by its stamp.
+/// True if these are the bytes of a CCP4 or MRC 2014 map, recognised by its stamp.
 bool is_ccp4(std::string_view bytes);
 
-/// CCP4/MRC of modes 0, 1, 2 and 6, of both byte orders and any order of axes. Its place is ORIGIN where that is not
-/// zero (MRC 2014), else NSTART (CCP4).
+/// Reads CCP4/MRC of modes 0, 1, 2 and 6, in both byte orders and with any order of axes. The origin is ORIGIN if that
+/// is not zero (MRC 2014), else NSTART (CCP4).
 VolumeGrid read_ccp4(const std::string& path, std::string_view bytes);
 
 }  // namespace meniscus

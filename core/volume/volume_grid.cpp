@@ -20,8 +20,9 @@ namespace meniscus {
 namespace {
 
 constexpr double kLargestPlace = 1e6;  // Å
-constexpr double kFlattest = 1e-6;     // volume of a cell by that of a box of the same edges
+constexpr double kFlattest = 1e-6;     // smallest volume of a cell, as a share of a box with the same edges
 
+/// Throws InputError for steps or an origin that no map has.
 void check_frame(const std::string& path, const VolumeFrame& frame) {
   double edges = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -41,7 +42,7 @@ using geometry::real3;
 using geometry::uint;
 using std::min;
 
-/// As shaders of pages have them, too.
+/// Interpolates by the code that the shaders of pages use, too.
 struct Values {
   const float* values;
   real grid_value(uint n) const { return values[n]; }

@@ -15,34 +15,34 @@
 
 namespace meniscus {
 
-/// Where the points of a grid are.
+/// The places of a grid's points.
 struct VolumeFrame {
   std::array<std::size_t, 3> size{};  ///< points along each axis, at least two
-  glm::dvec3 origin{0.0};             ///< Å: of the first point
-  glm::dmat3 step{1.0};               ///< columns, Å: from a point to the next along each axis; they may be skewed
+  glm::dvec3 origin{0.0};             ///< Å: the first point
+  glm::dmat3 step{1.0};  ///< columns, Å: the step from a point to the next along each axis; axes may be skewed
 
   std::size_t count() const { return size[0] * size[1] * size[2]; }
-  /// The least box around all points.
+  /// Returns the smallest box around all points.
   Box extent() const;
 };
 
-/// As many values as all programs' files of them hold; 4 GiB in memory.
+/// The most values of a grid, as many as the files of all programs hold; 4 GiB in memory.
 inline constexpr std::size_t kMostVolumeValues = std::size_t{1} << 30;
 
-/// Values at the points of a grid.
+/// The values at the points of a grid.
 class VolumeGrid {
  public:
-  /// values: the last axis runs fastest. path: for messages. Throws InputError unless the axes span space, there are
-  /// two points along each, and all is finite; values must be as many as points.
+  /// `values` has one value per point, with the last axis running fastest; `path` is for messages. Throws InputError
+  /// unless the axes span space and all values are finite.
   VolumeGrid(const std::string& path, const VolumeFrame& frame, std::vector<float> values);
 
-  /// Trilinear between the eight points around; NaN outside. point: Å.
+  /// Returns the trilinear interpolation of the eight values around a point (Å); NaN outside of the grid.
   double sample(const glm::dvec3& point) const;
 
   const VolumeFrame& frame() const { return frame_; }
   const std::vector<float>& values() const { return values_; }
 
-  std::string title, unit;  ///< what the file says of itself; may be empty
+  std::string title, unit;  ///< the file's own description; may be empty
 
  private:
   VolumeFrame frame_;
@@ -50,8 +50,8 @@ class VolumeGrid {
   std::vector<float> values_;
 };
 
-/// Throws InputError for sizes that no grid has, CapacityError for more than kMostVolumeValues points. line: for
-/// messages.
+/// Throws InputError for sizes that no grid has, and CapacityError for more than kMostVolumeValues points. `path` and
+/// `line` are for messages.
 void check_volume_size(const std::string& path, std::size_t line, const std::array<std::int64_t, 3>& size);
 
 }  // namespace meniscus

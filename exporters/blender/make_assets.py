@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes an asset library: every look in every colouring as a material, every colouring as a node group.
+"""Writes an asset library with every look in every colouring as a material, and every colouring as a node group.
 
     blender -b --factory-startup --python-exit-code 3 --python make_assets.py -- FOLDER [--scale 0.1]
 
-FOLDER gets meniscus_assets.blend and the catalogue blender_assets.cats.txt, which must not be there; add it under Edit >
-Preferences > File Paths > Asset Libraries. --scale: Blender units per ångström, on which wax and glass depend.
+FOLDER gets meniscus_assets.blend and the catalogue blender_assets.cats.txt, which must not exist yet. Add it under
+Edit > Preferences > File Paths > Asset Libraries. --scale: Blender units per ångström, on which wax and glass depend.
 """
 
 import argparse
@@ -18,8 +18,11 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "add
 from meniscus_import import looks  # noqa: E402
 
 BLEND, CATALOG = "meniscus_assets.blend", "blender_assets.cats.txt"
-#: Catalogues keep their number whatever they are called.
-NAMES = {"materials": uuid.uuid5(uuid.NAMESPACE_URL, "meniscus/materials"), "colours": uuid.uuid5(uuid.NAMESPACE_URL, "meniscus/colours")}
+#: The identifiers of catalogues, which do not change when a catalogue is renamed.
+NAMES = {
+    "materials": uuid.uuid5(uuid.NAMESPACE_URL, "meniscus/materials"),
+    "colours": uuid.uuid5(uuid.NAMESPACE_URL, "meniscus/colours")
+}
 
 
 def mark(item, catalog, text, *tags):

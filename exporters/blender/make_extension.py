@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes extensions for Blender 4.2 and later of the add-on: one zip a platform, with the wheel of the Python package inside.
+"""Makes extensions for Blender 4.2 and later from the add-on: one zip file per platform with the wheel of the Python
+package inside.
 
     make_extension.py WHEELS OUT [PLATFORM...]
 
-WHEELS: a folder with meniscus_ses-VERSION-py3-none-*.whl, of the add-on's version. OUT: a folder, made if it is missing; it gets
-meniscus_import-VERSION-PLATFORM.zip. Without PLATFORM all are made. The same files give the same bytes."""
+WHEELS: a folder with meniscus_ses-VERSION-py3-none-*.whl in the version of the add-on. OUT: a folder, created if it
+does not exist, for meniscus_import-VERSION-PLATFORM.zip. Without PLATFORM, all platforms are made. The same files give
+the same bytes."""
 
 import fnmatch
 import os
@@ -14,19 +16,22 @@ import zipfile
 
 ADDON = os.path.join(os.path.dirname(os.path.abspath(__file__)), "addon", "meniscus_import")
 MANIFEST = "blender_manifest.toml"
-#: Blender's name of a platform, and what tags of wheels for it look like.
-PLATFORMS = {"linux-x64": ("*linux*_x86_64",), "linux-arm64": ("*linux*_aarch64",), "windows-x64": ("win_amd64",),
-             "macos-arm64": ("macosx_*_arm64", "macosx_*_universal2"), "macos-x64": ("macosx_*_x86_64", "macosx_*_universal2")}
+#: Blender's names of platforms, and patterns of the tags of their wheels.
+PLATFORMS = {
+    "linux-x64": ("*linux*_x86_64",), "linux-arm64": ("*linux*_aarch64",), "windows-x64": ("win_amd64",),
+    "macos-arm64": ("macosx_*_arm64", "macosx_*_universal2"), "macos-x64": ("macosx_*_x86_64", "macosx_*_universal2")
+}
 LICENSE = 'license = ["SPDX:GPL-3.0-or-later"]'
 LICENSES = 'license = ["SPDX:GPL-3.0-or-later", "SPDX:BSD-3-Clause"]'
 
 
 class Refusal(Exception):
-    """One sentence."""
+    """An error of the user. Its text is one sentence."""
 
 
 def find_wheel(folder, platform, version):
-    """The path of the wheel for a platform. Raises Refusal if it is missing, of another version, or one of several."""
+    """Returns the path of the wheel for a platform. Raises Refusal if there is none or more than one, or if it has
+    another version or no licence."""
     found = [name for name in sorted(os.listdir(folder)) if name.startswith("meniscus_ses-") and name.endswith(".whl")
              and any(fnmatch.fnmatch(name[:-len(".whl")].split("-")[-1], tag) for tag in PLATFORMS[platform])]
     if not found:
@@ -45,14 +50,14 @@ def find_wheel(folder, platform, version):
 
 
 def manifest_with(manifest, platform, wheel):
-    """The add-on's manifest for an extension with a wheel."""
+    """Returns the add-on's manifest for an extension with a wheel."""
     more = f'{LICENSES}\nplatforms = ["{platform}"]\nwheels = ["./wheels/{os.path.basename(wheel)}"]'
     assert manifest.count(LICENSE) == 1
     return manifest.replace(LICENSE, more)
 
 
 def files_of_addon():
-    """Names with / below its folder -> paths."""
+    """Returns the files of the add-on: names relative to its folder, with /, and their paths."""
     found = {}
     for folder, _, names in os.walk(ADDON):
         if os.path.basename(folder) != "__pycache__":
@@ -62,7 +67,7 @@ def files_of_addon():
 
 
 def write(target, platform, wheel):
-    """The extension for one platform."""
+    """Writes the extension for one platform."""
     contents = {**files_of_addon(), f"wheels/{os.path.basename(wheel)}": wheel}
     with zipfile.ZipFile(target, "w") as archive:
         for name in sorted(contents):
@@ -70,14 +75,14 @@ def write(target, platform, wheel):
                 data = file.read()
             if name == MANIFEST:
                 data = manifest_with(data.decode(), platform, wheel).encode()
-            entry = zipfile.ZipInfo(name)  # of 1980
-            entry.create_system, entry.external_attr = 3, 0o644 << 16  # a Unix file
+            entry = zipfile.ZipInfo(name)  # dated 1980, so that equal files give equal bytes
+            entry.create_system, entry.external_attr = 3, 0o644 << 16  # the permissions of a Unix file
             entry.compress_type = zipfile.ZIP_STORED if name.endswith(".whl") else zipfile.ZIP_DEFLATED
             archive.writestr(entry, data)
 
 
 def make(wheels, out, platforms):
-    """Paths of the extensions. Raises Refusal before anything is written, or OSError."""
+    """Makes the extensions and returns their paths. Raises Refusal before anything is written, or OSError."""
     unknown = [platform for platform in platforms if platform not in PLATFORMS]
     if unknown:
         raise Refusal(f"{unknown[0]} is not one of {', '.join(PLATFORMS)}")

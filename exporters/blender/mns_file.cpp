@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes header and arrays of a .mns file, describes a camera in JSON, and collects balls, colours and attributes of
-// atoms.
+// Writes the header and the arrays of a .mns file, describes a camera in JSON, and collects balls, colours and
+// attributes of atoms.
 #include "exporters/blender/mns_file.h"
 
 #include <bit>
@@ -26,7 +26,8 @@ static_assert(std::endian::native == std::endian::little, "arrays are written as
 
 constexpr std::size_t kAlignment = 64;
 constexpr std::size_t kPrologue = 64;
-/// As in PNG: a byte that is not a text, then line ends that a transfer "as text" would change.
+/// The first bytes of a file. As in PNG, they are a byte that does not occur in text, and line ends that a transfer in
+/// text mode would change.
 constexpr char kMagic[8] = {'\x89', 'M', 'N', 'S', '\r', '\n', '\x1a', '\n'};
 
 std::size_t aligned(std::size_t offset) { return (offset + kAlignment - 1) / kAlignment * kAlignment; }
@@ -65,14 +66,15 @@ void MnsWriter::add(const std::string& name, std::span<const std::uint8_t> value
 }
 
 void MnsWriter::write(const std::string& path, Existing existing, nlohmann::json header,
-                      const std::function<void(std::uint64_t)>& tell) const {
+                      const std::function<void(std::uint64_t)>& on_size) const {
   OutputFile file(path, existing);
-  write(file, std::move(header), tell);
+  write(file, std::move(header), on_size);
   file.commit();
 }
 
-void MnsWriter::write(OutputFile& file, nlohmann::json header, const std::function<void(std::uint64_t)>& tell) const {
-  // Offsets count from the end of the header, so that the header's own length does not matter for them.
+void MnsWriter::write(OutputFile& file, nlohmann::json header,
+                      const std::function<void(std::uint64_t)>& on_size) const {
+  // Offsets count from the end of the header, so that they do not depend on its length.
   std::size_t offset = 0;
   nlohmann::json table = nlohmann::json::array();
   for (const Array& array : arrays_) {
@@ -88,9 +90,9 @@ void MnsWriter::write(OutputFile& file, nlohmann::json header, const std::functi
   text.resize(aligned(text.size() + 1), ' ');
   text.back() = '\n';
   const std::uint64_t size = kPrologue + text.size() + offset;
-  if (tell) tell(size);
+  if (on_size) on_size(size);
 
-  // The prologue holds the checksum of all that follows; zeros keep its place.
+  // The prologue contains the checksum of everything after it, so it is written as zeros first.
   std::vector<std::byte> prologue(kPrologue);
   file.write(std::span<const std::byte>(prologue));
   std::uint32_t crc = 0;
@@ -178,7 +180,8 @@ void add_names(nlohmann::json& header, const AtomAttributes& atoms) {
 
 namespace {
 
-/// Blender has no number for one that is missing.
+/// Appends a number, or 0 if it is missing, because Blender cannot express missing numbers. Sets `any` if it is not
+/// missing.
 void push_known(std::vector<float>& numbers, double number, bool& any) {
   any = any || std::isfinite(number);
   numbers.push_back(std::isfinite(number) ? static_cast<float>(number) : 0.0f);
@@ -194,7 +197,7 @@ class Names {
     if (fresh) names_.push_back(name);
     return at->second;
   }
-  /// Whether any is more than the one of formats that know none.
+  /// True unless the only name is empty, as in formats without names.
   bool are_known() const { return names_.size() > 1 || (names_.size() == 1 && !names_.front().empty()); }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The container of .mns files: a header and named arrays; and the arrays that describe atoms.
+// The container of .mns files, which has a header and named arrays, and the arrays that describe atoms.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,11 @@
 
 namespace meniscus::blender {
 
-/// Of a file without caps, and with them: a reader of the first would take these for the surface.
+/// The versions of files without caps of objects and with them. A reader of version 2 would take such caps for the
+/// surface.
 inline constexpr std::uint32_t kMnsVersion = 2, kMnsVersionOfCaps = 3;
 
-/// Takes the values of one array in order and passes them on in large pieces.
+/// Receives the values of one array in order and passes them on in large pieces.
 class ArraySink {
  public:
   explicit ArraySink(std::function<void(std::span<const std::byte>)> write) : write_(std::move(write)) {}
@@ -48,40 +49,40 @@ class ArraySink {
 /// Collects named arrays, then writes them after their header.
 class MnsWriter {
  public:
-  /// That of the file; kMnsVersion by itself.
+  /// Sets the version of the file, which is kMnsVersion by default.
   void set_version(std::uint32_t version) { version_ = version; }
-  /// Names of arrays that are added from now on begin with this.
+  /// Sets the prefix of the names of arrays that are added later.
   void set_prefix(const std::string& prefix) { prefix_ = prefix; }
-  /// `columns` numbers a row. Names must differ; the values are copied.
+  /// Adds an array with `columns` numbers per row. Names must differ. The values are copied.
   void add(const std::string& name, std::span<const float> values, int columns = 1);
   void add(const std::string& name, std::span<const double> values, int columns = 1);
   void add(const std::string& name, std::span<const std::uint32_t> values, int columns = 1);
   void add(const std::string& name, std::span<const std::int32_t> values, int columns = 1);
   void add(const std::string& name, std::span<const std::uint8_t> values, int columns = 1);
 
-  /// An array of so many rows that is made while the file is written: `make` pushes `columns` values of type T a row.
-  /// What it refers to must live until then.
+  /// Adds an array of `rows` rows that is computed while the file is written: `make` pushes `columns` values of type T
+  /// per row. Everything that it refers to must live until then.
   template <class T>
   void add_streamed(const std::string& name, std::size_t rows, int columns, std::function<void(ArraySink&)> make) {
     arrays_.push_back({prefix_ + name, type_of(T{}), rows, columns, sizeof(T) * rows * columns, {}, std::move(make)});
   }
 
   /// Writes the whole file under `path`, or throws OutputError and leaves none. `header` must be an object; the key
-  /// "arrays" is added to it. tell: called with the size in bytes before anything is written.
+  /// "arrays" is added to it. on_size: a function that is called with the size in bytes before anything is written.
   void write(const std::string& path, Existing existing, nlohmann::json header,
-             const std::function<void(std::uint64_t)>& tell = {}) const;
-  /// The same into a file that others commit.
-  void write(OutputFile& file, nlohmann::json header, const std::function<void(std::uint64_t)>& tell = {}) const;
+             const std::function<void(std::uint64_t)>& on_size = {}) const;
+  /// Writes the whole content into a file, which the caller commits.
+  void write(OutputFile& file, nlohmann::json header, const std::function<void(std::uint64_t)>& on_size = {}) const;
 
  private:
   struct Array {
     std::string name;
-    std::string type;  ///< as numpy writes it: "<f4", "<f8", "<u4", "<i4", "|u1"
+    std::string type;  ///< type in the notation of numpy: "<f4", "<f8", "<u4", "<i4", "|u1"
     std::size_t rows = 0;
     int columns = 1;
     std::size_t byte_count = 0;
-    std::vector<std::byte> bytes;  ///< or, where they are streamed:
-    std::function<void(ArraySink&)> make;
+    std::vector<std::byte> bytes;          ///< the content; empty for a streamed array
+    std::function<void(ArraySink&)> make;  ///< the function that computes a streamed array; otherwise empty
   };
   static const char* type_of(float) { return "<f4"; }
   static const char* type_of(double) { return "<f8"; }
@@ -94,42 +95,44 @@ class MnsWriter {
   std::vector<Array> arrays_;
 };
 
-/// A camera and the picture it is meant for.
+/// A camera and the size and shadows of the picture for which it is meant.
 struct Shot {
   Camera camera;
   int width = 0, height = 0;                     ///< pixels
-  float shadows = 0.0f, shadow_softness = 0.0f;  ///< of a Look
+  float shadows = 0.0f, shadow_softness = 0.0f;  ///< Look::shadows, Look::shadow_softness
 };
 
-/// The object of a camera file, the size of the picture, and what shadows it has, if any.
+/// Returns the JSON object of a camera file, with the size of the picture and its shadows, if it has any.
 nlohmann::json shot_object(const Shot& shot);
 
-/// Numbers per atom, in the order of Surface::atoms; an empty vector leaves the attribute out.
-/// The names in the file are those of Molecular Nodes where it has them: b_factor, atomic_number, res_id, chain_id.
+/// Numbers per atom, in the order of Surface::atoms. An attribute with an empty vector is not written.
+/// Names in the file are those of Molecular Nodes if it has the attribute: b_factor, atomic_number, res_id, chain_id.
 struct AtomAttributes {
   std::vector<std::uint32_t> file_index;  ///< place in the file, from 0 (Atom::index)
   std::vector<float> b_factor;
-  std::vector<float> charge;          ///< e; 0: unknown
-  std::vector<float> hydrophobicity;  ///< of the residue (Kyte & Doolittle 1982); 0: it has none
+  std::vector<float> charge;          ///< e; 0 if unknown
+  std::vector<float> hydrophobicity;  ///< of the residue (Kyte & Doolittle 1982); 0 if it has none
   std::vector<std::int32_t> atomic_number;
   std::vector<std::int32_t> residue_number;
   std::vector<std::int32_t> entity;                                 ///< AtomClass
-  std::vector<std::int32_t> chain;                                  ///< into chain_names
-  std::vector<std::int32_t> name;                                   ///< into atom_names
-  std::vector<std::int32_t> residue_name;                           ///< into residue_names
-  std::vector<std::string> chain_names, atom_names, residue_names;  ///< text of a molecule file, each once
-  /// Å²: of the surface, of what a probe's centre can reach, of the latter what other chains bury.
+  std::vector<std::int32_t> chain;                                  ///< index into chain_names
+  std::vector<std::int32_t> name;                                   ///< index into atom_names
+  std::vector<std::int32_t> residue_name;                           ///< index into residue_names
+  std::vector<std::string> chain_names, atom_names, residue_names;  ///< text from a molecule file, each name once
+  /// Area of the surface, area accessible to the centre of a probe, and the part of the latter that other chains bury,
+  /// in Å².
   std::vector<float> area, accessible_area, buried_area;
 };
 
-/// atom.center, atom.radius, atom.color, atom.index, and what else is known of them (FORMAT.md). What is added refers
-/// to the object and to the attributes until the file is written.
+/// Adds atom.center, atom.radius, atom.color, atom.index, and all attributes that are not empty (FORMAT.md). The writer
+/// refers to the object and to the attributes until the file is written.
 void add_atoms(MnsWriter& file, const SurfaceObject& object, const AtomAttributes& atoms);
 
-/// The lists of names that arrays of atoms point into, as the header of the object has them.
+/// Adds the lists of names, which arrays of atoms refer to by index, to the header of an object.
 void add_names(nlohmann::json& header, const AtomAttributes& atoms);
 
-/// Of these atoms of the structure, in this order.
+/// Returns the attributes of these atoms of the structure, in this order. Areas are empty, and so are attributes that
+/// no atom has.
 AtomAttributes atom_attributes(const Structure& structure, const std::vector<std::uint32_t>& atoms);
 
 }  // namespace meniscus::blender

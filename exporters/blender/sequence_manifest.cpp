@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// What makes frames of two runs different things.
+/// Returns the part of the manifest that all frames share. Frames of runs in which it differs must not be mixed.
 ordered_json shared_by_files(const SequenceManifest& manifest) {
   ordered_json source{{"file", manifest.provenance.source}, {"radii_set", manifest.provenance.radii_set}};
   if (!manifest.trajectory.empty()) source["trajectory"] = manifest.trajectory;
@@ -65,7 +65,7 @@ std::filesystem::path write_manifest(const std::filesystem::path& folder, Existi
     for (std::size_t n = 0; n < manifest.frames.size(); ++n)
       content["frames"][n]["camera"] = shot_object(manifest.shots[n]);
   }
-  ordered_json frames = std::move(content["frames"]);  // the long list goes last
+  ordered_json frames = std::move(content["frames"]);  // moves the long list to the end
   content.erase("frames");
   content["frames"] = std::move(frames);
   const SharedFile file{"surface_sequence.json", text_of(content)};
@@ -77,7 +77,8 @@ namespace {
 
 using nlohmann::json;
 
-// A frame is in memory at a time: positions are written while they are read, times behind them.
+// Adds the positions and times of all frames. Only one frame is in memory at a time: positions are written while they
+// are read, and times after them.
 void add_frames(MnsWriter& file, std::size_t atom_count, const AtomFrames& frames, std::vector<double>& times) {
   file.add_streamed<float>("frame.position", frames.numbers.size() * atom_count, 3,
                            [&frames, &times, atom_count](ArraySink& out) {

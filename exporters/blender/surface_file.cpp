@@ -20,8 +20,8 @@
 namespace meniscus::blender {
 namespace {
 
-/// Without how many threads it had, which change nothing.
-std::string device_alone(const std::string& device) { return device.starts_with("cpu (") ? "cpu" : device; }
+/// Returns the device without the number of threads, on which results do not depend.
+std::string device_without_threads(const std::string& device) { return device.starts_with("cpu (") ? "cpu" : device; }
 
 using nlohmann::json;
 
@@ -40,7 +40,7 @@ class Column {
 };
 using Floats = Column<float>;
 
-/// Rows of vectors in single precision, each less `origin`.
+/// Adds an array of vectors relative to `origin` in single precision.
 void stream_vectors(MnsWriter& file, const std::string& name, const std::vector<glm::dvec3>& vectors,
                     const glm::dvec3& origin = glm::dvec3(0.0)) {
   file.add_streamed<float>(name, vectors.size(), 3, [&vectors, origin](ArraySink& out) {
@@ -66,10 +66,11 @@ void stream_column(MnsWriter& file, const std::string& name, const std::vector<s
   });
 }
 
-/// mesh.kind of caps, as in the AOVs of pictures.
+/// The value of mesh.kind for caps, as in the AOVs of pictures.
 constexpr std::uint8_t kCap = 4;
 
-/// The mesh, which is larger than all the rest, is turned into arrays while they are written.
+/// Adds the arrays of a mesh. They are computed while they are written, because a mesh is larger than everything else.
+/// first_cap: the number of the first triangle of caps.
 void add_mesh(MnsWriter& file, const TriangleMesh& mesh, std::size_t first_cap, const glm::dvec3& origin) {
   stream_vectors(file, "mesh.position", mesh.positions, origin);
   stream_vectors(file, "mesh.normal", mesh.normals);
@@ -95,7 +96,7 @@ void add_caps(MnsWriter& file, const MeshedObject& meshed) {
                                    });
 }
 
-/// A volume map's values and colours at vertices. Values that it does not have are 0, and marked.
+/// Adds the values and colours of a volume map at vertices. Missing values are 0, and mesh.map_known marks them.
 void add_map(MnsWriter& file, const TriangleMesh& mesh, const Coloring& coloring) {
   if (!coloring.volume) return;
   std::vector<float> values = vertex_map_values(mesh, *coloring.volume);
@@ -114,7 +115,7 @@ void add_map(MnsWriter& file, const TriangleMesh& mesh, const Coloring& coloring
   file.add("atom.own_color", std::span<const std::uint8_t>(own));
 }
 
-/// What the surface measures at vertices and of the patches of triangles.
+/// Adds the numbers of vertices and the areas of the patches of triangles.
 void add_numbers(MnsWriter& file, const MeshedObject& meshed) {
   for (const VertexNumbers& column : meshed.numbers) file.add("mesh." + column.name, std::span(column.values));
   if (!meshed.patch_area.empty()) file.add("mesh.patch_area", std::span(meshed.patch_area));
@@ -124,7 +125,7 @@ void add_velocities(MnsWriter& file, const std::vector<glm::dvec3>& velocities) 
   if (!velocities.empty()) stream_vectors(file, "mesh.velocity", velocities);
 }
 
-/// A column for each of some fields of a table's rows; push: (sink, row) -> `columns` values.
+/// Adds an array with `columns` values for each row of a table. push(sink, row) pushes the values of a row.
 template <class T, class Row, class Push>
 void stream_fields(MnsWriter& file, const std::string& name, const std::vector<Row>& table, int columns,
                    const Push& push) {
@@ -196,7 +197,7 @@ void add_concave(MnsWriter& file, const Surface& surface) {
   });
 }
 
-/// Sums for each component without caps, which are of none.
+/// Returns the sums of each component without caps, which belong to no component.
 std::vector<MeshSums> component_sums_of(const MeshedObject& meshed, std::size_t component_count) {
   if (meshed.cap_plane.empty()) return component_sums(meshed.mesh, component_count);
   TriangleMesh mesh;
@@ -225,7 +226,7 @@ json component_list(const MeshedObject& meshed) {
   return list;
 }
 
-/// The matrix [rotation | translation], row after row.
+/// Returns the matrix [rotation | translation] in row-major order.
 json matrix(const RigidMotion& motion) {
   json rows = json::array();
   for (int row = 0; row < 3; ++row) {
@@ -292,7 +293,7 @@ json object_header(const MeshedObject& meshed, const std::string& prefix, const 
   return header;
 }
 
-/// Puts the arrays of all objects into the file, and makes its header.
+/// Adds the arrays of all objects to the file, and returns its header.
 json add_objects(MnsWriter& file, std::span<const MeshedObject> objects, const Provenance& provenance,
                  const CutFile& cut) {
   json list = json::array();
@@ -317,7 +318,7 @@ json add_objects(MnsWriter& file, std::span<const MeshedObject> objects, const P
   json header{{"format", "meniscus surface"},
               {"generator", "meniscus " MENISCUS_VERSION},
               {"source", {{"file", provenance.source}, {"radii_set", provenance.radii_set}}},
-              {"device", device_alone(provenance.device)},
+              {"device", device_without_threads(provenance.device)},
               {"unit", "angstrom"},
               {"objects", std::move(list)}};
   if (provenance.colors) header["colors"] = color_key_json(*provenance.colors);
@@ -333,12 +334,12 @@ json add_objects(MnsWriter& file, std::span<const MeshedObject> objects, const P
 void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
                    const std::optional<Shot>& shot, const Provenance& provenance,
                    const std::optional<PlaceInRun>& place, const CutFile& cut,
-                   const std::function<void(std::uint64_t)>& tell) {
+                   const std::function<void(std::uint64_t)>& on_size) {
   MnsWriter file;
   json header = add_objects(file, objects, provenance, cut);
   if (shot) header["camera"] = shot_object(*shot);
   if (place) header["sequence"] = {{"run", place->run}, {"frame", place->frame}, {"scene_frame", place->scene_frame}};
-  file.write(path, existing, std::move(header), tell);
+  file.write(path, existing, std::move(header), on_size);
 }
 
 void write_objects(OutputFile& file, std::span<const MeshedObject> objects, const Provenance& provenance,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces, their meshes, their atoms and a camera as one .mns file, which the Blender add-on beside this file reads.
+// Writes surfaces, their meshes, their atoms and a camera as one .mns file, which the Blender add-on reads.
 #pragma once
 
 #include <functional>
@@ -20,21 +20,21 @@
 
 namespace meniscus::blender {
 
-/// Of a mesh for Blender, Å, unless another is asked for.
+/// The default tolerance of a mesh for Blender, Å.
 inline constexpr double kTolerance = 0.05;
-/// The default tolerance of the frames of a run, Å: pictures of the whole molecule look alike, in files of half the
-/// size.
+/// The default tolerance of the frames of a run, Å. Pictures of the whole molecule look the same, and files have half
+/// the size.
 inline constexpr double kRunTolerance = 0.2;
 
-/// Where the surface came from; kept in the file and in Blender as custom properties.
+/// The origin of a surface, which the file contains and Blender shows as custom properties.
 struct Provenance {
-  std::string source;              ///< the input file's name, without its folder
+  std::string source;              ///< name of the input file without folder
   std::string radii_set;           ///< "bondi" or "file"
-  std::string device;              ///< what computed the surface
-  std::optional<ColorKey> colors;  ///< what the colours mean
+  std::string device;              ///< device that computed the surface
+  std::optional<ColorKey> colors;  ///< meaning of the colours
 };
 
-/// Planes that cut a surface, and how their caps look.
+/// Planes that cut a surface, and the style of their caps.
 struct CutFile {
   std::vector<ClipPlane> planes;
   CapStyle style;
@@ -43,33 +43,34 @@ struct CutFile {
 /// One object and its mesh.
 struct MeshedObject {
   const SurfaceObject& object;
-  TriangleMesh mesh;  ///< without triangles: the object is left out
+  TriangleMesh mesh;  ///< an object whose mesh has no triangles is not written
   AtomAttributes atoms;
-  std::vector<glm::dvec3> velocities;         ///< per vertex, Å per scene frame; empty: the file has none
+  std::vector<glm::dvec3> velocities;         ///< per vertex, Å per scene frame; empty if not written
   bool thickens = false;                      ///< PictureObject::thickens, for colours with opacities
-  std::vector<std::uint32_t> cap_plane = {};  ///< of the last triangles, which are caps (CappedMesh)
-  CutFile cut = {};                           ///< that made them; without planes: that of the file
-  MaterialRequest material = {};              ///< what differs from the usual one
-  /// Per vertex, into Surface::faces: one that it lies on; empty: that of the first of its triangles.
+  std::vector<std::uint32_t> cap_plane = {};  ///< per triangle of the caps, which are the last triangles (CappedMesh)
+  CutFile cut = {};                           ///< planes that made the caps; empty: those of the file
+  MaterialRequest material = {};              ///< differences from the default material
+  /// A face on which each vertex lies, index into Surface::faces; empty: the face of its first triangle.
   std::vector<std::uint32_t> vertex_face = {};
-  std::vector<VertexNumbers> numbers = {};  ///< finite, per vertex (add_surface_numbers)
-  std::vector<float> patch_area = {};       ///< per triangle, Å²; empty: left out
+  std::vector<VertexNumbers> numbers = {};  ///< finite numbers per vertex (add_surface_numbers)
+  std::vector<float> patch_area = {};       ///< per triangle, Å²; empty if not written
 };
 
-/// Which frame of a run a file is: it must say so, since files of several runs may get into one folder.
+/// The frame of a run that a file contains. The file must state it, because files of several runs may be in one folder.
 struct PlaceInRun {
   std::string run;              ///< run_name() of the manifest
-  std::uint64_t frame = 0;      ///< of the trajectory
-  std::size_t scene_frame = 0;  ///< from 1
+  std::uint64_t frame = 0;      ///< frame number of the trajectory
+  std::size_t scene_frame = 0;  ///< number of the scene frame, from 1
 };
 
-/// Writes the file as FORMAT.md describes. At least one mesh has triangles. cut: of all objects that have none of their
-/// own. tell: called with the size of the file in bytes before it is written. Throws OutputError.
+/// Writes the file as FORMAT.md describes. At least one mesh must have triangles. cut: the planes of all objects
+/// without planes of their own. on_size: a function that is called with the size of the file in bytes before it is
+/// written. Throws OutputError.
 void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
                    const std::optional<Shot>& shot, const Provenance& provenance,
                    const std::optional<PlaceInRun>& place = {}, const CutFile& cut = {},
-                   const std::function<void(std::uint64_t)>& tell = {});
-/// The same, of one moment and without a camera, into a file that others commit.
+                   const std::function<void(std::uint64_t)>& on_size = {});
+/// Writes the content without a camera and without a place in a run, into a file that the caller commits.
 void write_objects(OutputFile& file, std::span<const MeshedObject> objects, const Provenance& provenance,
                    const CutFile& cut);
 

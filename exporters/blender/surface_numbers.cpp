@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Assigns curvatures to vertices, areas of patches to triangles, and areas of atoms to atoms.
+// Computes curvatures of vertices, areas of the patches of triangles, and areas of atoms.
 #include "exporters/blender/surface_numbers.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace meniscus::blender {
 namespace {
 
-/// The text with kUsualSurfaceNumbers for each word "usual".
+/// Returns the text with kUsualSurfaceNumbers in place of each word "usual".
 std::string with_usual(std::string_view text) {
   std::string expanded;
   for (std::size_t first = 0; first <= text.size();) {
@@ -28,7 +28,7 @@ std::string with_usual(std::string_view text) {
   return expanded;
 }
 
-/// Of each vertex, 0 where it lies on no patch.
+/// Returns the curvature at each vertex, and 0 for a vertex that lies on no patch.
 std::vector<Curvature> exact_curvatures(const Surface& surface, const MeshedObject& object) {
   const TriangleMesh& mesh = object.mesh;
   const std::vector<std::uint32_t> face = object.vertex_face.empty() ? vertex_faces(mesh) : object.vertex_face;
@@ -40,21 +40,25 @@ std::vector<Curvature> exact_curvatures(const Surface& surface, const MeshedObje
 
 std::vector<float> floats(const std::vector<double>& values) { return {values.begin(), values.end()}; }
 
-class Adding {
+/// Adds requested columns of curvatures to an object.
+class CurvatureAdder {
  public:
-  Adding(MeshedObject& object, const SurfaceNumbers& wanted) : object_(object), wanted_(wanted) {}
+  CurvatureAdder(MeshedObject& object, const SurfaceNumbers& requested) : object_(object), requested_(requested) {}
 
-  /// make() -> a Curvature a vertex, which is called if one of the two is wanted.
+  /// Adds mean and Gaussian curvature if they are requested. make() returns a Curvature per vertex; it is called only
+  /// if at least one of the two is requested.
   template <class Make>
   void add_curvatures(const std::string& prefix, const Make& make) {
-    const bool mean = wants(prefix + "mean_curvature"), gaussian = wants(prefix + "gaussian_curvature");
+    const bool mean = is_requested(prefix + "mean_curvature"), gaussian = is_requested(prefix + "gaussian_curvature");
     if (!mean && !gaussian) return;
     const std::vector<Curvature> curvatures = make();
     if (mean) add_column(prefix + "mean_curvature", curvatures, &Curvature::mean);
     if (gaussian) add_column(prefix + "gaussian_curvature", curvatures, &Curvature::gaussian);
   }
 
-  bool wants(std::string_view name) const { return std::ranges::find(wanted_.names, name) != wanted_.names.end(); }
+  bool is_requested(std::string_view name) const {
+    return std::ranges::find(requested_.names, name) != requested_.names.end();
+  }
 
  private:
   void add_column(const std::string& name, const std::vector<Curvature>& curvatures, double Curvature::*which) {
@@ -65,27 +69,28 @@ class Adding {
   }
 
   MeshedObject& object_;
-  const SurfaceNumbers& wanted_;
+  const SurfaceNumbers& requested_;
 };
 
-/// The sentence of what is left out; empty: nothing.
-std::string add_smoothed(MeshedObject& object, Adding& adding, bool by_name) {
+/// Adds smoothed curvatures if they are requested. Returns a sentence if they are left out, or an empty text. Throws
+/// RequestError instead if the user named them.
+std::string add_smoothed(MeshedObject& object, CurvatureAdder& adder, bool by_name) {
   if (!object.mesh.partly_hidden && object.cap_plane.empty()) {
-    adding.add_curvatures("smooth_", [&] { return smoothed_curvatures(object.mesh); });
+    adder.add_curvatures("smooth_", [&] { return smoothed_curvatures(object.mesh); });
     return {};
   }
-  if (!adding.wants("smooth_mean_curvature") && !adding.wants("smooth_gaussian_curvature")) return {};
+  if (!adder.is_requested("smooth_mean_curvature") && !adder.is_requested("smooth_gaussian_curvature")) return {};
   const std::string reason = "curvature is averaged over a whole surface, of which --show or --clip leaves a part";
   if (by_name) throw RequestError(reason + "; leave smooth_mean_curvature and smooth_gaussian_curvature out");
   return reason + ": no smooth curvature is written";
 }
 
-std::string add_areas_of_atoms(MeshedObject& object, const Adding& adding, bool by_name) {
-  if (!adding.wants("atom_area") && !adding.wants("accessible_area")) return {};
+std::string add_areas_of_atoms(MeshedObject& object, const CurvatureAdder& adder, bool by_name) {
+  if (!adder.is_requested("atom_area") && !adder.is_requested("accessible_area")) return {};
   try {
     const AtomAreas areas = atom_areas(object.object.surface);
-    if (adding.wants("atom_area")) object.atoms.area = floats(areas.surface);
-    if (adding.wants("accessible_area")) object.atoms.accessible_area = floats(areas.accessible);
+    if (adder.is_requested("atom_area")) object.atoms.area = floats(areas.surface);
+    if (adder.is_requested("accessible_area")) object.atoms.accessible_area = floats(areas.accessible);
   } catch (const OpenSurfaceError& error) {
     if (by_name) throw;
     return fmt::format("areas of atoms are left out: {}", error.what());
@@ -109,16 +114,16 @@ SurfaceNumbers parse_surface_numbers(std::string_view text) {
   return {parse_vertex_numbers(with_usual(text)), text != "usual" && text != "all"};
 }
 
-std::string add_surface_numbers(MeshedObject& object, const SurfaceNumbers& wanted, std::span<const double> buried) {
+std::string add_surface_numbers(MeshedObject& object, const SurfaceNumbers& requested, std::span<const double> buried) {
   const Surface& surface = object.object.surface;
   if (surface.faces.empty()) return {};
-  Adding adding(object, wanted);
-  adding.add_curvatures("", [&] { return exact_curvatures(surface, object); });
-  const std::string without_smoothed = add_smoothed(object, adding, wanted.by_name);
-  const std::string without_areas = add_areas_of_atoms(object, adding, wanted.by_name);
-  if (adding.wants("open_sky")) object.numbers.push_back({"open_sky", vertex_open_sky(surface, object.mesh)});
-  if (adding.wants("patch_area")) add_areas_of_patches(object);
-  if (adding.wants("buried_area") && !buried.empty()) add_buried_areas(object, buried);
+  CurvatureAdder adder(object, requested);
+  adder.add_curvatures("", [&] { return exact_curvatures(surface, object); });
+  const std::string without_smoothed = add_smoothed(object, adder, requested.by_name);
+  const std::string without_areas = add_areas_of_atoms(object, adder, requested.by_name);
+  if (adder.is_requested("open_sky")) object.numbers.push_back({"open_sky", vertex_open_sky(surface, object.mesh)});
+  if (adder.is_requested("patch_area")) add_areas_of_patches(object);
+  if (adder.is_requested("buried_area") && !buried.empty()) add_buried_areas(object, buried);
   return without_smoothed.empty() || without_areas.empty() ? without_smoothed + without_areas
                                                            : without_smoothed + "; " + without_areas;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of a surface at its vertices, patches and atoms, for files for Blender.
+// Measures a surface at its vertices, patches and atoms, for .mns files.
 #pragma once
 
 #include <span>
@@ -11,24 +11,25 @@
 
 namespace meniscus::blender {
 
-/// Which numbers a file should have beside those of atoms that it always has.
+/// The requested numbers of a file, in addition to the numbers of atoms that it always has.
 struct SurfaceNumbers {
-  std::vector<std::string> names;  ///< of vertex_number_kinds()
-  /// Each was asked for by its name: what is not available is refused. Otherwise it is left out.
+  std::vector<std::string> names;  ///< names of vertex_number_kinds()
+  /// True if the user named each number. Numbers that are not available are then an error; otherwise they are left out.
   bool by_name = false;
 };
 
-/// The names that "usual" stands for.
+/// The names that "usual" means.
 inline constexpr std::string_view kUsualSurfaceNumbers =
     "mean_curvature,gaussian_curvature,atom_area,accessible_area,patch_area";
 
-/// Names between commas as parse_vertex_numbers() takes them, "usual" being kUsualSurfaceNumbers. Throws RequestError
-/// naming the word that is not one of them.
+/// Returns the numbers that a text names, separated by commas as for parse_vertex_numbers(); "usual" means
+/// kUsualSurfaceNumbers. Throws RequestError with the word that is no such name.
 SurfaceNumbers parse_surface_numbers(std::string_view text);
 
-/// Adds them to an object whose mesh and atoms are there. buried: Å² of each atom of the structure, or empty. Returns
-/// what had to be left out and why, as one sentence; empty: nothing. Throws RequestError where curvature is to be
-/// averaged over a surface that is there in part, and what atom_areas() throws, if they were asked for by name.
-std::string add_surface_numbers(MeshedObject& object, const SurfaceNumbers& wanted, std::span<const double> buried);
+/// Adds the numbers to an object that has its mesh and its atoms. buried: the buried area of each atom of the structure
+/// in Å², or empty. Returns a sentence about numbers that were left out and the reason, or an empty text. If the
+/// numbers were named by the user, it throws RequestError for smoothed curvature of a surface that is shown in part,
+/// and what atom_areas() throws.
+std::string add_surface_numbers(MeshedObject& object, const SurfaceNumbers& requested, std::span<const double> buried);
 
 }  // namespace meniscus::blender

@@ -45,7 +45,7 @@ void write_stl(OutputFile& file, const MeshFile& mesh) {
   const FileObject& object = mesh.objects.front();
   if (object.triangles.size() > std::numeric_limits<std::uint32_t>::max())
     throw CapacityError("STL holds 4,294,967,295 triangles at most; ask for a coarser mesh");
-  std::array<char, 80> about{};  // it must not begin with "solid", as text files do
+  std::array<char, 80> about{};  // must not begin with "solid", which marks text files
   const std::string line = mesh.about.substr(0, about.size());
   std::ranges::copy(line, about.begin());
   BinaryRows rows;
@@ -64,6 +64,7 @@ void write_stl(OutputFile& file, const MeshFile& mesh) {
 
 namespace {
 
+/// The arrays of a VTP file. Members append an array and return the XML element that refers to it.
 class Arrays {
  public:
   template <class Row>
@@ -74,7 +75,8 @@ class Arrays {
     return line;
   }
 
-  /// Words with a zero behind each; they may hold anything else, for no XML is read here.
+  /// Appends words, each followed by a zero byte. They may contain all other bytes, because this part of the file is
+  /// not parsed as XML.
   std::string of_words(const std::string& name, std::span<const std::string> words) {
     std::string line = begin("String", name, 1);
     std::uint64_t size = 0;
@@ -101,7 +103,7 @@ class Arrays {
 
 std::string plain(const std::string& text) { return text.substr(0, text.find('\0')); }
 
-/// A word of the atom of each vertex.
+/// Returns the given member of the atom of each vertex.
 std::vector<std::string> words_of(const MeshFile& mesh, const FileObject& object, std::string FileAtom::*word) {
   std::vector<std::string> words;
   words.reserve(object.atom.size());

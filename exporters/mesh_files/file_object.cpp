@@ -29,11 +29,12 @@ std::array<std::uint8_t, 3> bytes_of(const glm::vec3& color) {
   return {byte(color.x), byte(color.y), byte(color.z)};
 }
 
-/// Rows of vertices at their new places; those without one go.
+/// Moves the row of each vertex to its new place, and removes the rows of vertices whose place is kNone. count: the
+/// number of places.
 template <class T>
 void move_rows(std::vector<T>& rows, const std::vector<std::uint32_t>& place, std::size_t count) {
   std::vector<T> moved(count);
-  for (std::size_t v = place.size(); v-- > 0;)  // of vertices that became one the first counts
+  for (std::size_t v = place.size(); v-- > 0;)  // backwards, so that the first of merged vertices determines the row
     if (place[v] != kNone) moved[place[v]] = std::move(rows[v]);
   rows = std::move(moved);
 }
@@ -64,15 +65,16 @@ MeshFileMaker::MeshFileMaker(FileRequest request, std::string about) : request_(
   for (const Atom& atom : request_.atoms) file_.atoms.push_back(file_atom(atom));
 }
 
-/// A map, the sky, and pixels of a camera differ from place to place.
-bool MeshFileMaker::may_share(const SurfaceObject& object) const {
+// True if all places of an object can share one mesh. Values of a volume map, the open sky, and tolerances in pixels of
+// a camera differ from place to place.
+bool MeshFileMaker::can_share_mesh(const SurfaceObject& object) const {
   return request_.places && !object.coloring.volume && !request_.fineness.tolerance_at &&
          std::ranges::none_of(request_.numbers,
                               [](const std::string& name) { return name == "open_sky" || name == "atom_open_sky"; });
 }
 
 void MeshFileMaker::add(SurfaceObject given) {
-  if (may_share(given)) {
+  if (can_share_mesh(given)) {
     const std::size_t before = file_.objects.size();
     add(view_of(given), fine_mesh(given.surface, request_.fineness));
     if (file_.objects.size() == before) return;
@@ -108,7 +110,7 @@ void MeshFileMaker::add(const SurfaceView& object, FineMesh mesh) {
       (object.surface.components[c].kind == ComponentKind::cavity ? file_.cavities : file_.solids)
           .push_back({request_.scale * points[c], components_ + c});
   }
-  put(object, std::move(mesh), std::move(velocities));
+  add_meshed(object, std::move(mesh), std::move(velocities));
 }
 
 void MeshFileMaker::add(ShapeObject shapes) {
@@ -119,10 +121,10 @@ void MeshFileMaker::add(ShapeObject shapes) {
   if (!request_.velocities.empty())
     for (const std::uint32_t atom : mesh.vertex_atom)
       velocities.push_back(request_.velocities[shapes.object.atom[atom]]);
-  put(view_of(shapes.object), std::move(mesh), std::move(velocities));
+  add_meshed(view_of(shapes.object), std::move(mesh), std::move(velocities));
 }
 
-void MeshFileMaker::put(const SurfaceView& object, FineMesh mesh, std::vector<glm::dvec3> velocities) {
+void MeshFileMaker::add_meshed(const SurfaceView& object, FineMesh mesh, std::vector<glm::dvec3> velocities) {
   FileObject made;
   made.name = object.name.empty() ? "surface" : object.name;
   made.numbers = vertex_numbers(request_.numbers, {object, mesh, request_.atoms, request_.buried, components_});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From surfaces with their colours, and from pockets, to objects of a mesh file.
+// Turns surfaces with their colours, and pockets, into objects of a mesh file.
 #pragma once
 
 #include <span>
@@ -20,24 +20,25 @@ namespace meniscus {
 struct Atom;
 struct TriangleMesh;
 
-/// Files hold floats, programs print three decimals: what is nearer together than this (Å) is welded.
+/// Vertices nearer together than this (Å) are welded, because files hold floats and programs print three decimals.
 inline constexpr double kFileStep = 0.001;
 
-/// What files are made of beside the surfaces themselves.
+/// The content and fineness of a file, in addition to the surfaces themselves.
 struct FileRequest {
   MeshFineness fineness;
   std::vector<std::string> numbers;  ///< names of vertex_number_kinds()
-  double scale = 1.0;                ///< of the file's unit: what 1 Å is
-  std::span<const Atom> atoms;       ///< SurfaceObject::atom and SurfaceView::atom point into these
-  std::span<const double> buried;    ///< Å² of each of these atoms; empty: unknown
-  bool inner_points = false;
-  /// Å per frame, of each of these atoms; empty: unknown. A surface in several places has none.
+  double scale = 1.0;                ///< the length of 1 Å in the unit of the file
+  std::span<const Atom> atoms;       ///< SurfaceObject::atom and SurfaceView::atom are indices into these
+  std::span<const double> buried;    ///< buried area of each of these atoms, Å²; empty if unknown
+  bool inner_points = false;         ///< true if a point inside each cavity and each solid is needed
+  /// Velocity of each of these atoms, Å per frame; empty if unknown. A surface in several places has no velocities.
   std::span<const glm::dvec3> velocities = {};
-  bool places = false;  ///< the format has objects in several places
+  bool places = false;  ///< true if the format can place an object several times (MeshFormat::places)
   FileMaterial material = {};
 };
 
-/// One line about a file: the program, what 1 Å is, which surface ("solvent-excluded", say), how fine.
+/// Returns one line about a file: the program, the length of 1 Å, the kind of surface (such as "solvent-excluded"), and
+/// the fineness.
 std::string about_line(std::string_view surface, double scale, const MeshFineness& fineness);
 
 /// Makes a file object by object.
@@ -45,30 +46,31 @@ class MeshFileMaker {
  public:
   MeshFileMaker(FileRequest request, std::string about);
 
-  /// Meshes and welds all of a surface, in all its places; then what is hidden is left out. One mesh is in all places
-  /// where the format has these and none of its colours, numbers and triangles depends on the place. Throws what
-  /// tessellate() and even_mesh() throw.
+  /// Meshes and welds a whole surface in all its places, and then leaves out hidden parts. The places share one mesh if
+  /// the format supports this and if no colour, number or triangle depends on the place. Throws what tessellate() and
+  /// even_mesh() throw.
   void add(SurfaceObject object);
-  /// Of a surface that has a mesh already.
+  /// Adds a surface that has a mesh already.
   void add(const SurfaceView& object, FineMesh mesh);
-  /// Shapes beside it.
+  /// Adds shapes that are drawn in addition to a surface.
   void add(ShapeObject shapes);
 
   std::size_t triangle_count() const { return triangles_; }
-  /// In how many places the meshes are beyond their first ones.
+  /// Returns the number of places of all meshes that share one, without the first place of each.
   std::size_t further_places() const { return further_places_; }
   std::size_t joined_edges() const { return joined_; }
   std::size_t flipped_edges() const { return flipped_; }
   std::size_t fins() const { return fins_; }
-  /// Triangles without area that stay, where welding would leave the mesh open, pinched or folded.
+  /// Returns the number of triangles without area that remain, because welding them would leave the mesh open, pinched
+  /// or folded.
   std::size_t flat_triangles() const { return flat_; }
 
-  /// Call once, last. Throws RequestError where no triangle is shown.
+  /// Returns the file. It must be called once, after all other members. Throws RequestError where no triangle is shown.
   MeshFile take();
 
  private:
-  bool may_share(const SurfaceObject& object) const;
-  void put(const SurfaceView& object, FineMesh mesh, std::vector<glm::dvec3> velocities = {});
+  bool can_share_mesh(const SurfaceObject& object) const;
+  void add_meshed(const SurfaceView& object, FineMesh mesh, std::vector<glm::dvec3> velocities = {});
 
   FileRequest request_;
   MeshFile file_;
@@ -76,9 +78,9 @@ class MeshFileMaker {
   std::size_t triangles_ = 0, further_places_ = 0, joined_ = 0, fins_ = 0, flipped_ = 0, flat_ = 0;
 };
 
-/// mesh: as pocket_mesh() makes it. Objects are named "pocket 1", ... by rank and have the rank as vertex number
-/// "pocket"; colours are those of categorical_color(). Lengths are in Å. No atoms, no inner points: for formats that
-/// need neither.
+/// Returns a file with one object per pocket from the mesh of pocket_mesh(). Objects are named "pocket 1", ... by rank
+/// and have the rank as vertex number "pocket"; colours are those of categorical_color(). Lengths are in Å. The file
+/// has neither atoms nor inner points, so it suits formats that need neither.
 MeshFile pocket_file(const TriangleMesh& mesh);
 
 }  // namespace meniscus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes GLB files: a JSON chunk that describes the arrays of the binary chunk; a mesh and a set of arrays per object,
-// and a node for each of its places.
+// Writes GLB files: a JSON chunk describes the arrays of the binary chunk. Each object has a mesh, a set of arrays, and
+// a node for each of its places.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -24,14 +24,15 @@ constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123;  // com
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;          // target
 constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
-/// Colours of vertices are linear; 16 bits keep what 8 bits of sRGB tell apart.
+/// Converts a channel from sRGB to linear light, in which GLB stores colours of vertices. 16 bits keep all values of 8
+/// bits of sRGB distinct.
 std::uint16_t linear(std::uint8_t channel) {
   return static_cast<std::uint16_t>(std::lround(65535.0f * linear_from_srgb(static_cast<float>(channel) / 255.0f)));
 }
 
 std::array<float, 3> as_array(const glm::vec3& x) { return {x.x, x.y, x.z}; }
 
-/// Names of files may be in any encoding, JSON is UTF-8.
+/// Replaces all bytes outside of printable ASCII, because names may be in any encoding but JSON is UTF-8.
 std::string plain_text(const std::string& text) {
   std::string plain = text;
   std::ranges::replace_if(
@@ -39,12 +40,14 @@ std::string plain_text(const std::string& text) {
   return plain;
 }
 
+/// Returns the name of a vertex attribute: an underscore and capital letters.
 std::string semantic(const std::string& name) {
   std::string word = "_" + name;
   std::ranges::transform(word, word.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return word;
 }
 
+/// Builds both chunks of a GLB file.
 class Builder {
  public:
   explicit Builder(const MeshFile& mesh) {
@@ -92,7 +95,7 @@ class Builder {
     attributes["NORMAL"] = accessor(std::span(object.normals), kFloat, "VEC3", kArrayBuffer);
     attributes["COLOR_0"] = colors(object);
     for (const VertexNumbers& column : object.numbers) {
-      const std::vector<float> values = without_gaps(column.values);
+      const std::vector<float> values = zero_for_missing(column.values);
       attributes[semantic(column.name)] = accessor(std::span(values), kFloat, "SCALAR", kArrayBuffer);
     }
     const std::size_t indices = accessor(std::span(object.triangles), kUnsignedInt, "SCALAR", kElementArrayBuffer, 3);
@@ -107,7 +110,7 @@ class Builder {
     for (const RigidMotion& place : object.places) {
       json_["scenes"][0]["nodes"].push_back(json_["nodes"].size());
       Json node = {{"name", name}, {"mesh", number}};
-      if (!object.stands_once()) {
+      if (!object.is_placed_once()) {
         const glm::dquat turn = glm::normalize(glm::quat_cast(place.rotation));
         node["rotation"] = {turn.x, turn.y, turn.z, turn.w};
         node["translation"] = {place.translation.x, place.translation.y, place.translation.z};
@@ -116,6 +119,7 @@ class Builder {
     }
   }
 
+  /// Appends an array to the binary chunk and returns the number of its accessor.
   template <class Row>
   std::size_t accessor(std::span<const Row> rows, int component, const char* type, int target,
                        std::size_t elements_a_row = 1) {
@@ -134,6 +138,7 @@ class Builder {
     return accessor(std::span<const Row>(rows), component, type, target);
   }
 
+  /// Adds the positions of the vertices with their extent, which glTF requires, and returns the number of the accessor.
   std::size_t positions(const FileObject& object) {
     const std::size_t made = accessor(std::span(object.positions), kFloat, "VEC3", kArrayBuffer);
     glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
@@ -146,7 +151,8 @@ class Builder {
     return made;
   }
 
-  /// Adds the colours of the vertices. Opaque ones have an alpha, too, so that each begins at a multiple of four bytes.
+  /// Adds the colours of the vertices and returns the number of their accessor. Opaque colours have an alpha, too, so
+  /// that each begins at a multiple of four bytes.
   std::size_t colors(const FileObject& object) {
     std::array<std::uint16_t, 256> of_channel{};
     for (std::size_t c = 0; c < of_channel.size(); ++c) of_channel[c] = linear(static_cast<std::uint8_t>(c));

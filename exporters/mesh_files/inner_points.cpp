@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps along the normals of some vertices, as long as the vertex stays the surface's nearest point; then triangles are
-// asked, too, by their winding number, and where they do not have it inside, a point below one of them is taken.
+// Steps along the normals of some vertices as far as the vertex remains the nearest point of the surface. The winding
+// number of the triangles confirms the point; if it is not inside them, a point below one of the triangles is taken.
 #include "exporters/mesh_files/inner_points.h"
 
 #include <algorithm>
@@ -19,21 +19,22 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kPlaces = 48;  // of a component; the roomiest counts
-constexpr double kLongest = 2.8, kShorter = 0.7, kShortest = 1e-4, kEnough = 1.0;  // Å but for the ratio
-constexpr double kShareOfHeight = 0.1, kSmallestShare = 1e-5;                      // of a triangle's height, its depth
-constexpr double kSame = 1e-9;                                                     // Å: rounding
+constexpr std::size_t kPlaces = 48;  // vertices tried per component; the longest step is taken
+constexpr double kLongest = 2.8, kShorter = 0.7, kShortest = 1e-4, kEnough = 1.0;  // Å, except the ratio kShorter
+constexpr double kShareOfHeight = 0.1, kSmallestShare = 1e-5;  // depths below a triangle, as shares of its height
+constexpr double kSame = 1e-9;                                 // rounding error of distances, Å
 
-/// The steps (Å, at most `longest`) from a point of the surface along a normal whose end is that far from the surface:
-/// then a ball of this radius, the step in it, is empty and touches the surface in the point it began at.
+/// Returns the longest tried step (Å, at most kLongest) from a point of the surface along its normal whose end is as
+/// far from the surface as the step is long. A ball with this radius around the end is empty and touches the surface at
+/// the point. side: 1 to step along the normal, -1 against it. Returns 0 if no step works.
 double clear_step(const SurfaceDistance& distance, const glm::dvec3& from, const glm::dvec3& normal, double side) {
   for (double step = kLongest; step > kShortest; step *= kShorter)
     if (std::abs(distance(from + side * step * normal).distance - side * step) < kSame) return step;
   return 0.0;
 }
 
-/// How often the triangles wind around a point: their solid angles (A. van Oosterom and J. Strackee, IEEE Trans.
-/// Biomed. Eng. 30, 125 (1983), equation 8) over 4 pi, a whole number but for rounding.
+/// Returns the winding number of closed triangles around a point. It is the sum of their solid angles (A. van Oosterom
+/// and J. Strackee, IEEE Trans. Biomed. Eng. 30, 125 (1983), equation 8) divided by 4 pi, rounded to an integer.
 long winding_number(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles, const glm::dvec3& point) {
   double angle = 0.0;
   for (const std::uint32_t t : triangles) {
@@ -46,8 +47,8 @@ long winding_number(const TriangleMesh& mesh, std::span<const std::uint32_t> tri
   return std::lround(angle / (4.0 * std::numbers::pi));
 }
 
-/// A point right below a triangle, where the mesh alone decides: coarse triangles may leave out what is inside the
-/// exact surface.
+/// Returns a point right below a triangle that has this winding number, or nothing. The mesh alone determines it,
+/// because coarse triangles may exclude points inside the exact surface.
 std::optional<glm::dvec3> point_below(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles,
                                       long winding) {
   for (const std::uint32_t t : triangles) {
@@ -56,7 +57,7 @@ std::optional<glm::dvec3> point_below(const TriangleMesh& mesh, std::span<const 
     const glm::dvec3 cross = glm::cross(b - a, c - a);
     const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
     for (double share = kShareOfHeight; share > kSmallestShare; share *= 0.1) {
-      // Triangles face the solvent, which is inside of a cavity, and outside of a solid.
+      // Triangles face the solvent, which is inside a cavity and outside a solid.
       const glm::dvec3 point = (a + b + c) / 3.0 - static_cast<double>(winding) * share / longest * cross;
       if (winding_number(mesh, triangles, point) == winding) return point;
     }

@@ -18,10 +18,10 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-/// One object that has them all; the name of the first.
+/// Joins objects into one that has the name of the first.
 FileObject joined(std::vector<FileObject> objects) {
   FileObject whole = std::move(objects.front());
-  whole.triangle_colors.clear();  // those of points remain, which all formats have
+  whole.triangle_colors.clear();  // colours of vertices remain, which all formats with colours support
   for (std::size_t n = 1; n < objects.size(); ++n) {
     FileObject& next = objects[n];
     const auto first = static_cast<std::uint32_t>(whole.positions.size());
@@ -70,7 +70,7 @@ const MeshFormat* mesh_format_of_path(std::string_view path) {
   if (dot == std::string_view::npos) return nullptr;
   std::string ending(path.substr(dot + 1));
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return mesh_format(ending == "usd" ? "usda" : ending);  // readers look into the former, which may be text
+  return mesh_format(ending == "usd" ? "usda" : ending);  // a .usd file may be text; readers inspect its content
 }
 
 std::string mesh_format_words() {

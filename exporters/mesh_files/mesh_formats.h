@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The formats of mesh files: a table of what each is called, holds, and is written by.
+// The table of the formats of mesh files, with the name, the features and the writer of each.
 #pragma once
 
 #include <span>
@@ -11,40 +11,40 @@
 
 namespace meniscus {
 
-/// What 1 Å may be in a file.
+/// The range of the length of 1 Å in a file.
 inline constexpr double kSmallestFileScale = 1e-12, kLargestFileScale = 1e6;
 
-/// One format, one file beside this one.
+/// A format of mesh files.
 struct MeshFormat {
-  std::string_view word;   ///< how it is called, and the ending of its files without the dot, but for ply-ascii
-  std::string_view title;  ///< for people
-  std::string_view unit;   ///< that it says lengths are in; empty: it says none
-  bool objects;            ///< more than one, with names
+  std::string_view word;   ///< short name, which is also the ending of its files (without the dot), except ply-ascii
+  std::string_view title;  ///< name in messages and help
+  std::string_view unit;   ///< unit of length that the format prescribes; empty if it prescribes none
+  bool objects;            ///< true if a file may have several objects, with names
   bool colors;
-  bool numbers;  ///< of vertices: VertexNumbers
-  bool solid;    ///< made for programs that fill it: needs one closed surface, with its inner points
-  bool atoms;    ///< names them
-  bool places;   ///< an object may be in several places at once
-  bool opacity;  ///< of vertices
+  bool numbers;  ///< true if vertices may have VertexNumbers
+  bool solid;    ///< true if programs fill it: it needs one closed surface and its inner points
+  bool atoms;    ///< true if it contains names of atoms
+  bool places;   ///< true if an object may be in several places at once
+  bool opacity;  ///< true if vertices may have opacities
   void (*write)(OutputFile& file, const MeshFile& mesh);
-  /// All frames of a run, at least one, in one file; nullptr: each needs a file of its own.
+  /// Writes all frames of a run, at least one, into one file; nullptr if each frame needs a file of its own.
   void (*write_run)(OutputFile& file, std::span<const MeshFile> frames, const RunTimes& times) = nullptr;
 };
 
 std::span<const MeshFormat> mesh_formats();
 
-/// By its word, or nullptr.
+/// Returns the format with this word, or nullptr.
 const MeshFormat* mesh_format(std::string_view word);
-/// By the ending of a path, in letters of either case, or nullptr.
+/// Returns the format of a path by its ending in any case, or nullptr.
 const MeshFormat* mesh_format_of_path(std::string_view path);
 
-/// Their words: "stl, 3mf, ...".
+/// Returns the words of all formats: "stl, 3mf, ...".
 std::string mesh_format_words();
 
-/// Writes the file whole or not at all; objects are joined where the format holds one. Throws OutputError,
-/// CapacityError for what the format cannot hold.
+/// Writes the file whole or not at all. Objects are joined if the format allows only one. Throws OutputError, and
+/// CapacityError for a mesh that exceeds the limits of the format.
 void write_mesh_file(const MeshFormat& format, const std::string& path, Existing existing, MeshFile mesh);
-/// A run, in a format that has write_run. Throws likewise.
+/// Writes a run in a format that has write_run. Throws what write_mesh_file() throws.
 void write_mesh_run(const MeshFormat& format, const std::string& path, Existing existing,
                     std::span<const MeshFile> frames, const RunTimes& times);
 

@@ -14,7 +14,8 @@
 namespace meniscus {
 namespace {
 
-/// Names end at blanks, and other programs take some signs for their own.
+/// Replaces characters other than letters, digits, '-' and '.' by '_'. Names end at blanks, and programs give some
+/// characters a meaning of their own.
 std::string plain_name(const std::string& name) {
   std::string plain = name;
   std::ranges::replace_if(
@@ -78,7 +79,7 @@ void write_ascii_ply(OutputFile& file, const MeshFile& mesh) {
 
 namespace {
 
-// Behind it comes a call for each object, whose arguments are numbers in quotes.
+// The beginning of a script. A call for each object follows, whose arguments are numbers in quotes.
 constexpr std::string_view kPymolScript = R"(from pymol import cmd
 from pymol.cgo import BEGIN, COLOR, END, NORMAL, TRIANGLES, VERTEX
 
@@ -122,7 +123,7 @@ void write_pymol_script(OutputFile& file, const MeshFile& mesh) {
   }
 }
 
-// All count from 1.
+// All indices in smesh files count from 1.
 
 void write_smesh(OutputFile& file, const MeshFile& mesh) {
   const FileObject& object = mesh.objects.front();
@@ -148,9 +149,10 @@ void write_smesh(OutputFile& file, const MeshFile& mesh) {
 
 namespace {
 
-constexpr double kLargest = 999.9995;  // a coordinate has eight columns, three decimals and perhaps a sign
+constexpr double kLargest = 999.9995;  // the limit of a coordinate with eight columns, three decimals and a sign, Å
 
-/// Words end at blanks, and none may be empty.
+/// Returns a word of at most `width` characters. Words end at blanks and must not be empty, so other characters become
+/// '_', and an empty word becomes "-".
 std::string column_word(const std::string& text, std::size_t width) {
   std::string word = text.substr(0, width);
   std::ranges::replace_if(
@@ -158,7 +160,7 @@ std::string column_word(const std::string& text, std::size_t width) {
   return word.empty() ? "-" : word;
 }
 
-/// Å² of each vertex: a third of its triangles.
+/// Returns the area of each vertex in Å², which is a third of the area of its triangles.
 std::vector<double> vertex_areas(const FileObject& object, double scale) {
   std::vector<double> areas(object.positions.size(), 0.0);
   for (const auto& t : object.triangles) {
@@ -172,6 +174,7 @@ std::vector<double> vertex_areas(const FileObject& object, double scale) {
 
 char kind_letter(PatchKind kind) { return kind == PatchKind::convex ? 'C' : kind == PatchKind::toroidal ? 'S' : 'R'; }
 
+/// Throws CapacityError for a coordinate (Å) that the columns of DMS cannot hold.
 void check_range(const glm::dvec3& x) {
   for (int k = 0; k < 3; ++k)
     if (!(std::abs(x[k]) < kLargest))

@@ -43,8 +43,8 @@ std::vector<Color> palette_of(const MeshFile& mesh) {
   return palette;
 }
 
-/// An object's triangles have to be outward, so those of an object that is nothing but a cavity are turned: it is the
-/// body that would fill it.
+/// Returns the XML of an object. 3MF requires triangles that face outwards, so the triangles of an object that consists
+/// of cavities only are reversed: it represents the body that would fill them.
 std::string object_text(const FileObject& object, int id, const std::vector<Color>& palette) {
   std::vector<std::uint32_t> color;
   color.reserve(object.colors.size());
@@ -70,7 +70,7 @@ std::string object_text(const FileObject& object, int id, const std::vector<Colo
   return text + "    </triangles>\n   </mesh>\n  </object>\n";
 }
 
-/// Rows are where the axes go, and where the origin goes.
+/// Returns the attribute of a placement. The rows of its matrix are the images of the axes and of the origin.
 std::string transform_text(const RigidMotion& place) {
   const auto& [x, y, z] = std::array{place.rotation[0], place.rotation[1], place.rotation[2]};
   const glm::dvec3& to = place.translation;
@@ -98,7 +98,7 @@ std::string model_text(const MeshFile& mesh) {
   id = kFirstObject;
   for (const FileObject& object : mesh.objects) {
     for (const RigidMotion& place : object.places)
-      text += fmt::format("  <item objectid=\"{}\"{}/>\n", id, object.stands_once() ? "" : transform_text(place));
+      text += fmt::format("  <item objectid=\"{}\"{}/>\n", id, object.is_placed_once() ? "" : transform_text(place));
     ++id;
   }
   return text + " </build>\n</model>\n";

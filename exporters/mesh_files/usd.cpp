@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes USD as text: a mesh each object, its instances, and a material whose looks are variants; still, or with
-// samples of all of it at each frame of a run.
+// Writes USD as text: a mesh for each object, its instances, and a material with looks as variants. A run has samples
+// of everything at each frame.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -19,7 +19,7 @@
 namespace meniscus {
 namespace {
 
-/// An object as it is in each frame; nullptr where it is not there.
+/// An object in each frame of a run. An entry is nullptr if the frame does not have the object.
 struct Prim {
   std::string name;
   std::vector<const FileObject*> frames;
@@ -27,8 +27,8 @@ struct Prim {
   const FileObject& first() const {
     return **std::ranges::find_if(frames, [](const FileObject* o) { return o != nullptr; });
   }
-  bool stands_once() const {
-    return std::ranges::all_of(frames, [](const FileObject* o) { return !o || o->stands_once(); });
+  bool is_placed_once() const {
+    return std::ranges::all_of(frames, [](const FileObject* o) { return !o || o->is_placed_once(); });
   }
   bool is_translucent() const {
     return std::ranges::any_of(frames, [](const FileObject* o) { return o && !o->opacities.empty(); });
@@ -39,17 +39,18 @@ struct Prim {
 struct MaterialLook {
   std::string_view name;
   float roughness = 0.5f;
-  std::string_view more;  ///< one further input of UsdPreviewSurface, or none
+  std::string_view more;  ///< one further input of UsdPreviewSurface, or empty
 };
 
-/// The first is that of the file.
+/// The looks of a file. The first stands for the material of the file, whose values replace those given here.
 constexpr auto kLooks = std::to_array<MaterialLook>({{"figure", 0.5f, ""},
                                                      {"matte", 1.0f, ""},
                                                      {"plastic", 0.25f, "float inputs:clearcoat = 0.5"},
                                                      {"metal", 0.35f, "float inputs:metallic = 1"},
                                                      {"glass", 0.05f, "float inputs:opacity = 0.35"}});
 
-/// Its base color and, where it is translucent, its opacity are primvars of the mesh that it is bound to.
+/// Returns a material. Its base color and, if it is translucent, its opacity are primvars of the mesh to which it is
+/// bound.
 std::string material_text(std::string_view name, bool is_translucent) {
   const std::string path = fmt::format("/molecule/looks/{}", name);
   const auto reader = [](std::string_view of, std::string_view type, std::string_view primvar, std::string_view other) {
@@ -73,7 +74,8 @@ std::string material_text(std::string_view name, bool is_translucent) {
   return text + "        }\n";
 }
 
-/// Another look changes the shaders of both materials; what is translucent keeps its opacity.
+/// Returns the set of looks as variants. A look changes the shaders of both materials, but translucent meshes keep
+/// their opacity.
 std::string looks_text(const FileMaterial& material, bool is_translucent) {
   std::string text = "    variantSet \"look\" = {\n";
   for (const MaterialLook& look : kLooks) {
@@ -93,7 +95,8 @@ std::string looks_text(const FileMaterial& material, bool is_translucent) {
   return text + "    }\n";
 }
 
-/// A letter or underscore, then those and digits; no other of the file has it.
+/// Returns an identifier that is not in `taken` yet, and adds it there. It consists of letters, digits and underscores,
+/// and does not begin with a digit.
 std::string identifier(const std::string& name, std::set<std::string>& taken) {
   std::string word = name;
   std::ranges::replace_if(
@@ -104,7 +107,7 @@ std::string identifier(const std::string& name, std::set<std::string>& taken) {
   return unique;
 }
 
-/// Objects of the same name are the same object.
+/// Returns the objects of all frames. Objects with the same name in several frames are one object.
 std::vector<Prim> prims_of(std::span<const MeshFile> frames) {
   std::vector<Prim> prims;
   for (std::size_t f = 0; f < frames.size(); ++f) {
@@ -142,7 +145,7 @@ std::string extent_text(std::span<const glm::vec3> rows) {
   return vectors_text(box);
 }
 
-/// Linear, as displayColor is.
+/// Returns colours as linear light, which displayColor contains.
 std::string colors_text(std::span<const std::array<std::uint8_t, 3>> rows) {
   std::array<std::string, 256> of_channel;
   for (std::size_t c = 0; c < of_channel.size(); ++c)
@@ -154,7 +157,7 @@ std::string colors_text(std::span<const std::array<std::uint8_t, 3>> rows) {
 }
 
 std::string numbers_text(const std::vector<float>& rows) {
-  const std::vector<float> values = without_gaps(rows);
+  const std::vector<float> values = zero_for_missing(rows);
   return array_text(values.size(), [&](std::size_t n, auto out) { fmt::format_to(out, FMT_COMPILE("{}"), values[n]); });
 }
 
@@ -165,7 +168,7 @@ std::string opacities_text(const FileObject& object) {
   });
 }
 
-/// Rows are where the axes go, and where the origin goes.
+/// Returns the matrix of a placement. Its rows are the images of the axes and of the origin.
 std::string matrix_text(const RigidMotion& place) {
   std::string text = "( ";
   for (int axis = 0; axis < 3; ++axis) {
@@ -205,7 +208,7 @@ class UsdWriter {
           (is_translucent ? material_text("translucent", true) : "") + "    }\n");
     write_prototypes(prims);
     for (const Prim& prim : prims) {
-      if (prim.stands_once())
+      if (prim.is_placed_once())
         write_mesh(prim, prim.name);
       else
         write_instances(prim);
@@ -214,12 +217,12 @@ class UsdWriter {
   }
 
  private:
-  /// Writes the meshes that several places share, below a prim that no program draws.
+  /// Writes the meshes that several places share, below a prim that programs do not draw.
   void write_prototypes(const std::vector<Prim>& prims) {
-    if (std::ranges::all_of(prims, &Prim::stands_once)) return;
+    if (std::ranges::all_of(prims, &Prim::is_placed_once)) return;
     sink_("    class Scope \"prototypes\"\n    {\n");
     for (const Prim& prim : prims) {
-      if (prim.stands_once()) continue;
+      if (prim.is_placed_once()) continue;
       sink_(fmt::format("    def Xform \"{}\"\n    {{\n", prim.name));
       write_mesh(prim, "mesh");
       sink_("    }\n");
@@ -227,7 +230,8 @@ class UsdWriter {
     sink_("    }\n");
   }
 
-  /// An instance of the prototype for each place.
+  /// Writes an instance of the prototype for each place. Throws RequestError if the number of places differs from frame
+  /// to frame.
   void write_instances(const Prim& prim) {
     const std::size_t count = prim.first().places.size();
     if (std::ranges::any_of(prim.frames, [&](const FileObject* o) { return o && o->places.size() != count; }))
@@ -284,7 +288,8 @@ class UsdWriter {
     sink_("    }\n");
   }
 
-  /// One attribute of it; `text_of` gives its value in a frame. An object that is not there has no points.
+  /// Writes one attribute of an object. `text_of` returns its value in a frame. In frames that do not have the object,
+  /// it has no points.
   template <class TextOf>
   void add(const Prim& prim, const std::string& declared, std::string_view interpolation, const TextOf& text_of) {
     const std::string about = interpolation.empty()

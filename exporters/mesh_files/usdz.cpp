@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes USDZ files: USD as text in an archive that is not compressed.
+// Writes USDZ files: USD as text in an uncompressed archive.
 #include "exporters/mesh_files/writers.h"
 #include "exporters/mesh_files/zip_archive.h"
 

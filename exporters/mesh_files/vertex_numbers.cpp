@@ -27,7 +27,7 @@ using Values = std::vector<float>;
 
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 
-/// value(vertex) for each.
+/// Returns value(vertex) for each vertex.
 template <typename Value>
 Values of_vertices(const NumberSource& source, const Value& value) {
   Values values;
@@ -36,14 +36,14 @@ Values of_vertices(const NumberSource& source, const Value& value) {
   return values;
 }
 
-/// value(atom) for the atom of each.
+/// Returns value(atom) for the atom of each vertex.
 template <typename Value>
 Values of_atoms(const NumberSource& source, const Value& value) {
   return of_vertices(
       source, [&](std::uint32_t v) { return value(source.atoms[source.object.atom[source.mesh.vertex_atom[v]]]); });
 }
 
-/// value(face) for the face of each.
+/// Returns value(face, vertex) for the face of each vertex, and NaN for vertices without a face.
 template <typename Value>
 Values of_faces(const NumberSource& source, const Value& value) {
   return of_vertices(source, [&](std::uint32_t v) -> float {
@@ -83,13 +83,13 @@ Values component_of(const NumberSource& source) {
   return values;
 }
 
-/// Of shapes beside the surface there is none.
-Values skies(const NumberSource& source) {
+/// Returns the open sky at each vertex, and NaN for vertices of shapes.
+Values open_skies(const NumberSource& source) {
   const std::vector<float> seen = vertex_open_sky(source.object.surface, source.mesh.mesh);
   return of_faces(source, [&](std::uint32_t, std::uint32_t v) { return seen[v]; });
 }
 
-Values atom_skies(const NumberSource& source) {
+Values atom_open_skies(const NumberSource& source) {
   const std::vector<double> means = atom_open_sky(source.object.surface, source.mesh.mesh);
   return of_faces(source, [&](std::uint32_t, std::uint32_t v) { return means[source.mesh.vertex_atom[v]]; });
 }
@@ -136,8 +136,8 @@ const auto kColumns = std::to_array<Column>({
      [](const NumberSource& s) {
        return of_faces(s, [&](std::uint32_t face, std::uint32_t) { return s.object.surface.faces[face].area; });
      }},
-    {{"open_sky", "share of the sky it sees past the surface, by cosine, 0 to 1", false, false, true}, skies},
-    {{"atom_open_sky", "its mean over the atom's surface", false, false, true}, atom_skies},
+    {{"open_sky", "share of the sky it sees past the surface, by cosine, 0 to 1", false, false, true}, open_skies},
+    {{"atom_open_sky", "its mean over the atom's surface", false, false, true}, atom_open_skies},
     {{"charge", "partial charge of the atom, e", false, true},
      [](const NumberSource& s) { return of_atoms(s, [](const Atom& a) { return a.charge; }); }},
     {{"hydrophobicity", "of its residue (Kyte & Doolittle 1982)", false, true},
@@ -153,7 +153,7 @@ const auto kKinds = [] {
   return kinds;
 }();
 
-bool is_wanted(const VertexNumberKind& kind, std::span<const std::string> words, AtomSource atoms) {
+bool is_requested(const VertexNumberKind& kind, std::span<const std::string> words, AtomSource atoms) {
   return (atoms == AtomSource::molecule || !kind.of_molecule) &&
          std::ranges::any_of(words, [&](const std::string& word) {
            return word == kind.name || (word == "all" && !kind.slow) || (word == "usual" && kind.usual);
@@ -187,7 +187,7 @@ std::vector<std::string> parse_vertex_numbers(std::string_view text, AtomSource 
   for (const std::string& word : words) check_word(word, atoms);
   std::vector<std::string> names;
   for (const VertexNumberKind& kind : kKinds)
-    if (is_wanted(kind, words, atoms)) names.emplace_back(kind.name);
+    if (is_requested(kind, words, atoms)) names.emplace_back(kind.name);
   return names;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers that vertices of a mesh may have in files: of the surface there, of its atom, of its residue.
+// The numbers that vertices of a mesh may have in files: properties of the surface, of the atom, of the residue.
 #pragma once
 
 #include <span>
@@ -17,42 +17,43 @@ namespace meniscus {
 
 struct Atom;
 
-/// One of them.
+/// A number that each vertex may have.
 struct VertexNumberKind {
-  std::string_view name;  ///< of the column
+  std::string_view name;  ///< name of the column
   std::string_view description;
-  bool usual;         ///< there unless others are asked for
-  bool of_molecule;   ///< told by a molecule's file alone
-  bool slow = false;  ///< takes seconds or minutes, so that only its own name asks for it
+  bool usual;         ///< true if it is written by default
+  bool of_molecule;   ///< true if only molecules read from a file have it
+  bool slow = false;  ///< true if it takes seconds or minutes, so that "all" does not include it
 };
 
 std::span<const VertexNumberKind> vertex_number_kinds();
 
-/// Names between commas; "usual", "all" and "none" stand for several. Every name once, in the order of the table. With
-/// bare atoms, of which nothing but places and radii is known, those of a molecule are left out. Throws RequestError
-/// naming the word that is not one of them, or that bare atoms do not have.
+/// Returns the names in a text that separates them by commas, each once and in the order of the table. "usual" and
+/// "all" are replaced by several names, "none" by no name. For bare atoms, of which only positions and radii are known,
+/// the numbers of molecules are left out. Throws RequestError with the word that is no such name, or that bare atoms do
+/// not have.
 enum class AtomSource { molecule, bare };
 std::vector<std::string> parse_vertex_numbers(std::string_view text, AtomSource atoms = AtomSource::molecule);
 
-/// A surface, in one place, and what a file says of it.
+/// A surface in one place, with its name, colours and atoms.
 struct SurfaceView {
-  std::string_view name;  ///< text of a molecule file may be in it
+  std::string_view name;  ///< may contain text from a molecule file
   const Surface& surface;
   const Coloring& coloring;
-  std::span<const std::uint32_t> atom;  ///< per surface.atoms: into the atoms of the file
+  std::span<const std::uint32_t> atom;  ///< index into the atoms of the file, per atom of the surface
 };
 
-/// What they are taken from.
+/// The data from which vertex numbers are computed.
 struct NumberSource {
   SurfaceView object;
   const FineMesh& mesh;
-  std::span<const Atom> atoms;     ///< SurfaceView::atom points into these
-  std::span<const double> buried;  ///< Å² of each of these atoms; empty: unknown
-  std::uint32_t first_component;   ///< of the object's components, the number of the first in the file
+  std::span<const Atom> atoms;     ///< SurfaceView::atom contains indices into these
+  std::span<const double> buried;  ///< buried area of each of these atoms, Å²; empty if unknown
+  std::uint32_t first_component;   ///< number in the file of the object's first component
 };
 
-/// The columns with these names, NaN where something has no such number: charges of formats without, residues without a
-/// hydropathy, curvature of shapes beside the surface. With a volume map a column `map_value`, too.
+/// Returns the columns with these names, and a column `map_value` if there is a volume map. Values are NaN if a vertex
+/// has no such number: charges in formats without them, residues without a hydropathy, curvature of shapes.
 std::vector<VertexNumbers> vertex_numbers(std::span<const std::string> names, const NumberSource& source);
 
 }  // namespace meniscus

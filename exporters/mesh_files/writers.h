@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The writers of the table, and what they share: rows of bytes, rows of text, text in XML.
+// The writers of mesh formats, and their shared tools: rows of bytes, rows of text, text in XML.
 //
-// Each writes all of its file but does not commit it.
+// Each writer writes its whole file but does not commit it.
 #pragma once
 
 #include <algorithm>
@@ -30,41 +30,43 @@ namespace meniscus {
 void write_stl(OutputFile& file, const MeshFile& mesh);
 /// 3MF core specification 1.3 with the materials extension's colour groups: a zip archive.
 void write_3mf(OutputFile& file, const MeshFile& mesh);
-/// Wavefront OBJ: vertices with colours after their coordinates, normals, an `o` each object.
+/// Wavefront OBJ: vertices with colours after their coordinates, normals, and an `o` for each object.
 void write_obj(OutputFile& file, const MeshFile& mesh);
 /// Object File Format of Geomview, as text: positions and triangles alone.
 void write_off(OutputFile& file, const MeshFile& mesh);
-/// glTF 2.0 in one binary file (ISO/IEC 12113:2022, section 4.4); numbers are attributes with an underscore.
+/// glTF 2.0 in one binary file (ISO/IEC 12113:2022, section 4.4); numbers are attributes whose names begin with an
+/// underscore.
 void write_glb(OutputFile& file, const MeshFile& mesh);
 /// VTK's XML polygons with raw appended arrays (W. Schroeder et al., "The VTK user's guide", 2010, section 19.3).
 void write_vtp(OutputFile& file, const MeshFile& mesh);
-/// TetGen's facets with a marker a component, points in cavities as holes, points in solids as regions (H. Si, "TetGen
-/// user's manual", 2013, section 5.2.3).
+/// TetGen's facets with a marker for each component, points in cavities as holes, points in solids as regions (H. Si,
+/// "TetGen user's manual", 2013, section 5.2.3).
 void write_smesh(OutputFile& file, const MeshFile& mesh);
-/// Dots of the program dms (C. Huang, UCSF; its manual page): each atom, and after it its vertices with kind, area and
-/// normal. Coordinates are Å whatever the scale.
+/// Dots of the program dms (C. Huang, UCSF; its manual page): each atom is followed by its vertices with kind, area and
+/// normal. Coordinates are in Å for any scale of the file.
 void write_dms(OutputFile& file, const MeshFile& mesh);
 /// Binary little-endian PLY (G. Turk 1994).
 void write_ply(OutputFile& file, const MeshFile& mesh);
-/// The same as text.
+/// PLY as text, with the same content as write_ply().
 void write_ascii_ply(OutputFile& file, const MeshFile& mesh);
-/// Python that PyMOL runs: a compiled graphics object for each object, of numbers alone.
+/// A Python script for PyMOL, with a compiled graphics object for each object. All arguments in it are numbers.
 void write_pymol_script(OutputFile& file, const MeshFile& mesh);
 /// USD as text (Universal Scene Description 1.0, OpenUSD's .usda): an Xform with a Mesh for each object, in metres,
-/// y upwards; numbers are primvars. A run has samples of all of a mesh at each frame, with velocities, for the vertices
-/// of two frames are not the same.
+/// y upwards; numbers are primvars. A run has samples of the whole mesh at each frame, because vertices do not
+/// correspond from frame to frame; velocities allow motion blur.
 void write_usda(OutputFile& file, const MeshFile& mesh);
 void write_usda_run(OutputFile& file, std::span<const MeshFile> frames, const RunTimes& times);
-/// The same in an archive (OpenUSD's specification of USDZ): stored, from a multiple of 64 bytes on.
+/// USD as text in an archive (OpenUSD's specification of USDZ): stored without compression at a multiple of 64 bytes.
 void write_usdz(OutputFile& file, const MeshFile& mesh);
 void write_usdz_run(OutputFile& file, std::span<const MeshFile> frames, const RunTimes& times);
-/// What write_usda writes, or of a run.
+/// Returns the text that write_usda() writes, or write_usda_run() if `times` is not nullptr.
 std::string usd_text(std::span<const MeshFile> frames, const RunTimes* times);
-/// The header of a PLY file in the form "binary_little_endian" or "ascii".
+/// Returns the header of a PLY file. form: "binary_little_endian" or "ascii".
 std::string ply_header(std::string_view form, const MeshFile& mesh);
 
 static_assert(std::endian::native == std::endian::little);
 
+/// Collects bytes of values as they are in memory, in little-endian order.
 class BinaryRows {
  public:
   template <class T>
@@ -81,7 +83,7 @@ class BinaryRows {
     bytes_.insert(bytes_.end(), more.begin(), more.end());
   }
   void put_text(std::string_view text) { put_all(std::span<const char>(text)); }
-  /// Up to a multiple of `size`.
+  /// Appends `with` until the size is a multiple of `size`.
   void pad(std::size_t size, char with) {
     while (bytes_.size() % size != 0) put(with);
   }
@@ -93,7 +95,8 @@ class BinaryRows {
   std::vector<std::byte> bytes_;
 };
 
-/// The beginning, and put_row(n, out) for each n behind it, in order.
+/// Returns `beginning` followed by the texts that put_row(n, out) writes for each n below `count`, in order. Rows are
+/// written in parallel.
 template <typename PutRow>
 std::string text_of_rows(std::string beginning, std::size_t count, const PutRow& put_row) {
   constexpr std::size_t kChunk = 4096;
@@ -109,14 +112,14 @@ std::string text_of_rows(std::string beginning, std::size_t count, const PutRow&
   return beginning;
 }
 
-/// For formats without a word for a missing number.
-inline std::vector<float> without_gaps(std::vector<float> values) {
+/// Returns the values with 0 in place of those that are not finite, for formats that cannot express missing numbers.
+inline std::vector<float> zero_for_missing(std::vector<float> values) {
   std::ranges::replace_if(
       values, [](float x) { return !std::isfinite(x); }, 0.0f);
   return values;
 }
 
-/// Letters of ASCII as they are, what XML takes for its own as entities, all else as '_'.
+/// Returns text for XML: markup characters become entities, and bytes outside of printable ASCII become '_'.
 inline std::string xml_text(std::string_view text) {
   std::string safe(text);
   std::ranges::replace_if(

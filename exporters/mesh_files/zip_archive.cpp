@@ -21,7 +21,7 @@ constexpr std::uint16_t kZipVersion = 20;            // 2.0: folders and deflate
 constexpr std::uint16_t kStored = 0, kDeflated = 8;  // method
 constexpr std::uint16_t kTime = 0, kDate = 33;       // 1980-01-01 00:00
 constexpr std::size_t kLocalHeader = 30, kExtraHeader = 4, kUsdAlignment = 64;
-constexpr std::uint16_t kPadding = 0x1986;  // the extra field of USD's own archives
+constexpr std::uint16_t kPadding = 0x1986;  // identifier of the extra field in archives that OpenUSD writes
 constexpr int kLevel = 6;
 
 struct CompressorDeleter {
@@ -61,7 +61,7 @@ void ZipArchive::add(Entry entry, const void* content, std::size_t alignment) {
   entry.place = static_cast<std::uint32_t>(bytes_.size());
   const std::size_t start = bytes_.size() + kLocalHeader + entry.name.size();
   const bool pads = start % alignment != 0;
-  // An extra field has a header of its own, and begins there.
+  // Padding is an extra field, which begins with a header of its own.
   const std::size_t padding = (alignment - (start + kExtraHeader) % alignment) % alignment;
   BinaryRows header;
   header.put(std::uint32_t{0x04034b50});
@@ -89,8 +89,8 @@ std::vector<std::byte> ZipArchive::finish() {
       directory.put(word);
     for (const std::uint32_t word : {entry.checksum, entry.packed, entry.size}) directory.put(word);
     directory.put(static_cast<std::uint16_t>(entry.name.size()));
-    for (int n = 0; n < 4; ++n) directory.put(std::uint16_t{0});  // no extra field, comment, disk, inner attributes
-    directory.put(std::uint32_t{0});                              // nor outer ones
+    for (int n = 0; n < 4; ++n) directory.put(std::uint16_t{0});  // extra field, comment, disk, internal attributes
+    directory.put(std::uint32_t{0});                              // external attributes
     directory.put(entry.place);
     directory.put_text(entry.name);
   }

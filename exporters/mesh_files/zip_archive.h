@@ -10,15 +10,16 @@
 
 namespace meniscus {
 
-/// PKWARE's APPNOTE 6.3.3: local headers with their content, the central directory, its end. Times are the first that
-/// the format knows, so that equal content makes equal bytes.
+/// Builds an archive according to PKWARE's APPNOTE 6.3.3: local headers with their content, the central directory, and
+/// its end record. All times are the earliest of the format, so that equal content gives equal bytes.
 class ZipArchive {
  public:
-  /// Throws CapacityError for content of 4 GiB or more.
+  /// Adds a file in compressed form. Throws CapacityError for content of 4 GiB or more.
   void add_deflated(const std::string& name, std::string_view content);
-  /// As it is, from a multiple of 64 bytes on, which USDZ asks for. Throws likewise.
+  /// Adds a file without compression at a multiple of 64 bytes, which USDZ requires. Throws CapacityError for content
+  /// of 4 GiB or more.
   void add_stored(const std::string& name, std::string_view content);
-  /// All of the archive. Call once, last.
+  /// Returns the bytes of the archive. It must be called once, after all files were added.
   std::vector<std::byte> finish();
 
  private:

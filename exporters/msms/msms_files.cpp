@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers vertices, triangles and faces as MSMS 2.6 does, and writes them column by column.
+// Numbers vertices, triangles and faces like MSMS 2.6, and writes them column by column.
 #include "exporters/msms/msms_files.h"
 
 #include <algorithm>
@@ -23,8 +23,8 @@
 namespace meniscus {
 namespace {
 
-/// An equilateral triangle mesh of edge h has 2/(sqrt(3) h²) vertices per area; pieces of lattices between borders that
-/// have vertices of their own have a fifth more.
+/// The edge (Å) of a mesh with one vertex per Å². A mesh of equilateral triangles with edge h has 2/(sqrt(3) h²)
+/// vertices per area. Pieces of such lattices between borders with vertices of their own have 20 % more.
 const double kEdgeAtDensityOne = 1.1 * std::sqrt(2.0 / std::sqrt(3.0));
 
 MsmsFaceKind kind_of(const Face& face) {
@@ -38,7 +38,7 @@ MsmsFaceKind kind_of(const Face& face) {
   }
 }
 
-/// What the last column of .vert says of vertices inside a face.
+/// Returns the level of vertices inside a face (MsmsVertex::level), the last column of .vert files.
 std::uint8_t level_inside(MsmsFaceKind kind) {
   return kind == MsmsFaceKind::contact ? 1 : kind == MsmsFaceKind::reentrant ? 3 : 2;
 }
@@ -60,7 +60,7 @@ void weld_for_files(MsmsMesh& made) {
   made.vertices.resize(next);
   std::size_t kept = 0;
   for (std::size_t t = 0; t < corners.size(); ++t) {
-    if (welding.gone[t]) continue;
+    if (welding.removed[t]) continue;
     made.triangles[kept] = made.triangles[t];
     for (std::size_t k = 0; k < 3; ++k) made.triangles[kept].corner[k] = place[corners[t][k]];
     ++kept;
@@ -68,6 +68,7 @@ void weld_for_files(MsmsMesh& made) {
   made.triangles.resize(kept);
 }
 
+/// Numbers the vertices, triangles and faces of all components.
 class MsmsMeshes::Numbering {
  public:
   Numbering(const Surface& surface, const TriangleMesh& mesh, const ReducedComponents& components)
@@ -104,14 +105,14 @@ class MsmsMeshes::Numbering {
     }
     for (const std::uint32_t v : used) place_[v] = kNone;
     weld_for_files(made);
-    name_faces(made);
+    set_faces(made);
     return made;
   }
 
  private:
   static bool is_contact(const Face& face) { return face.kind == PatchKind::convex; }
 
-  // From 1 in each component, contact faces last.
+  // Numbers the faces of each component from 1, contact faces last.
   void number_faces() {
     number_.assign(s_.faces.size(), 0);
     std::vector<std::uint32_t> next(components_.count, 0);
@@ -120,7 +121,7 @@ class MsmsMeshes::Numbering {
         if (is_contact(s_.faces[f]) == contact) number_[f] = ++next[components_.of_face[f]];
   }
 
-  // By component, then by face.
+  // Sorts the triangles by component, then by face.
   void sort_triangles() {
     first_.assign(components_.count + 1, 0);
     for (const std::uint32_t f : mesh_.face) ++first_[components_.of_face[f] + 1];
@@ -137,8 +138,8 @@ class MsmsMeshes::Numbering {
           [&](std::uint32_t x, std::uint32_t y) { return number_[mesh_.face[x]] < number_[mesh_.face[y]]; });
   }
 
-  // First of the atoms that a vertex's faces touch, for a vertex of a contact face lies on the face's own sphere,
-  // whatever rounding says of others.
+  // Finds the closest sphere of each vertex, first among the atoms that its faces touch. A vertex of a contact face
+  // lies on the sphere of that face, even if rounding makes another sphere closer.
   void find_closest_atoms() {
     atom_of_vertex_.assign(mesh_.positions.size(), 0);
     std::vector<double> distance(mesh_.positions.size(), std::numeric_limits<double>::infinity());
@@ -155,11 +156,12 @@ class MsmsMeshes::Numbering {
           atom_of_vertex_[v] = atom;
         }
     }
-    look_farther(distance);
+    search_nearby_atoms(distance);
   }
 
-  // Between two atoms, near a third one that only the next face touches, that one may be closest.
-  void look_farther(std::vector<double>& distance) {
+  // Continues the search among all atoms near a vertex. Close to a third atom that only a neighbouring face touches, a
+  // vertex between two atoms may be closest to that one.
+  void search_nearby_atoms(std::vector<double>& distance) {
     double largest = 0;
     for (const Ball& atom : s_.atoms) largest = std::max(largest, atom.radius);
     const BallGrid grid(s_.atoms, largest + s_.probe_radius);
@@ -189,35 +191,35 @@ class MsmsMeshes::Numbering {
     }
   }
 
-  // All but the number of its face, and its level where it is inside one.
+  // Returns a vertex without the number of its face, and with the level 2 of vertices that are not inside a face.
   MsmsVertex vertex(std::uint32_t v) const {
     const bool corner = v < mesh_.corner_count, on_edge = v < mesh_.corner_count + mesh_.border_point_count;
     return {mesh_.positions[v], mesh_.normals[v], corner ? 0 : on_edge ? kOnEdge : kInside, atom_of_vertex_[v], 2};
   }
 
-  // By the triangles that are left: welding may have taken all of a face.
-  static void name_faces(MsmsMesh& made) {
-    std::vector<bool> named(made.vertices.size(), false);
+  // Sets the faces of vertices from the remaining triangles, because welding may have removed all triangles of a face.
+  static void set_faces(MsmsMesh& made) {
+    std::vector<bool> is_set(made.vertices.size(), false);
     for (const MsmsTriangle& t : made.triangles)
       for (const std::uint32_t v : t.corner) {
-        if (named[v]) continue;
-        named[v] = true;
+        if (is_set[v]) continue;
+        is_set[v] = true;
         made.vertices[v].face *= static_cast<std::int32_t>(t.face);
       }
   }
 
-  static constexpr std::int32_t kOnEdge = -1, kInside = 1;  // times the number of the face
-  static constexpr double kOnSphere = 1e-6;                 // Å: no other sphere can be closer
-  static constexpr double kSame = 1e-9;  // Å: rounding does not decide between two atoms, their order does
+  static constexpr std::int32_t kOnEdge = -1, kInside = 1;  // factors of the number of the face
+  static constexpr double kOnSphere = 1e-6;                 // a vertex nearer to a sphere is on it, Å
+  static constexpr double kSame = 1e-9;  // distances that differ by less are equal, so the first atom counts, Å
 
   const Surface& s_;
   const TriangleMesh& mesh_;
   const ReducedComponents& components_;
-  std::vector<std::uint32_t> number_;     // per face of the surface
-  std::vector<std::uint32_t> triangles_;  // of the mesh, component by component
-  std::vector<std::uint32_t> first_;      // per component, and one more, into triangles_
+  std::vector<std::uint32_t> number_;     // number of each face of the surface
+  std::vector<std::uint32_t> triangles_;  // triangles of the mesh, component by component
+  std::vector<std::uint32_t> first_;      // index into triangles_ for each component, and the end
   std::vector<std::uint32_t> atom_of_vertex_;
-  std::vector<std::uint32_t> place_;  // of each vertex of the mesh in the component at work; kNone between two
+  std::vector<std::uint32_t> place_;  // index of each vertex in the current component; kNone for all others
 };
 
 MsmsMeshes::MsmsMeshes(const Surface& surface, const TriangleMesh& mesh, const ReducedComponents& components)
@@ -230,11 +232,12 @@ double msms_edge(double density) { return kEdgeAtDensityOne / std::sqrt(density)
 
 namespace {
 
-/// The first line of NanoShaper's files but for its date, so that equal input gives equal files.
+/// The first line of NanoShaper's files, without the date, so that equal input gives equal files.
 constexpr const char* kNanoShaper =
     "# File created by NanoShaper version 1.5 (meniscus-nanoshaper " MENISCUS_VERSION ")\n";
 
-/// Without the sign of what rounds to nothing, which some readers take for a field of its own.
+/// Returns 0 for numbers that round to zero at three decimals. Some readers take the minus sign of "-0.000" for a field
+/// of its own.
 double unsigned_zero(double x) { return std::abs(x) < 0.0005 ? 0.0 : x; }
 
 std::string header_text(const char* what, const char* counted, std::size_t count, const MsmsSpheres& spheres,

@@ -23,16 +23,16 @@ using nlohmann::json;
 
 json node(const char* kind, json params) { return {{"kind", kind}, {"params", std::move(params)}}; }
 
-/// To a thousandth of an Å, in as few digits.
+/// Returns a length rounded to 0.001 Å, which has few digits as text.
 double rounded(double value) { return std::round(1000.0 * value) / 1000.0; }
 json place(const glm::dvec3& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
 
-std::string word_of(const glm::vec3& linear) {
+std::string hex_color(const glm::vec3& linear) {
   const glm::vec4 color = display_color(glm::vec4(linear, 1.0f), std::nullopt);
   return fmt::format("#{:02x}{:02x}{:02x}", display_byte(color.x), display_byte(color.y), display_byte(color.z));
 }
 
-/// A group of triangles is what has one colour.
+/// Returns the node of a mesh. Its triangles are grouped by colour.
 json mesh_node(const path_tracers::SceneMesh& mesh, const glm::dvec3& origin) {
   json vertices = json::array(), indices = json::array(), groups = json::array();
   json colors = json::object();
@@ -45,7 +45,7 @@ json mesh_node(const path_tracers::SceneMesh& mesh, const glm::dvec3& origin) {
       indices.push_back(corner);
       sum += mesh.colors[corner];
     }
-    const auto [group, is_new] = known.try_emplace(word_of(sum / 3.0f), known.size());
+    const auto [group, is_new] = known.try_emplace(hex_color(sum / 3.0f), known.size());
     if (is_new) colors[std::to_string(group->second)] = group->first;
     groups.push_back(group->second);
   }
@@ -56,7 +56,8 @@ json mesh_node(const path_tracers::SceneMesh& mesh, const glm::dvec3& origin) {
                             {"group_colors", std::move(colors)}});
 }
 
-/// x -> R x + t of coordinates that count from the origin, of those of the molecule; columns one after the other.
+/// Returns a motion x -> R x + t of coordinates relative to the origin as a matrix for coordinates of the molecule, in
+/// column-major order.
 json matrix_of(const RigidMotion& copy, const glm::dvec3& origin) {
   const glm::dvec3 shift = copy.translation + origin - copy.rotation * origin;
   json matrix = json::array();
@@ -69,7 +70,7 @@ json matrix_of(const RigidMotion& copy, const glm::dvec3& origin) {
   return matrix;
 }
 
-/// What has one opacity is one node, for nodes have it, not what is in them.
+/// Returns one node for each opacity, because nodes have an opacity, and the primitives in them do not.
 std::vector<json> nodes_of(const path_tracers::SceneItem& item, const glm::dvec3& origin) {
   std::map<float, json, std::greater<>> parts;
   const auto part = [&](float opacity) -> json& { return parts.try_emplace(opacity, json::array()).first->second; };
@@ -80,18 +81,18 @@ std::vector<json> nodes_of(const path_tracers::SceneItem& item, const glm::dvec3
         .push_back(node("primitive", {{"kind", "ellipsoid"},
                                       {"center", place(origin + sphere.center)},
                                       {"radius", rounded(sphere.radius)},
-                                      {"color", word_of(sphere.paint.color)}}));
+                                      {"color", hex_color(sphere.paint.color)}}));
   for (const path_tracers::SceneCylinder& cylinder : item.cylinders)
     part(cylinder.paint.opacity)
         .push_back(node("primitive", {{"kind", "tube"},
                                       {"start", place(origin + cylinder.from)},
                                       {"end", place(origin + cylinder.to)},
                                       {"radius", rounded(cylinder.radius)},
-                                      {"color", word_of(cylinder.paint.color)}}));
+                                      {"color", hex_color(cylinder.paint.color)}}));
   std::vector<json> nodes;
   for (auto& [opacity, primitives] : parts) {
     json group = node("primitives", {{"opacity", opacity}});
-    if (!item.stands_once()) {
+    if (!item.is_placed_once()) {
       json instances = json::array();
       for (const RigidMotion& copy : item.copies) instances.push_back(matrix_of(copy, origin));
       group["params"]["instances"] = std::move(instances);
@@ -102,16 +103,17 @@ std::vector<json> nodes_of(const path_tracers::SceneItem& item, const glm::dvec3
   return nodes;
 }
 
-/// Viewers multiply the distance to the target by 1 / (2 sin(fov / 2)), fov being their own field of view. So the
-/// camera is put where the picture is as high at the target as that of `camera`. MolViewSpec cannot name the
-/// projection.
+/// Returns the node of a camera. Viewers multiply the distance to the target by 1 / (2 sin(fov / 2)), with a field of
+/// view fov of their own. So the camera is placed where the picture is as high at the target as that of `camera`.
+/// MolViewSpec cannot specify the projection.
 json camera_node(const Camera& camera) {
   const double half_angle = 0.5 * camera.vertical_fov * std::numbers::pi / 180.0;
-  const glm::dvec3 reach = camera.position - camera.target;
-  const double distance =
-      camera.projection == Projection::perspective ? 2.0 * std::sin(half_angle) * glm::length(reach) : camera.height;
+  const glm::dvec3 from_target = camera.position - camera.target;
+  const double distance = camera.projection == Projection::perspective
+                              ? 2.0 * std::sin(half_angle) * glm::length(from_target)
+                              : camera.height;
   return node("camera", {{"target", place(camera.target)},
-                         {"position", place(camera.target + distance * glm::normalize(reach))},
+                         {"position", place(camera.target + distance * glm::normalize(from_target))},
                          {"up", place(view_basis(camera).up)}});
 }
 

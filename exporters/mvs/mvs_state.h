@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Views as MolViewSpec has them, which Mol* and other viewers draw: meshes with colours, spheres, cylinders, a camera.
+// Views in MolViewSpec, which Mol* and other viewers draw: meshes with colours, spheres, cylinders, a camera.
 #pragma once
 
 #include <cstddef>
@@ -16,22 +16,22 @@ namespace meniscus::mvs {
 
 /// One view.
 struct State {
-  nlohmann::json root;  ///< the tree of nodes
-  std::string title;    ///< among those of a run
+  nlohmann::json root;  ///< tree of nodes
+  std::string title;    ///< title of the view in a run
 };
 
-/// How a file has its states.
+/// The sequence of the states of a file.
 struct Sequence {
-  bool is_run = false;    ///< states one after the other; else there is one
-  int milliseconds = 40;  ///< that each of a run is shown
+  bool is_run = false;    ///< true if states are shown one after the other; false if there is a single state
+  int milliseconds = 40;  ///< duration of each state of a run
 };
 
-/// The tree of a scene, in the molecule's coordinates to a thousandth of an Å. The viewer finds normals and lights.
-/// Each triangle has one colour: where a map colours points, the mean of its corners'.
+/// Returns the tree of a scene, in the molecule's coordinates rounded to 0.001 Å. The viewer computes normals and
+/// lights. Each triangle has one colour, the mean of the colours of its corners.
 nlohmann::json tree_of(const path_tracers::Scene& scene);
 
-/// An archive as viewers load it (.mvsx). The same states give the same bytes; its time is source_date(). Throws
-/// CapacityError for 4 GiB or more.
+/// Returns an archive for viewers (.mvsx). Equal states give equal bytes; the time in it is source_date(). states: at
+/// least one. Throws CapacityError for 4 GiB or more.
 std::vector<std::byte> mvsx_archive(std::span<const State> states, const std::string& title, const Sequence& sequence);
 
 }  // namespace meniscus::mvs

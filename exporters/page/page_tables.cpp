@@ -20,9 +20,8 @@
 #include "core/color/color_maps.h"
 #include "core/image/color_space.h"
 #include "core/math/ball.h"
-#include "core/render/linear_colors.h"
 #include "core/render/picture_object.h"
-#include "core/render/shape_packing.h"
+#include "core/render/ray_cast_scene.h"
 
 namespace meniscus::page {
 namespace {

@@ -20,7 +20,7 @@
 #include "core/image/color_space.h"
 #include "core/image/png_file.h"
 #include "core/queries/copies.h"
-#include "core/render/surface_renderer.h"
+#include "core/render/cpu/cpu_renderer.h"
 #include "core/scene/annotations.h"
 #include "core/scene/cut.h"
 #include "core/scene/figure_key.h"
@@ -39,7 +39,7 @@ Framebuffer small_picture(std::span<const PictureObject> objects, const Camera& 
   settings.size = glm::max(glm::ivec2(glm::dvec2(size) * share), glm::ivec2(1));
   settings.samples = kSamples;
   settings.look = look;
-  return make_cpu_renderer()->render(objects, camera, settings);
+  return CpuRenderer().render(objects, camera, settings);
 }
 
 const char* words_of(SurfaceKind kind) {

@@ -15,17 +15,17 @@
 namespace meniscus::path_tracers {
 namespace {
 
-/// Over all copies of an item.
+/// Calls include(point, radius) for the balls that bound each copy of an item.
 template <class Include>
 void include_places(const SceneItem& item, const Include& include) {
-  const auto everywhere = [&](const glm::dvec3& x, double radius) {
+  const auto include_copies = [&](const glm::dvec3& x, double radius) {
     for (const RigidMotion& copy : item.copies) include(copy(x), radius);
   };
   for (const SceneMesh& mesh : item.meshes)
-    for (const glm::vec3& x : mesh.positions) everywhere(glm::dvec3(x), 0.0);
-  for (const SceneSphere& sphere : item.spheres) everywhere(sphere.center, sphere.radius);
+    for (const glm::vec3& x : mesh.positions) include_copies(glm::dvec3(x), 0.0);
+  for (const SceneSphere& sphere : item.spheres) include_copies(sphere.center, sphere.radius);
   for (const SceneCylinder& cylinder : item.cylinders)
-    for (const glm::dvec3& end : {cylinder.from, cylinder.to}) everywhere(end, cylinder.radius);
+    for (const glm::dvec3& end : {cylinder.from, cylinder.to}) include_copies(end, cylinder.radius);
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ Lights lights_of(const Scene& scene) {
   };
   Lights lights;
   if (scene.material != Material::glass) {
-    lights.everywhere = {0.14f, 0.15f, 0.17f};
+    lights.environment = {0.14f, 0.15f, 0.17f};
     lights.distant = {{-from(-0.45, 0.65, 0.75), {0.76f, 0.74f, 0.7f}},
                       {-from(0.85, -0.05, 0.45), {0.13f, 0.15f, 0.17f}},
                       {-from(0.0, 0.0, 1.0), {0.11f, 0.11f, 0.12f}}};
@@ -55,13 +55,13 @@ Lights lights_of(const Scene& scene) {
   }
   const Extent extent = extent_of(scene);
   const double away = 6.0 * extent.radius;
-  lights.everywhere = glm::vec3(0.25f);
+  lights.environment = glm::vec3(0.25f);
   const auto add = [&](const glm::dvec3& direction, double radius, float radiance) {
     lights.softboxes.push_back({extent.center + away * direction, -direction, radius, glm::vec3(radiance)});
   };
   add(from(-0.45, 0.75, 0.45), 2.5 * extent.radius, 4.0f);
   add(from(0.9, 0.1, 0.3), 1.5 * extent.radius, 2.0f);
-  // All of the picture, and what glass bends into it.
+  // The background softbox fills the picture, with a margin for rays that glass refracts.
   const double depth = glm::dot(extent.center - (scene.camera.position - scene.origin), view.forward) + away;
   const double seen = glm::length(half_extent(scene.camera, static_cast<double>(scene.width) / scene.height)) *
                       (scene.camera.projection == Projection::perspective ? depth : 1.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes camera, lights and materials, then the objects, those with copies as groups.
+// Writes a scene for Mitsuba 3: camera, lights and materials, then the objects, those with copies as groups.
 #include "exporters/path_tracers/scene.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace meniscus::path_tracers {
 namespace {
 
-/// A word and what it is, as the format has all values.
+/// Returns the element of a named value, which is how the format writes all values.
 std::string named(std::string_view type, std::string_view name, std::string_view value) {
   return fmt::format("<{} name=\"{}\" value=\"{}\"/>", type, name, value);
 }
@@ -35,7 +35,7 @@ std::string color_value(std::string_view name, const glm::vec3& color) {
   return named("rgb", name, vector_text(color, ", "));
 }
 
-/// Of the vertices of the mesh that it is used for.
+/// Returns a texture with the colours of the vertices of the mesh to which it is applied.
 std::string color_of_vertices(std::string_view name) {
   return fmt::format("<texture type=\"mesh_attribute\" name=\"{}\">{}</texture>", name,
                      named("string", "name", "vertex_color"));
@@ -78,7 +78,7 @@ class MitsubaWriter {
     line(fmt::format("<default name=\"height\" value=\"{}\"/>", scene_.height));
     const bool glass = scene_.material == Material::glass;
     // Mitsuba 3.9.1 crashes where "path" hides emitters and things are placed as instances; "volpath" does not.
-    const bool placed = !std::ranges::all_of(scene_.items, &SceneItem::stands_once);
+    const bool placed = !std::ranges::all_of(scene_.items, &SceneItem::is_placed_once);
     line(fmt::format("<integrator type=\"{}\">{}{}</integrator>", glass || placed ? "volpath" : "path",
                      named("integer", "max_depth", glass ? "32" : "8"), named("boolean", "hide_emitters", "true")));
   }
@@ -93,7 +93,7 @@ class MitsubaWriter {
       line(named("string", "fov_axis", "y"));
       line(number("fov", camera.vertical_fov));
     } else {
-      // Without a scale the picture is two units wide.
+      // The picture is two units wide without a scale.
       const double half = half_extent(camera, static_cast<double>(scene_.width) / scene_.height).x;
       size = fmt::format("<scale x=\"{0}\" y=\"{0}\"/>", number_text(half));
     }
@@ -109,7 +109,7 @@ class MitsubaWriter {
 
   void lights() {
     const Lights all = lights_of(scene_);
-    line(fmt::format("<emitter type=\"constant\">{}</emitter>", color_value("radiance", all.everywhere)));
+    line(fmt::format("<emitter type=\"constant\">{}</emitter>", color_value("radiance", all.environment)));
     for (const DistantLight& light : all.distant)
       line(fmt::format("<emitter type=\"directional\">{}{}</emitter>", place("vector", "direction", light.direction),
                        color_value("irradiance", std::numbers::pi_v<float> * light.strength)));
@@ -122,7 +122,7 @@ class MitsubaWriter {
     }
   }
 
-  /// `color`: writes what a parameter of this name is.
+  /// Returns the BSDF of a surface or a shape. color(parameter) returns the element of a colour parameter.
   template <class Color>
   std::string material(bool is_surface, float opacity, const Color& color) const {
     const Material kind = is_surface ? scene_.material : Material::matte;
@@ -131,7 +131,7 @@ class MitsubaWriter {
       case Material::matte:
         made = fmt::format("<bsdf type=\"diffuse\">{}</bsdf>", color("reflectance"));
         break;
-      case Material::plastic:  // not roughplastic, which cannot have colours of vertices
+      case Material::plastic:  // "principled", because "roughplastic" cannot have colours of vertices
         made = fmt::format("<bsdf type=\"principled\">{}{}{}</bsdf>", color("base_color"),
                            number("roughness", kCoatRoughness), number("eta", kCoatIor));
         break;
@@ -150,7 +150,8 @@ class MitsubaWriter {
                        made);
   }
 
-  /// The material in words of the scene, and what is inside. Each is written once, where it is needed first.
+  /// Returns references to a material and to the medium inside it. Each material is written once, before its first use.
+  /// written: the keys of the written materials.
   template <class Key, class Color>
   std::string look(std::vector<Key>& written, const Key& key, std::string_view id_begin, bool is_surface, float opacity,
                    const Color& color) {
@@ -178,8 +179,8 @@ class MitsubaWriter {
   }
 
   void item(const SceneItem& item, std::size_t n) {
-    const bool grouped = !item.stands_once();
-    // Materials are written before the group that they are in.
+    const bool grouped = !item.is_placed_once();
+    // Materials must be written before the group that uses them.
     std::vector<std::string> shapes;
     for (const SceneMesh& mesh : item.meshes)
       shapes.push_back(fmt::format("<shape type=\"ply\">{}{}</shape>",
@@ -203,7 +204,7 @@ class MitsubaWriter {
                       n + 1, matrix_text(copy)));
   }
 
-  /// Row by row.
+  /// Returns the matrix of a motion in row-major order.
   static std::string matrix_text(const RigidMotion& motion) {
     std::string text;
     for (int row = 0; row < 3; ++row) {
@@ -221,8 +222,8 @@ class MitsubaWriter {
   ViewBasis basis_;
   std::string text_;
   std::size_t meshes_ = 0;
-  std::array<std::vector<Paint>, 2> paints_;     ///< those written, of shapes and of surfaces
-  std::array<std::vector<float>, 2> opacities_;  ///< likewise, of what has colours at vertices
+  std::array<std::vector<Paint>, 2> paints_;     ///< written materials of one colour, of shapes and of surfaces
+  std::array<std::vector<float>, 2> opacities_;  ///< written materials with colours of vertices, by their opacity
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the camera, then the world: lights, materials, and the objects, those with copies as instances.
+// Writes a scene for pbrt-v4: the camera, then the world with lights, materials and objects, those with copies as
+// instances.
 #include "exporters/path_tracers/scene.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@
 namespace meniscus::path_tracers {
 namespace {
 
-/// A parameter: its type and name, and its value in brackets.
+/// Returns a parameter: its type and name in quotes, and its value in brackets. name: type and name.
 std::string parameter(std::string_view name, std::string_view value) {
   return fmt::format(" \"{}\" [{}]", name, value);
 }
@@ -30,13 +31,13 @@ std::string text_parameter(std::string_view name, std::string_view value) {
   return parameter(name, fmt::format("\"{}\"", value));
 }
 
-/// Column by column.
+/// Returns a transformation in column-major order.
 std::string transform_text(const glm::dmat3& axes, const glm::dvec3& origin) {
   return fmt::format("[{} 0 {} 0 {} 0 {} 1]", vector_text(axes[0]), vector_text(axes[1]), vector_text(axes[2]),
                      vector_text(origin));
 }
 
-/// Right-handed axes of which the third is `z`, of unit length.
+/// Returns right-handed axes, the third of which is the unit vector `z`.
 glm::dmat3 axes_along(const glm::dvec3& z) {
   const glm::dvec3 other = std::abs(z.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
   const glm::dvec3 x = glm::normalize(glm::cross(other, z));
@@ -75,7 +76,7 @@ class PbrtWriter {
     const bool perspective = camera.projection == Projection::perspective;
     glm::dvec2 half = half_extent(camera, static_cast<double>(scene_.width) / scene_.height);
     if (perspective) half /= half.y;
-    // pbrt's axes are left-handed, the molecule's right-handed.
+    // The axes of pbrt are left-handed, those of the molecule right-handed.
     line("Scale -1 1 1");
     line(fmt::format("LookAt {}  {}  {}", vector_text(eye), vector_text(eye + forward), vector_text(up)));
     line(fmt::format(
@@ -93,7 +94,7 @@ class PbrtWriter {
 
   void lights() {
     const Lights all = lights_of(scene_);
-    line("LightSource \"infinite\"" + parameter("rgb L", all.everywhere));
+    line("LightSource \"infinite\"" + parameter("rgb L", all.environment));
     for (const DistantLight& light : all.distant)
       line("LightSource \"distant\"" + parameter("point3 from", "0 0 0") +
            parameter("point3 to", vector_text(light.direction)) +
@@ -128,9 +129,9 @@ class PbrtWriter {
     return text_parameter("string type", "diffuse") + parameter("rgb reflectance", of);
   }
 
-  /// A statement that takes the material of this colour; each is written once, where it is needed first.
+  /// Returns a statement that selects the material of this colour. Each material is written once, before its first use.
   std::string look(bool is_surface, const glm::vec3& of) {
-    const bool same = is_surface && scene_.material == Material::glass;  // has no colours
+    const bool same = is_surface && scene_.material == Material::glass;  // dielectrics of pbrt have no colours
     const glm::vec3 key = same ? glm::vec3(1.0f) : of;
     std::vector<glm::vec3>& written = colors_[is_surface];
     const auto found = std::ranges::find(written, key);
@@ -148,7 +149,7 @@ class PbrtWriter {
   }
 
   void item(const SceneItem& item, std::size_t n) {
-    // Materials are written before the object that they are in.
+    // Materials must be written before the object that uses them.
     std::vector<std::vector<std::string>> shapes;
     const auto shape = [&](const glm::vec3& of) -> std::vector<std::string>& {
       shapes.push_back({look(item.is_surface, of)});
@@ -173,7 +174,7 @@ class PbrtWriter {
       made.push_back("Shape \"cylinder\"" + parameter("float radius", cylinder.radius) + parameter("float zmin", 0.0) +
                      parameter("float zmax", glm::length(along)) + alpha(cylinder.paint.opacity));
     }
-    const bool grouped = !item.stands_once();
+    const bool grouped = !item.is_placed_once();
     if (grouped) line(fmt::format("ObjectBegin \"object_{}\"", n + 1));
     for (const std::vector<std::string>& statements : shapes) attributes(statements);
     if (!grouped) return;
@@ -187,7 +188,7 @@ class PbrtWriter {
   std::string name_;
   std::string text_;
   std::size_t meshes_ = 0;
-  std::array<std::vector<glm::vec3>, 2> colors_;  ///< those that have a material, of shapes and of surfaces
+  std::array<std::vector<glm::vec3>, 2> colors_;  ///< colours of the written materials, of shapes and of surfaces
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene for a path tracer holds, whatever its format, and its text for Mitsuba 3 and for pbrt-v4.
+// The content of a scene for a path tracer, independent of its format, and its text for Mitsuba 3 and for pbrt-v4.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace meniscus::path_tracers {
 
-/// How points look, apart from the material.
+/// The colour and opacity of points, without their material.
 struct Paint {
   glm::vec3 color{0.0f};  ///< linear light, each channel in [0, 1]
   float opacity = 1.0f;   ///< in (0, 1]
@@ -22,11 +22,11 @@ struct Paint {
   bool operator==(const Paint&) const = default;
 };
 
-/// Triangles of one opacity. Vertices are doubled where colours meet and along cusps, so that colours change along
-/// edges, as they do in the view, and normals are those of the surface.
+/// Triangles of one opacity. Vertices are duplicated at borders of colours and along cusps, so that colours change at
+/// edges, as in the view, and normals are those of the surface.
 struct SceneMesh {
   std::vector<glm::vec3> positions;                     ///< Å, from the scene's origin
-  std::vector<glm::vec3> normals;                       ///< unit, towards the solvent
+  std::vector<glm::vec3> normals;                       ///< of unit length, towards the solvent
   std::vector<glm::vec3> colors;                        ///< linear light
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the solvent
   float opacity = 1.0f;
@@ -46,44 +46,45 @@ struct SceneCylinder {
   Paint paint;
 };
 
-/// Things that are together, in one place or in several.
+/// Meshes, spheres and cylinders that are placed together, once or several times.
 struct SceneItem {
   std::vector<SceneMesh> meshes;
   std::vector<SceneSphere> spheres;
   std::vector<SceneCylinder> cylinders;
-  std::vector<RigidMotion> copies{RigidMotion{}};  ///< of coordinates that count from the scene's origin
-  bool is_surface = true;                          ///< made of the scene's material; else matte
+  std::vector<RigidMotion> copies{RigidMotion{}};  ///< motions of coordinates relative to the scene's origin
+  bool is_surface = true;                          ///< true if it has the scene's material; false if it is matte
 
-  /// It is not moved, and there is one of it.
-  bool stands_once() const {
+  /// True if there is a single copy, which is not moved.
+  bool is_placed_once() const {
     return copies.size() == 1 && copies[0].rotation == glm::dmat3(1.0) && copies[0].translation == glm::dvec3(0.0);
   }
   bool empty() const { return meshes.empty() && spheres.empty() && cylinders.empty(); }
 };
 
-/// What the surface is made of.
+/// The material of the surface.
 enum class Material {
   matte,
-  plastic,  ///< matte below a smooth coat, which mirrors the lights
+  plastic,  ///< matte below a smooth coat that reflects the lights
   glass,    ///< refracts and absorbs as one solid
   wax       ///< light scatters below the surface
 };
 
-/// All of a scene.
+/// A whole scene.
 struct Scene {
   std::vector<SceneItem> items;
-  glm::dvec3 origin{0.0};          ///< Å: where its coordinates begin
+  glm::dvec3 origin{0.0};          ///< origin of its coordinates in those of the molecule, Å
   Camera camera;                   ///< in the molecule's coordinates
   int width = 1280, height = 960;  ///< pixels
   Material material = Material::matte;
 };
 
-/// The scene for Mitsuba 3 (W. Jakob et al., "Mitsuba 3 renderer", 2022; its documentation, "Scene XML file format").
-/// Mesh n of the scene, from 1, counted over all items, is the file <name>_<n>.ply with colours.
+/// Returns the scene for Mitsuba 3 (W. Jakob et al., "Mitsuba 3 renderer", 2022; its documentation, "Scene XML file
+/// format"). Meshes are counted from 1 over all items; mesh n is the file <name>_<n>.ply with colours of vertices.
 std::string mitsuba_text(const Scene& scene, const std::string& name);
 
-/// The same for pbrt-v4 (M. Pharr, W. Jakob & G. Humphreys, "Physically based rendering", 4th edition, 2023; its
-/// documentation, "pbrt-v4 input file format"); each mesh has one colour.
+/// Returns the scene for pbrt-v4 (M. Pharr, W. Jakob & G. Humphreys, "Physically based rendering", 4th edition, 2023;
+/// its documentation, "pbrt-v4 input file format"). Mesh files are named as for Mitsuba. Each mesh must have a single
+/// colour (split_colors()).
 std::string pbrt_text(const Scene& scene, const std::string& name);
 
 }  // namespace meniscus::path_tracers

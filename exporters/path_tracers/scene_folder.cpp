@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes scene objects of surfaces and shapes, and writes text and meshes, all or none.
+// Makes the items of a scene from surfaces and shapes, and writes the scene and its meshes, all or none.
 #include "exporters/path_tracers/scene_folder.h"
 
 #include <cmath>
@@ -32,18 +32,19 @@ class MeshMaker {
  public:
   MeshMaker(float opacity, const glm::dvec3& origin) : origin_(origin) { mesh_.opacity = opacity; }
 
-  /// vertex: of the mesh it comes from.
+  /// Returns the number of the corner with this position, normal (rounded to single precision) and colour, and adds it
+  /// if it is new. vertex: the number of the vertex in the original mesh.
   std::uint32_t corner(std::uint32_t vertex, const glm::dvec3& position, const glm::dvec3& normal,
                        const glm::vec3& color) {
     const glm::vec3 written(normal);
-    const auto [begin, end] = doubles_.equal_range(vertex);
+    const auto [begin, end] = duplicates_.equal_range(vertex);
     for (auto entry = begin; entry != end; ++entry)
       if (mesh_.normals[entry->second] == written && mesh_.colors[entry->second] == color) return entry->second;
     const auto made = static_cast<std::uint32_t>(mesh_.positions.size());
     mesh_.positions.emplace_back(position - origin_);
     mesh_.normals.push_back(written);
     mesh_.colors.push_back(color);
-    doubles_.emplace(vertex, made);
+    duplicates_.emplace(vertex, made);
     return made;
   }
 
@@ -53,10 +54,11 @@ class MeshMaker {
  private:
   SceneMesh mesh_;
   glm::dvec3 origin_;
-  std::unordered_multimap<std::uint32_t, std::uint32_t> doubles_;
+  std::unordered_multimap<std::uint32_t, std::uint32_t> duplicates_;
 };
 
-/// Per triangle: its sphere is one of the scene's.
+/// Adds the whole spheres of a surface to `spheres`. Returns true for each triangle of these spheres. Spheres that a
+/// volume map colours are not among them.
 std::vector<bool> whole_spheres(const SurfaceObject& object, const TriangleMesh& mesh, const glm::dvec3& origin,
                                 std::vector<SceneSphere>& spheres) {
   const Surface& surface = object.surface;
@@ -83,6 +85,7 @@ std::vector<bool> whole_spheres(const SurfaceObject& object, const TriangleMesh&
   return left_out;
 }
 
+/// Returns the normals of sharp corners by the number of the corner (3 times the triangle plus its place in it).
 std::unordered_map<std::uint32_t, glm::dvec3> normals_of_sharp_corners(const TriangleMesh& mesh) {
   std::unordered_map<std::uint32_t, glm::dvec3> normals;
   normals.reserve(mesh.sharp_corners.size());
@@ -91,22 +94,23 @@ std::unordered_map<std::uint32_t, glm::dvec3> normals_of_sharp_corners(const Tri
   return normals;
 }
 
-/// What tells how the triangles of a mesh look.
+/// The colours of the triangles of a mesh.
 struct TrianglePaint {
   const TriangleMesh& mesh;
   const Coloring& coloring;
-  std::size_t first_cap;           ///< this and all behind it are caps
-  std::optional<glm::vec3> color;  ///< sRGB, of caps
+  std::size_t first_cap;           ///< this triangle and all later ones are caps
+  std::optional<glm::vec3> color;  ///< colour of caps, sRGB; empty: the colours of atoms
 
+  /// True if a volume map colours triangle `t`.
   bool by_map(std::size_t t) const { return t < first_cap && coloring.by_volume(mesh.atom[t]); }
-  /// Of those that no map colours.
+  /// Returns the colour of triangle `t` in linear light if no map colours it.
   glm::vec3 operator()(std::size_t t) const {
     if (t < first_cap) return linear_from_srgb(triangle_color(mesh, coloring, t));
     return linear_from_srgb(color.value_or(coloring.atom[mesh.atom[t]]));
   }
 };
 
-/// One mesh an opacity.
+/// Returns one mesh for each opacity, by decreasing opacity. left_out: true for each triangle to skip; may be empty.
 std::vector<SceneMesh> meshes_of(const TrianglePaint& paint, const std::vector<bool>& left_out,
                                  const glm::dvec3& origin) {
   const TriangleMesh& mesh = paint.mesh;
@@ -145,7 +149,7 @@ SceneItem surface_item(const SurfaceObject& object, const TriangleMesh& mesh, co
   const std::size_t first_cap = mesh.triangles.size() - (caps ? caps->count : 0);
   item.meshes = meshes_of({mesh, object.coloring, first_cap, caps ? caps->color : std::nullopt}, left_out, origin);
   item.copies = object.copies;
-  // x -> R x + t of the molecule's coordinates, of those that count from the origin.
+  // The motion x -> R x + t of the molecule's coordinates is expressed in coordinates relative to the origin.
   for (RigidMotion& copy : item.copies) copy.translation += copy.rotation * origin - origin;
   return item;
 }
@@ -171,7 +175,7 @@ SceneItem shapes_item(std::span<const Atom> atoms, const ColoredShapes& shapes, 
   ColoredShapes rest;
   rest.shapes.mesh = shapes.shapes.mesh;
   rest.coloring = coloring;
-  ShapeObject made = shape_object(atoms, rest, 1.0);  // no mesh is made, so that its tolerance does not matter
+  ShapeObject made = shape_object(atoms, rest, 1.0);  // only copies a mesh, so the tolerance has no effect
   const TriangleMesh mesh = shown_part(std::move(made.mesh), made.object.coloring);
   item.meshes = meshes_of({mesh, made.object.coloring, mesh.triangles.size(), {}}, {}, origin);
   return item;
@@ -186,7 +190,8 @@ std::vector<SceneMesh> split(const std::vector<SceneMesh>& meshes) {
   return parts;
 }
 
-/// Positions, normals and, where asked for, colours as floats r, g, b, which Mitsuba reads as "vertex_color".
+/// Writes a mesh as PLY (G. Turk 1994): positions, normals and, on request, colours as floats r, g, b, which Mitsuba
+/// reads as "vertex_color".
 void write_mesh(OutputFile& file, const SceneMesh& mesh, bool with_colors) {
   std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.positions.size());
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) header += fmt::format("property float {}\n", name);
@@ -219,7 +224,7 @@ SceneReport write_scene(const Scene& given, const SceneTarget& target) {
     report.files.push_back(target.folder / (target.name + ending));
     return output.file(target.name + ending);
   };
-  const bool has_colors = target.renderer == Renderer::mitsuba;  // at vertices
+  const bool has_colors = target.renderer == Renderer::mitsuba;  // of vertices
   std::size_t meshes = 0;
   for (SceneItem& item : scene.items) {
     if (!has_colors) item.meshes = split(item.meshes);
@@ -238,8 +243,6 @@ SceneReport write_scene(const Scene& given, const SceneTarget& target) {
   output.commit();
   return report;
 }
-
-// Turk 1994).
 
 namespace {
 

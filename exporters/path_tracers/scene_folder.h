@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From surfaces and shapes to a scene in a folder: its text, and beside it a PLY file for each mesh, or one a colour.
+// Turns surfaces and shapes into a scene in a folder: its text, and a PLY file for each mesh or for each colour.
 #pragma once
 
 #include <cstddef>
@@ -20,44 +20,45 @@
 
 namespace meniscus::path_tracers {
 
-/// The last triangles of a mesh that planes cut.
+/// The caps of a mesh that planes cut, which are its last triangles.
 struct CapRows {
-  std::size_t count = 0;
-  std::optional<glm::vec3> color;  ///< sRGB; nothing: those of atoms
+  std::size_t count = 0;           ///< number of triangles
+  std::optional<glm::vec3> color;  ///< sRGB; empty: the colours of atoms
 };
 
-/// What is shown of a surface: whole spheres, which no other atom touches, as spheres, all else as the mesh has it.
-/// mesh: of the shown part, with a row a triangle in its tables. caps: nothing if no plane cuts it. Colours of a volume
-/// map are those at vertices.
+/// Returns the shown part of a surface. Whole spheres, which no other atom touches, become spheres; everything else
+/// becomes triangles of `mesh`. mesh: the mesh of the shown part, with one row per triangle in its tables. caps: empty
+/// if no plane cuts the surface. Colours of a volume map are those at vertices.
 SceneItem surface_item(const SurfaceObject& object, const TriangleMesh& mesh, const glm::dvec3& origin,
                        const std::optional<CapRows>& caps = {});
 
-/// Shapes beside it; those that are meshes already stay as they are. atoms: the shown atoms (representations.h).
+/// Returns shapes as spheres, cylinders and meshes. Cylinders are split into halves with the colours of their atoms.
+/// atoms: the shown atoms (representations.h).
 SceneItem shapes_item(std::span<const Atom> atoms, const ColoredShapes& shapes, const glm::dvec3& origin);
 
-/// Which program a scene is for.
+/// The program that renders a scene.
 enum class Renderer { mitsuba, pbrt };
 
-/// Where a scene goes. Its name begins those of all files: letters, digits, '-' and '_' only.
+/// The renderer and the folder of a scene.
 struct SceneTarget {
   Renderer renderer = Renderer::mitsuba;
-  std::filesystem::path folder;  ///< made when missing
-  std::string name = "surface";
+  std::filesystem::path folder;  ///< created if it does not exist
+  std::string name = "surface";  ///< begins all file names; letters, digits, '-' and '_' only
   Existing existing = Existing::refuse;
 };
 
-/// What was written.
+/// A report of the written files.
 struct SceneReport {
-  std::vector<std::filesystem::path> files;               ///< the scene last
-  std::size_t triangles = 0, spheres = 0, cylinders = 0;  ///< copies not counted
+  std::vector<std::filesystem::path> files;               ///< all files, the scene last
+  std::size_t triangles = 0, spheres = 0, cylinders = 0;  ///< numbers without copies
 };
 
-/// <name>.xml or <name>.pbrt, and <name>_1.ply and so on; all or none. Throws RequestError where the scene shows
-/// nothing, OutputError.
+/// Writes <name>.xml or <name>.pbrt, and <name>_1.ply and so on, all or none. Throws RequestError if the scene shows
+/// nothing, and OutputError.
 SceneReport write_scene(const Scene& scene, const SceneTarget& target);
 
-/// In the order in which colours occur; those that are alike in sRGB of 8 bits a channel are one, that which it is
-/// there. The colour of a triangle is that of its corners, which is one.
+/// Splits a mesh into meshes of one colour, in the order in which colours occur. Colours are rounded to 8 bits per
+/// channel of sRGB, and colours that then agree are one. All corners of a triangle must have one colour.
 std::vector<SceneMesh> split_colors(const SceneMesh& mesh);
 
 }  // namespace meniscus::path_tracers

@@ -22,16 +22,16 @@ namespace {
 
 constexpr double kPixelShare = 0.1, kFinest = 0.002, kCoarsest = 0.02;  // Å
 constexpr std::size_t kCapFlushBytes = std::size_t{1} << 20;
-constexpr double kStripesBefore = 1e4;  // whole ones, so that all are counted upwards
+constexpr double kStripeOffset = 1e4;  // a whole number of stripes that keeps the argument of mod() positive
 
-/// "texture{...}" of a hatched cap.
+/// Appends the "texture{...}" of a hatched cap. distance: from one stripe to the next, Å.
 void append_hatching(SceneText& out, std::uint32_t color, const ClipPlane& plane, double distance,
                      const glm::dvec3& origin) {
   const glm::dvec3 along = glm::normalize(hatching_direction(plane.normal)) / distance;
   const double phase = glm::dot(origin, along);
   out.literal("#if (Meniscus_Buffer = 0) texture{pigment{function{mod(");
   for (int axis = 0; axis < 3; ++axis) out.full(along[axis]).literal(axis == 0 ? "*x+" : axis == 1 ? "*y+" : "*z+");
-  out.full(phase - std::floor(phase) + kStripesBefore).literal(",1)} pigment_map{");
+  out.full(phase - std::floor(phase) + kStripeOffset).literal(",1)} pigment_map{");
   const auto entry = [&](double place, const char* pigment) {
     out.literal("[").ratio(place).literal(" ").literal(pigment).literal("[").count(color).literal("]]");
   };

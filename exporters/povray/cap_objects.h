@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The objects of a scene as planes cut them, and their caps as flat meshes gathered by plane and colour.
+// Cuts the objects of a scene by planes, and writes their caps as flat meshes grouped by plane and colour.
 #pragma once
 
 #include <cstdint>
@@ -17,38 +17,42 @@
 
 namespace meniscus::povray {
 
-/// Triangles of caps, and their colours.
+/// The triangles of caps and their colours.
 struct Caps {
   CapMesh mesh;
-  std::vector<std::uint32_t> color;  ///< per triangle: number in the scene's colours
+  std::vector<std::uint32_t> color;  ///< per triangle: index into the colours of the scene
 };
 
-/// The caps that cut.planes make, as fine as the picture needs them: to a tenth of a pixel, from 0.002 to 0.02 Å.
-/// Throws as section_caps() does.
+/// Returns the caps that cut.planes make. Their tolerance is a tenth of a pixel, clamped to 0.002 to 0.02 Å. Throws
+/// what section_caps() throws.
 CapMesh make_caps(std::span<const SurfaceObject> objects, const SurfaceCut& cut, const Camera& camera, int width,
                   int height);
 
-/// Adds the colours of caps to the table: opacities are those of the atoms. objects: those that the caps are of.
+/// Returns the caps with their colours, which are added to the table. Opacities are those of the atoms. objects: the
+/// objects that were cut.
 Caps colored_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const CapStyle& style,
                   const ObjectStyle& object_style, ColorTable& table);
 
-/// Writes mesh2 objects with their textures, hatched as CapStyle says. origin: Å, of the scene's coordinates. Throws
-/// Error for a number that is not finite.
+/// Writes caps as mesh2 objects with textures, hatched according to cut.style. origin: the origin of the scene's
+/// coordinates, in Å. Throws Error for a number that is not finite.
 void write_caps(OutputFile& file, const Caps& caps, const SurfaceCut& cut, const glm::dvec3& origin);
 
-/// Keeps what it makes; else it only looks at the objects given, which must outlive it.
+/// The objects of a scene after they were cut by planes, and their caps. It owns the merged object and the caps. It
+/// refers to the given objects, which must outlive it.
 class CutObjects {
  public:
-  /// camera and options: how fine caps have to be. Throws as section_caps() and merged() do.
+  /// camera and options determine the tolerance of the caps (make_caps()). Throws what section_caps() and merged()
+  /// throw.
   CutObjects(std::span<const SurfaceObject> objects, const SurfaceCut& cut, const Camera& camera,
              const SceneOptions& options);
   CutObjects(const CutObjects&) = delete;
   CutObjects& operator=(const CutObjects&) = delete;
 
-  /// All copies as one object where there are planes, for each copy is cut elsewhere, and where they differ.
+  /// Returns one object with all copies merged if there are planes, because each copy is cut in another place, or if
+  /// copies differ (copies_differ()). Returns the given objects otherwise.
   std::span<const SurfaceObject> objects() const { return objects_; }
   bool has_caps() const { return cuts_; }
-  /// CapMesh::atom: into the atoms of the one object.
+  /// Returns the caps, of which CapMesh::atom is an index into the atoms of the merged object.
   const CapMesh& caps() const { return caps_; }
 
  private:

@@ -20,12 +20,13 @@ namespace meniscus::povray {
 namespace {
 
 constexpr std::size_t kFlushBytes = std::size_t{1} << 20;
-constexpr double kLeastShare = 1e-6;  // of a radius: less is its middle
+constexpr double kLeastShare = 1e-6;  // the least scale towards the centre of a sphere, as a share of its radius
 
 bool is_identity(const RigidMotion& motion) {
   return motion.rotation == glm::dmat3(1.0) && motion.translation == glm::dvec3(0.0);
 }
 
+/// Returns the index after the last piece that has the kind and the colour of piece `begin`.
 std::size_t group_end(const std::vector<ColoredPiece>& pieces, std::size_t begin) {
   std::size_t end = begin;
   while (end < pieces.size() && pieces[end].kind == pieces[begin].kind && pieces[end].color == pieces[begin].color)
@@ -39,8 +40,8 @@ void flush(OutputFile& file, SceneText& out, std::size_t limit) {
   out.clear();
 }
 
-/// The outside of a convex patch's sphere is the solvent; that of a torus or a probe is the solid. moved: how the
-/// textures are.
+/// Appends the textures of both sides of a piece. The outside of the sphere of a convex patch is solvent; the outside
+/// of a torus or a probe is solid. moved: the transformation of the textures as scene text.
 void append_textures(SceneText& out, const ColoredPiece& piece, std::string_view moved) {
   const bool convex = piece.kind == PatchKind::convex;
   const auto side = [&](std::string_view property, std::string_view name) {
@@ -59,7 +60,7 @@ void append_textures(SceneText& out, const ColoredPiece& piece, std::string_view
 Geometry::Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, ColorTable& table,
                    ObjectStyle style, std::span<const ClipPlane> clip, std::span<const std::string> names)
     : objects_(objects), origin_(origin), style_(style), clip_(clip), names_(names) {
-  if (!clip_.empty() && declares()) throw Error("POV-Ray export: planes cut a single object in its place");
+  if (!clip_.empty() && declares_objects()) throw Error("POV-Ray export: planes cut a single object in its place");
   for (const SurfaceObject& object : objects)
     palettes_.push_back(make_palette(object.surface, object.coloring, table, style_));
   for (std::size_t n = 0; !clip_.empty() && n < palettes_.size(); ++n) {
@@ -75,20 +76,20 @@ std::size_t Geometry::primitive_count() const {
 }
 
 std::size_t Geometry::primitives_in_memory() const {
-  if (!declares()) return primitive_count();
+  if (!declares_objects()) return primitive_count();
   std::size_t count = 0;
   for (std::size_t n = 0; n < objects_.size(); ++n)
     count += palettes_[n].pieces.size() * (1 + objects_[n].copies.size());
   return count;
 }
 
-bool Geometry::declares() const {
+bool Geometry::declares_objects() const {
   if (objects_.empty()) return false;
   return objects_.size() > 1 || objects_[0].copies.size() != 1 || !is_identity(objects_[0].copies[0]);
 }
 
 bool Geometry::is_one_item() const {
-  if (!declares()) return !objects_.empty() && item_count(0) == 1;
+  if (!declares_objects()) return !objects_.empty() && item_count(0) == 1;
   std::size_t copies = 0;
   for (std::size_t n = 0; n < objects_.size(); ++n)
     copies += palettes_[n].pieces.empty() ? 0 : objects_[n].copies.size();
@@ -100,7 +101,7 @@ std::size_t Geometry::item_count(std::size_t object) const {
   std::size_t count = 0;
   for (std::size_t begin = 0; begin < pieces.size();) {
     const std::size_t end = group_end(pieces, begin);
-    count += has_own_way(object, pieces[begin]) ? end - begin : 1;
+    count += has_offset_textures(object, pieces[begin]) ? end - begin : 1;
     begin = end;
   }
   return count;
@@ -111,7 +112,7 @@ void Geometry::write_pieces(OutputFile& file, SceneText& out, std::size_t object
   const PatchObjects primitives(objects_[object].surface, palettes_[object], origin_, clip_);
   for (std::size_t begin = 0; begin < pieces.size();) {
     const std::size_t end = group_end(pieces, begin);
-    if (has_own_way(object, pieces[begin])) {
+    if (has_offset_textures(object, pieces[begin])) {
       for (; begin < end; ++begin) {
         out.literal("object{\n");
         append_comment(out, object, pieces[begin]);
@@ -148,13 +149,13 @@ void Geometry::append_comment(SceneText& out, std::size_t object, const ColoredP
   out.literal(piece_comment(piece.kind, atoms, names_));
 }
 
-bool Geometry::has_own_way(std::size_t object, const ColoredPiece& piece) const {
+bool Geometry::has_offset_textures(std::size_t object, const ColoredPiece& piece) const {
   const Coloring& coloring = objects_[object].coloring;
   return coloring.volume && coloring.volume->offset != 0.0 && piece.by_map;
 }
 
-// A point that is moved along the normal of a sphere is moved towards the middle or away from it, in proportion; one of
-// a torus towards the middle of its tube.
+// Moving all points of a sphere along their normals scales the sphere about its centre. Moving a point of a torus along
+// its normal moves it towards the centre line of the tube or away from it.
 void Geometry::append_offset_textures(SceneText& out, std::size_t object, const ColoredPiece& piece) const {
   const Surface& surface = objects_[object].surface;
   const double offset = objects_[object].coloring.volume->offset;
@@ -191,7 +192,8 @@ void Geometry::append_offset_textures(SceneText& out, std::size_t object, const 
   out.literal("}\n");
 }
 
-// POV-Ray multiplies rows: the first three are the images of the axes. Scene coordinates are relative to the origin.
+// POV-Ray multiplies row vectors by matrices: the first three rows are the images of the axes. Scene coordinates are
+// relative to the origin.
 void Geometry::append_copy(SceneText& out, std::size_t object, const RigidMotion& motion) const {
   out.literal("object{object_").count(object + 1);
   if (!is_identity(motion)) {
@@ -214,11 +216,11 @@ void Geometry::write(OutputFile& file, std::string_view head) const {
   for (std::size_t n = 0; n < objects_.size(); ++n) {
     if (palettes_[n].pieces.empty()) continue;
     const bool several = item_count(n) > 1;
-    if (declares()) out.literal("#local object_").count(n + 1).literal(several ? " =\nunion{\n" : " =\n");
+    if (declares_objects()) out.literal("#local object_").count(n + 1).literal(several ? " =\nunion{\n" : " =\n");
     write_pieces(file, out, n);
-    if (declares() && several) out.literal("}\n");
+    if (declares_objects() && several) out.literal("}\n");
   }
-  for (std::size_t n = 0; declares() && n < objects_.size(); ++n) {
+  for (std::size_t n = 0; declares_objects() && n < objects_.size(); ++n) {
     if (palettes_[n].pieces.empty()) continue;
     for (const RigidMotion& copy : objects_[n].copies) append_copy(out, n, copy);
   }

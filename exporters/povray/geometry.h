@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The geometry of a scene: each surface as a union of its pieces, and where its copies are.
+// The geometry of a scene: each surface as a union of its pieces, and the places of its copies.
 #pragma once
 
 #include <cstddef>
@@ -19,52 +19,57 @@
 
 namespace meniscus::povray {
 
-/// Looks at objects and planes that must outlive it. Pieces of hidden atoms are left out.
+/// The geometry of a scene: objects with their pieces, and caps. It refers to objects and planes, which must outlive
+/// it. Pieces of hidden atoms are left out.
 class Geometry {
  public:
-  /// origin: Å, of the scene's coordinates. table: gets the colours, in the order of their numbers.
-  /// clip: of the surface, as the first copy is; only of a single object that is not copied. names: nothing, or of
-  /// the atoms that SurfaceObject::atom counts, for a comment on each piece; they must outlive it, too.
+  /// Adds the colours of all pieces to `table`. origin: the origin of the scene's coordinates, in Å. clip: the planes
+  /// that cut the surface; they are allowed only for a single object that is neither copied nor moved, and Error is
+  /// thrown otherwise. names: empty, or the names of the atoms that SurfaceObject::atom refers to, for a comment on
+  /// each piece; they must outlive this object.
   Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, ColorTable& table, ObjectStyle style = {},
            std::span<const ClipPlane> clip = {}, std::span<const std::string> names = {});
 
-  /// Adds caps, made of these objects or of those that they were merged of, and their colours to the table.
+  /// Adds caps to the geometry, and their colours to the table. objects: the objects that were cut.
   void add_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const SurfaceCut& cut, ColorTable& table);
-  /// Writes the caps, of which there may be none.
+  /// Writes the caps, if there are any.
   void write_caps(OutputFile& file, const SurfaceCut& cut) const;
 
-  /// Primitives written.
+  /// Returns the number of primitives that write() writes.
   std::size_t primitive_count() const;
-  /// Primitives that POV-Ray keeps: its copies of a union share nothing, and a declared union is one more.
+  /// Returns the number of primitives that POV-Ray keeps in memory: copies of a union share nothing there, and a
+  /// declared union counts once more.
   std::size_t primitives_in_memory() const;
-  /// True when the text of write() is a single item, which a POV-Ray union does not like to hold.
+  /// True if the text of write() is a single item. POV-Ray warns about a union of a single item.
   bool is_one_item() const;
 
-  /// Pieces or, when anything is copied, moved or divided into objects, `#local object_N = union {...}` for each
-  /// object that shows something and then `object { object_N matrix <...> }` for each copy.
-  /// head: scene text after the comments at the top.
+  /// Writes the pieces. If declares_objects() is true, it writes `#local object_N = union {...}` for each object that
+  /// shows something and then `object { object_N matrix <...> }` for each copy. head: scene text after the comments at
+  /// the top.
   void write(OutputFile& file, std::string_view head = {}) const;
 
-  /// Are there names of objects to tell?
-  bool declares() const;
+  /// True if objects are declared under names: there are several, or one is copied or moved.
+  bool declares_objects() const;
 
+  /// Returns the JSON text that maps object names of the scene to names of the molecule:
   /// {"objects": [{"object": "object_1", "name": ..., "primitives": ..., "copies": ...}], "colors": ...}
   std::string names_json(const std::optional<ColorKey>& colors) const;
 
  private:
   std::size_t item_count(std::size_t object) const;
   void write_pieces(OutputFile& file, SceneText& out, std::size_t object) const;
-  /// What the piece is and whose, if names were given.
+  /// Appends a comment with the kind and the atoms of a piece, if names were given.
   void append_comment(SceneText& out, std::size_t object, const ColoredPiece& piece) const;
-  /// The map is sampled beside the surface, so that each patch has its own way to it.
-  bool has_own_way(std::size_t object, const ColoredPiece& piece) const;
+  /// True if the volume map is sampled at an offset from the surface. Each patch then has a texture of its own that
+  /// moves its points to where the map is sampled.
+  bool has_offset_textures(std::size_t object, const ColoredPiece& piece) const;
   void append_offset_textures(SceneText& out, std::size_t object, const ColoredPiece& piece) const;
   void append_copy(SceneText& out, std::size_t object, const RigidMotion& motion) const;
 
   std::span<const SurfaceObject> objects_;
   glm::dvec3 origin_;
   ObjectStyle style_;
-  std::vector<Palette> palettes_;  ///< one an object
+  std::vector<Palette> palettes_;  ///< one per object
   std::span<const ClipPlane> clip_;
   std::span<const std::string> names_;
   Caps caps_;

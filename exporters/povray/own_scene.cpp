@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the names that a scene declares, and writes the include that takes them back.
+// Finds the names that a scene declares, and writes the include that undefines them.
 #include "exporters/povray/own_scene.h"
 
 #include <algorithm>
@@ -16,26 +16,26 @@ namespace {
 
 using Names = std::set<std::string_view>;
 
-/// What stands for an own scene itself, and what is meant to stay.
-bool stays(std::string_view name) {
+/// True for the names that the include is meant to declare, and for the one that marks a scene of the user's own.
+bool is_kept(std::string_view name) {
   return name == "Meniscus_Own_Scene" || name == "Meniscus_Surface" || name == "Meniscus_Shapes" ||
          name.starts_with("Meniscus_Object_");
 }
 
-/// The names behind each of these words.
+/// Adds the identifiers that follow each occurrence of `word` in `text`.
 void add_names(std::string_view text, std::string_view word, Names& names) {
   constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_0123456789";
   for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at)) {
     at += word.size();
     const std::string_view name = text.substr(at, text.find_first_not_of(kLetters, at) - at);
-    if (!stays(name)) names.insert(name);
+    if (!is_kept(name)) names.insert(name);
   }
 }
 
 }  // namespace
 
 std::string own_scene_text(std::string_view name, std::span<const std::string_view> texts, bool maps) {
-  const std::string colors = colors_text({}, {});  // of a run each frame may have its own
+  const std::string colors = colors_text({}, {});  // each frame of a run may have its own list of colours
   std::vector<std::string_view> all(texts.begin(), texts.end());
   all.insert(all.end(),
              {colors, template_text(povray_templates(), "caps.inc"), template_text(povray_templates(), "shapes.inc")});
@@ -55,8 +55,9 @@ std::string own_scene_text(std::string_view name, std::span<const std::string_vi
   out.literal(
       "// Each name of the list below may be declared before, and stays as you declared it. All other names are\n");
   out.literal("// taken back at the end: include the file again with other settings, or another surface.\n");
-  const auto line = [&](std::string_view test, std::string_view asked, std::string_view then, std::string_view of) {
-    out.literal(test).literal(asked).literal(of).literal(")").literal(then).literal(of);
+  const auto line = [&](std::string_view test, std::string_view prefix, std::string_view directive,
+                        std::string_view symbol) {
+    out.literal(test).literal(prefix).literal(symbol).literal(")").literal(directive).literal(symbol);
   };
   for (const std::string_view setting : settings) {
     line("#ifdef (", "", " #local Keeps_", setting);

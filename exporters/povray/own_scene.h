@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The include file that brings a surface into somebody's own scene.
+// The include file that declares a surface in a scene that the user wrote.
 #pragma once
 
 #include <span>
@@ -8,10 +8,11 @@
 
 namespace meniscus::povray {
 
-/// <name>.inc: declares Meniscus_Surface, Meniscus_Shapes and Meniscus_Object_1, ..., as far as the scene has them, and
-/// places nothing. What was declared before stays; all other names are taken back. name: of <name>.pov, which it
-/// includes. texts: that file, and those which it includes, as far as their names are their own. maps: of a run each
-/// frame may bring a volume map.
+/// Returns the text of <name>.inc, which includes <name>.pov. It declares those of Meniscus_Surface, Meniscus_Shapes,
+/// Meniscus_Object_1, ... that the scene has, and places nothing. Names that were declared before it stay as they were;
+/// all other names are undefined at its end. texts: the text of <name>.pov and of the files it includes, except the
+/// templates for caps, shapes and maps and the lists of colours, which are always searched for names. maps: true if
+/// each frame of a run may have a volume map.
 std::string own_scene_text(std::string_view name, std::span<const std::string_view> texts, bool maps = false);
 
 }  // namespace meniscus::povray

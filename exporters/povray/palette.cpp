@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gathers equal colours and splits patches between atoms of different colours.
+// Collects equal colours, and splits patches between atoms of different colours.
 #include "exporters/povray/palette.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ Palette make_palette(const Surface& surface, const Coloring& coloring, ColorTabl
   if (coloring.atom.size() != surface.atoms.size())
     throw Error("POV-Ray export: the coloring does not have one colour for each atom");
   Palette palette;
-  // Coloured by kind, patches are parted where opacities differ alone.
+  // If patches are coloured by kind, they are split only where opacities differ.
   std::vector<float> opacities;
   const auto opacity_number = [&](float opacity) {
     const auto known = std::ranges::find(opacities, opacity);

@@ -15,16 +15,17 @@
 namespace meniscus::povray {
 namespace {
 
-// Boxes are this much wider than exact, more than the rounding of any number written.
+// The margin of boxes in Å, which is more than the rounding of any written number.
 constexpr double kBoxMargin = 1e-5;
 
-// The half-space of points whose direction from `probe` is nearer to the contact direction `near` than to `far`.
+// Returns the half-space of points whose direction from `probe` is nearer to the contact direction `near` than to
+// `far`. The directions have unit length.
 Plane nearer_to(const glm::dvec3& near, const glm::dvec3& far, const glm::dvec3& probe) {
   const glm::dvec3 normal = glm::normalize(far - near);
   return {normal, glm::dot(normal, probe)};
 }
 
-/// How far a box reaches along a direction, from and to.
+/// Returns the least and the greatest height of a box along the unit vector `normal`.
 std::pair<double, double> heights(const Box& box, const glm::dvec3& normal) {
   const double middle = glm::dot(normal, 0.5 * (box.low + box.high));
   const double half = glm::dot(glm::abs(normal), 0.5 * (box.high - box.low));
@@ -96,7 +97,7 @@ void PatchObjects::toroidal(SceneText& out, const ToroidalPatch& patch, std::uin
                             std::string_view cuts) const {
   const double p = surface_.probe_radius;
   out.literal("torus{").length(patch.radius).literal(",").length(p).literal(" matrix<");
-  // Local y is the axis; the matrix is before clipped_by, so the clips stay in world space.
+  // The local y axis is the axis of the torus. The matrix precedes clipped_by, so the clips stay in scene coordinates.
   for (const glm::dvec3& row : {patch.start, patch.axis, glm::cross(patch.start, patch.axis)})
     out.ratio(row.x).literal(",").ratio(row.y).literal(",").ratio(row.z).literal(",");
   const glm::dvec3 center = patch.center - origin_;
@@ -106,7 +107,7 @@ void PatchObjects::toroidal(SceneText& out, const ToroidalPatch& patch, std::uin
   if (surface_.spindle(patch)) {
     const double lemon = std::sqrt((p - patch.radius) * (p + patch.radius));
     out.literal("sphere{").point(center).literal(",").length(lemon).literal(" inverse}");
-    // The two pieces lie on either side of the plane of the circle.
+    // The two pieces of a spindle lie on opposite sides of the plane of the circle.
     const double height = glm::dot(patch.axis, patch.center);
     if (!patch.has_piece[0]) plane(out, {-patch.axis, -height}, patch.center);
     if (!patch.has_piece[1]) plane(out, {patch.axis, height}, patch.center);
@@ -118,8 +119,8 @@ void PatchObjects::toroidal(SceneText& out, const ToroidalPatch& patch, std::uin
   out.literal("}}");
 }
 
-// The centre is where the bisector of the angle at the probe meets the line of the atoms, so both contact points are
-// equally far from it; the sphere meets the torus in the two contact circles and nowhere else.
+// The centre of the visibility sphere is where the bisector of the angle at the probe meets the line through the atoms,
+// so both contact points are equally far from it. The sphere meets the torus in the two contact circles only.
 void PatchObjects::visibility_sphere(SceneText& out, const ToroidalPatch& patch) const {
   const double p = surface_.probe_radius;
   const Ball &a = surface_.atoms[patch.atom[0]], &b = surface_.atoms[patch.atom[1]];
@@ -141,7 +142,7 @@ void PatchObjects::wedge(SceneText& out, const ToroidalPatch& patch) const {
   if (reflex) out.literal("}");
 }
 
-// On a saddle the points as near to one contact direction as to the other form a circle about the axis.
+// The points of a saddle that are equally near to both contact directions form a circle about the axis.
 void PatchObjects::part_half(SceneText& out, const ToroidalPatch& patch, std::uint32_t part) const {
   const bool of_first = palette_.atom_part[patch.atom[0]] == part;
   if (of_first == (palette_.atom_part[patch.atom[1]] == part)) return;
@@ -165,7 +166,7 @@ void PatchObjects::concave(SceneText& out, const ConcavePatch& patch, std::uint3
   out.literal("}}");
 }
 
-// A point belongs to the part when one contact of that part is nearer than every contact of others.
+// A point belongs to the part if one contact of that part is nearer than all contacts of other parts.
 void PatchObjects::part_cells(SceneText& out, const ConcavePatch& patch, std::uint32_t part) const {
   std::vector<glm::dvec3> own, other;
   for (std::uint32_t n = 0; n < patch.contact_count; ++n) {
@@ -185,7 +186,8 @@ void PatchObjects::part_cells(SceneText& out, const ConcavePatch& patch, std::ui
 
 namespace {
 
-// Extremes this far outside of an arc or a plane are still taken in: the box may be too large, never too small.
+// Extreme points this far outside of an arc or a plane are still included: the box may be too large, but never too
+// small.
 constexpr double kGenerous = 1e-9;
 
 void include_face(Box& box, const Surface& surface, const Face& face) {
@@ -205,7 +207,7 @@ Box arc_extent(const Border& b) {
   box.include(arc_point(b, 0.0));
   box.include(arc_point(b, b.sweep));
   for (int k = 0; k < 3; ++k) {
-    const double turn = std::atan2(side[k], b.start[k]);  // the coordinate is largest here, least half a turn on
+    const double turn = std::atan2(side[k], b.start[k]);  // the greatest coordinate; the least is half a turn later
     for (const double t : {turn, turn + std::numbers::pi}) {
       const double from_start = t < -kGenerous ? t + 2.0 * std::numbers::pi : t;
       if (from_start <= b.sweep + kGenerous) box.include(arc_point(b, from_start));

@@ -17,25 +17,26 @@
 
 namespace meniscus::povray {
 
-/// Writes patches relative to `origin`. What is inside all clips is exactly the patch (theorem 1):
+/// Writes patches relative to `origin` as primitives cut by clips. The part inside all clips is exactly the patch
+/// (theorem 1):
 ///  convex    sphere within its planes;
 ///  toroidal  torus within the visibility sphere (through both contact circles, centred on the axis; it keeps the side
 ///            that faces the axis), the wedge of the arc, and outside of the lemon where a spindle crosses its axis;
 ///  concave   sphere of the probe within its side planes and the bisectors towards other probes.
-/// Curved patches end with their exact box, which POV-Ray needs for its bounding hierarchy only.
-/// clip: of the whole surface; patches that a plane goes through are within it as well.
-/// The result keeps references to its arguments.
+/// Toroidal and concave patches end with their exact box, which POV-Ray needs for its bounding hierarchy only.
+/// clip: planes that cut the whole surface; patches that a plane intersects are clipped by it as well.
+/// The object keeps references to the arguments of its constructor.
 class PatchObjects {
  public:
   PatchObjects(const Surface& surface, const Palette& palette, const glm::dvec3& origin,
                std::span<const ClipPlane> clip = {})
       : surface_(surface), palette_(palette), origin_(origin), clip_(clip) {}
 
-  /// Whether the planes cut all of the patch away.
+  /// True if the planes cut away the whole patch.
   bool is_cut_away(const ColoredPiece& piece) const;
 
-  /// One line: the primitive of the piece, with a cut towards other parts of the same patch, of other colours or
-  /// hidden.
+  /// Appends one line with the primitive of the piece. The primitive is also cut off from the other parts of its patch,
+  /// which have other colours or are hidden.
   void append(SceneText& out, const ColoredPiece& piece) const;
 
  private:
@@ -49,7 +50,7 @@ class PatchObjects {
   void box(SceneText& out, const glm::dvec3& low, const glm::dvec3& high) const;
   void plane(SceneText& out, const Plane& plane, const glm::dvec3& anchor) const;
   Box extent(const ColoredPiece& piece) const;
-  /// The planes that go through the box of the piece.
+  /// Appends the planes of `clip_` that intersect the box of the piece.
   void cuts(SceneText& out, const ColoredPiece& piece) const;
 
   const Surface& surface_;
@@ -58,14 +59,16 @@ class PatchObjects {
   std::span<const ClipPlane> clip_;
 };
 
-/// The box of one border arc: its ends and the points where a coordinate turns.
+/// Returns the box of one border arc, from its ends and the points where a coordinate is extreme.
 Box arc_extent(const Border& border);
 
-/// A saddle has no extreme point inside (its Gaussian curvature is negative), so its box is that of its borders and,
-/// for a free spindle, of the cusp points on the axis. The patch needs face_count > 0.
+/// Returns the box of a toroidal patch. A saddle has no extreme point inside because its Gaussian curvature is
+/// negative, so the box is that of the borders and, for a free spindle, of the cusp points on the axis. Requires
+/// face_count > 0.
 Box toroidal_extent(const Surface& surface, const ToroidalPatch& patch);
 
-/// The box of the borders and of those poles of the probe that lie inside all planes. The patch needs face_count > 0.
+/// Returns the box of a concave patch, from its borders and the extreme points of the probe along the coordinate axes
+/// that lie inside all planes. Requires face_count > 0.
 Box concave_extent(const Surface& surface, const ConcavePatch& patch);
 
 }  // namespace meniscus::povray

@@ -27,7 +27,7 @@ void include_shapes(const ColoredShapes& shapes, Box& extent) {
   }
 }
 
-/// Of all that is shown.
+/// Returns the box of everything that the scene shows.
 Box scene_extent(std::span<const SurfaceObject> objects, const SceneOptions& options) {
   Box extent = atom_extent(objects);
   if (options.shapes) include_shapes(*options.shapes, extent);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gathers the colours of all that a picture shows, in one order, and writes it file by file.
+// Collects the colours of everything that a picture shows, in one order, and writes it file by file.
 #include "exporters/povray/scene_content.h"
 
 #include <fmt/format.h>

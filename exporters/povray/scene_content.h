@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one picture of a scene shows, ready for its includes: the surface, shapes beside it, and further objects.
+// The content of one picture of a scene, prepared for its include files: the surface, shapes, and further objects.
 #pragma once
 
 #include <cstddef>
@@ -25,47 +25,50 @@
 
 namespace meniscus::povray {
 
-/// What a picture shows. All must stay until it is written.
+/// The things that a picture shows. All of them must live until the picture is written.
 struct Shown {
-  std::span<const SurfaceObject> surface;  ///< none: it is not shown
-  SurfaceCut cut;                          ///< of the surface
-  const ColoredShapes* shapes = nullptr;   ///< beside it
-  std::span<const SceneObject> objects;    ///< likewise
-  std::span<const std::string> names;      ///< of atoms (SceneOptions::atom_names)
-  std::optional<bool> film = {};           ///< of the surface; nothing: as SceneOptions::film
+  std::span<const SurfaceObject> surface;  ///< the objects of the surface; empty if it is not shown
+  SurfaceCut cut;                          ///< planes that cut the surface
+  const ColoredShapes* shapes = nullptr;   ///< shapes in addition to the surface; may be nullptr
+  std::span<const SceneObject> objects;    ///< further objects in addition to the surface
+  std::span<const std::string> names;      ///< names of atoms (SceneOptions::atom_names)
+  std::optional<bool> film = {};           ///< SceneOptions::film for the surface; empty: that of the options
 };
 
-/// The materials of objects, in the order of SceneColor::finish.
+/// Returns the materials of objects, in the order of SceneColor::finish.
 std::vector<MaterialRequest> materials_of(std::span<const SceneObject> objects);
 
+/// The geometry of everything that one picture shows. It refers to the arguments of its constructor, which must outlive
+/// it.
 class SceneContent {
  public:
-  /// origin: Å, of the scene's coordinates. table: gets the colours behind those that it has. All must outlive it.
-  /// Throws as section_caps() and merged() do.
+  /// Adds all colours to `table`, after those that it has. origin: the origin of the scene's coordinates, in Å. Throws
+  /// what section_caps() and merged() throw.
   SceneContent(const Shown& shown, const Camera& camera, const SceneOptions& options, const glm::dvec3& origin,
                ColorTable& table);
   SceneContent(const SceneContent&) = delete;
   SceneContent& operator=(const SceneContent&) = delete;
 
-  /// Of the surface.
+  /// Returns the geometry of the surface.
   const Geometry& geometry() const { return geometry_; }
   std::span<const SurfaceObject> objects() const { return cut_.objects(); }
   bool has_caps() const { return cut_.has_caps(); }
   bool has_shapes() const { return shown_.shapes && !shown_.shapes->empty(); }
-  /// Of the colours that are by one; nullptr: none is.
+  /// Returns the volume map that colours points, or nullptr if there is none.
   const VolumePaint* map() const;
-  /// Of further objects.
+  /// Returns a description of each further object, in order.
   std::vector<ObjectPart> parts() const;
-  /// Patches, of further objects too.
+  /// Returns the number of primitives of the surface and of all further objects.
   std::size_t primitive_count() const;
 
-  /// Makes the file for a part, such as "geometry", "caps", "shapes" or "object_1".
+  /// A function that creates the file for a part, such as "geometry", "caps", "shapes" or "object_1".
   using BeginFile = std::function<OutputFile&(const std::string& part)>;
-  /// Writes those that the scene has an #include for. head: as of Geometry::write.
+  /// Writes the files that the main file includes according to `parts`. head: passed to Geometry::write() of the
+  /// surface.
   void write(const SceneParts& parts, const BeginFile& begin_file, std::string_view head = {}) const;
 
  private:
-  /// A further surface, or shapes.
+  /// A further object, which is a surface or shapes.
   struct Further {
     const SceneObject* object = nullptr;
     ObjectStyle style;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts the text of a scene's files together: settings and camera, style, buffers, .ini.
+// Composes the text of a scene's files: settings and camera, style, buffers, .ini.
 #include "exporters/povray/scene_files.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 std::string_view scene_template(std::string_view path) { return template_text(povray_templates(), path); }
 
-/// What the scene knows of one camera: vectors, and numbers.
+/// The declared values of one camera, in the order of kVectorNames and kSizeNames.
 struct CameraNumbers {
   std::array<glm::dvec3, 4> vectors;
   std::array<double, 2> sizes;
@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 4> kVectorNames{"Meniscus_Right", "Menisc
                                                        "Meniscus_Eye"};
 constexpr std::array<std::string_view, 2> kSizeNames{"Meniscus_Picture_Width", "Meniscus_Picture_Height"};
 
-// POV-Ray takes explicit vectors literally, so the right-handed basis goes in as it is, without a minus sign.
+// POV-Ray takes explicit vectors literally, so the right-handed basis is written unchanged, without a minus sign.
 CameraNumbers camera_numbers(const Camera& camera, double aspect, const glm::dvec3& origin) {
   const ViewBasis basis = view_basis(camera);
   const glm::dvec2 half = half_extent(camera, aspect);
@@ -49,7 +49,8 @@ void append_one_camera(SceneText& out, const CameraNumbers& camera) {
   declare("Meniscus_Orthographic").count(camera.orthographic ? 1 : 0).literal(";\n");
 }
 
-// An array with an element for each frame, and under the name itself the element of the frame that is rendered.
+// Declares the array <name>_List with an element for each frame, and <name> as the element of the frame that is
+// rendered.
 void append_list(SceneText& out, std::string_view name, const auto& of_frames, const auto& append) {
   out.literal("#declare ").literal(name).literal("_List = array[").count(of_frames.size()).literal("] {\n");
   for (std::size_t n = 0; n < of_frames.size(); ++n) {
@@ -105,7 +106,8 @@ void append_camera(SceneText& out, std::span<const Camera> cameras, const SceneO
       "    right Meniscus_Right*Meniscus_Picture_Width\n    up Meniscus_Up*Meniscus_Picture_Height\n  }\n#end\n");
 }
 
-// Which include belongs to a frame of the scene. POV-Ray's own message about a missing file would not name the frame.
+// Declares the frames of the run and the name of each frame's include. The template checks that the include exists,
+// because POV-Ray's own message about a missing file would not name the frame.
 void append_frames(SceneText& out, const SceneOptions& options, const SceneFrames& frames, bool has_surface) {
   out.literal("\n// The frames of the run, by their numbers in the trajectory.\n");
   out.literal("#declare Meniscus_Frame_Count = ").count(frames.numbers.size()).literal(";\n");
@@ -115,7 +117,7 @@ void append_frames(SceneText& out, const SceneOptions& options, const SceneFrame
   out.literal("};\n#declare Meniscus_Palette = ")
       .count(frames.palette)
       .literal(";  // the includes must have the same\n");
-  // What each frame has: without a surface it is colours of its own.
+  // Each frame has a file of geometry or, without a surface, a file of colours.
   out.literal(filled(scene_template("frame.inc"), {{"NAME", options.name},
                                                    {"PART", has_surface ? "geometry" : "colors"},
                                                    {"NAMED", has_surface ? "Geometry" : "Colors"}}));
@@ -125,10 +127,10 @@ std::string colors_of_frame(const SceneOptions& options) {
   return "#include concat(\"" + options.name + "_colors_\", Meniscus_Frame_Name, \".inc\")\n";
 }
 
-/// Of the picture's light in POV-Ray's: with the usual material the scene's finish comes out.
+/// Factors that convert a material of pictures to a finish of POV-Ray. The default material gives the scene's finish.
 constexpr double kHighlight = 1.3, kLeastBrilliance = 0.6, kMostBrilliance = 1.2;
 
-// What an object's material changes of a finish.
+// Appends the macro that changes a finish according to the material of an object.
 void append_materials(SceneText& out, const std::vector<MaterialRequest>& materials) {
   out.literal(
       "#macro Meniscus_Material_Of(N, Covers)\n  #switch (Meniscus_Material = 4 ? 0 : N)\n    #case (0) #break\n");
@@ -148,8 +150,8 @@ void append_materials(SceneText& out, const std::vector<MaterialRequest>& materi
   out.literal("  #end\n#end\n");
 }
 
-/// From each frame to the next, where it is the same for all and leads on: POV-Ray itself goes through such frames
-/// alone.
+/// Returns the step from each frame to the next if it is positive and the same for all frames, because POV-Ray itself
+/// can render only such runs. Returns nothing otherwise.
 std::optional<std::uint64_t> step_of(std::span<const std::uint64_t> frames) {
   const std::uint64_t step = frames.size() > 1 ? frames[1] - frames[0] : 1;
   for (std::size_t n = 1; n < frames.size(); ++n)
@@ -184,9 +186,9 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
   out.literal("#ifndef (Meniscus_Subsurface) #declare Meniscus_Subsurface = 0; #end\n");
   out.literal("#ifndef (Meniscus_Custom_Settings)\nglobal_settings {\n  assumed_gamma 1.0\n");
   out.literal("  #if (Meniscus_Buffer = 4) max_trace_level 256 adc_bailout 0\n");
-  // Rays are kept in by total reflection, and most of what they would still bring is below a grey level.
+  // Total reflection traps rays in glass; the limits cut off contributions most of which are below one grey level.
   out.literal("  #else #if (Meniscus_Material = 2) max_trace_level 30 adc_bailout 1/64 #else max_trace_level ");
-  // Of layers that are seen through, all that show: the ray caster stops at the same share.
+  // All visible translucent layers are traced: the ray caster stops at the same share of 1/1024.
   out.literal(parts.translucent ? "200 adc_bailout 1/1024" : "12").literal(" #end #end\n");
   out.literal("  #if (Meniscus_Subsurface = 1) mm_per_unit 1 subsurface { samples 50, 20 } #end\n}\n#end\n");
   if (frames) append_frames(out, options, *frames, parts.surface);
@@ -280,7 +282,7 @@ std::string render_command(const SceneOptions& options, std::span<const std::uin
 std::string buffer_text(const std::vector<SceneColor>* colors, const SceneOptions& options, const Box& e,
                         const glm::dvec3& origin) {
   const glm::dvec3 size = e.high - e.low;
-  // One cube for all axes, wide enough that no gradient reaches its own end.
+  // A cube is used for all axes. It is so wide that no gradient reaches its end.
   const double extent = std::ceil(std::max({size.x, size.y, size.z}) + 1.0);
   SceneText out;
   out.literal("// The surface as numbers instead of colours.\n#declare Meniscus_Low = ");
@@ -312,7 +314,7 @@ std::string ini_text(const SceneOptions& options, std::span<const std::uint64_t>
       out.literal("; POV-Ray's steps are even, so that all frames of this run are rendered by ")
           .literal(render_command(options, frames))
           .literal("\n");
-    // The final frame says how many digits the number of a picture has, the subset which frames there are.
+    // The final frame sets the number of digits in names of pictures; the subset sets the frames that are rendered.
     const auto [first, last] = std::ranges::minmax(frames);
     std::uint64_t final_frame = 99'999;
     while (final_frame < last) final_frame = final_frame * 10 + 9;
@@ -320,7 +322,7 @@ std::string ini_text(const SceneOptions& options, std::span<const std::uint64_t>
     out.literal("\nSubset_Start_Frame=").count(first).literal("\nSubset_End_Frame=").count(last);
     out.literal("\nFrame_Step=").count(step_of(frames).value_or(1)).literal("\n");
   }
-  // POV-Ray writes the number of the frame after the name.
+  // POV-Ray appends the number of the frame to the name.
   out.literal(filled(scene_template("settings.ini"), {{"NAME", options.name}, {"PICTURE", frames.empty() ? "" : "_"}}));
   if (!frames.empty())
     out.literal(filled(scene_template("film.ini"), {{"NAME", options.name}, {"COUNT", std::to_string(frames.size())}}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The text of a scene's files but for the geometry: for one surface, or for a run of frames.
+// The text of a scene's files except the geometry, for one surface or for a run of frames.
 #pragma once
 
 #include <array>
@@ -19,56 +19,57 @@
 
 namespace meniscus::povray {
 
-/// What a frame has of its own, beside its camera.
+/// The look of one frame, in addition to its camera.
 struct FrameLook {
-  glm::vec3 background{1.0f};  ///< these three as in SceneOptions
-  float shadows = 0.0f;
-  float shadow_softness = 0.0f;
+  glm::vec3 background{1.0f};    ///< SceneOptions::background
+  float shadows = 0.0f;          ///< SceneOptions::shadows
+  float shadow_softness = 0.0f;  ///< SceneOptions::shadow_softness
 };
 
-/// What a scene of several frames knows of them.
+/// The frames of a scene.
 struct SceneFrames {
-  std::vector<std::uint64_t> numbers;  ///< of the trajectory, in the order of the scene
-  std::uint32_t palette = 0;           ///< tells colours and origin from those of other runs
-  std::span<const FrameLook> looks;    ///< one a frame; none: all are as the options say
+  std::vector<std::uint64_t> numbers;  ///< frame numbers of the trajectory, in the order of the scene
+  std::uint32_t palette = 0;           ///< checksum that distinguishes colours and origin from those of other runs
+  std::span<const FrameLook> looks;    ///< one per frame; empty if all frames have the look of the options
 };
 
-/// What the main file has to know of the file of one more object.
+/// The properties of the file of one further object that the main file needs.
 struct ObjectPart {
-  bool is_surface = false;  ///< patches, which share an interior, else shapes
-  bool single = false;      ///< of a surface: it is one item
+  bool is_surface = false;  ///< true for patches, which share an interior; false for shapes
+  bool single = false;      ///< true if the geometry of a surface is one item
 };
 
-/// What the main file has to know of the others.
+/// The properties of the other files that the main file needs.
 struct SceneParts {
-  bool surface = true;       ///< there is geometry of the surface
-  bool single = false;       ///< the geometry is one item
-  bool caps = false;         ///< there is a file of them, or one a frame
-  bool shapes = false;       ///< likewise
-  bool translucent = false;  ///< some colour is
+  bool surface = true;       ///< true if there is geometry of the surface
+  bool single = false;       ///< true if that geometry is one item
+  bool caps = false;         ///< true if there is a file of caps, or one per frame
+  bool shapes = false;       ///< true if there is a file of shapes, or one per frame
+  bool translucent = false;  ///< true if the opacity of some colour is less than 1
   std::vector<ObjectPart> objects = {};
 };
 
-/// What the style is made of.
+/// The content of the style file.
 struct SceneStyle {
-  const std::vector<SceneColor>* colors = nullptr;  ///< nothing: each frame has a file of its own
-  const VolumePaint* map = nullptr;                 ///< of the colours that are by one
+  const std::vector<SceneColor>* colors = nullptr;  ///< nullptr: each frame has a file with colours of its own
+  const VolumePaint* map = nullptr;                 ///< the map of colours with SceneColor::by_map, or nullptr
   std::vector<MaterialRequest> materials = {};      ///< of objects: SceneColor::finish n is the n-th, from 1
 };
 
-/// <name>.pov. cameras: one, or one a frame. frames: nothing for a single surface.
+/// Returns the text of <name>.pov. cameras: one, or one per frame. frames: nullptr for a single surface.
 std::string main_text(std::span<const Camera> cameras, const SceneOptions& options, const glm::dvec3& origin,
                       const SceneParts& parts, const SceneFrames* frames = nullptr);
-/// <name>_style.inc. origin: Å, of the scene's coordinates.
+/// Returns the text of <name>_style.inc. origin: the origin of the scene's coordinates, in Å.
 std::string style_text(const SceneStyle& style, const SceneOptions& options, const glm::dvec3& origin);
-/// Of <name>_style.inc, or <name>_colors_#####.inc: lists with an entry for each colour.
+/// Returns lists with an entry for each colour, for <name>_style.inc or <name>_colors_#####.inc. meaning: the key whose
+/// names become comments.
 std::string colors_text(const std::vector<SceneColor>& colors, const std::optional<ColorKey>& meaning);
-/// <name>_aov.inc. colors: as of the style.
+/// Returns the text of <name>_aov.inc. colors: SceneStyle::colors. e: the box of everything shown, in Å.
 std::string buffer_text(const std::vector<SceneColor>* colors, const SceneOptions& options, const Box& e,
                         const glm::dvec3& origin);
-/// <name>.ini. frames: of the run; none for a single surface.
+/// Returns the text of <name>.ini. frames: the frame numbers of the run; empty for a single surface.
 std::string ini_text(const SceneOptions& options, std::span<const std::uint64_t> frames = {});
-/// What renders all frames, as a line of a POSIX shell in the folder of the scene.
+/// Returns the command that renders all frames, for a POSIX shell in the folder of the scene.
 std::string render_command(const SceneOptions& options, std::span<const std::uint64_t> frames);
 
 }  // namespace meniscus::povray

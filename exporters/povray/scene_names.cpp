@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks names letter by letter, and writes the harmless ones as comments.
+// Checks names character by character, and writes the harmless ones as comments.
 #include "exporters/povray/scene_names.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ constexpr std::size_t kLongestName = 40, kMostNames = 5;
 
 bool is_letter_or_digit(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); }
 
-bool may_stand(char c) {
+bool is_allowed(char c) {
   return is_letter_or_digit(c) || std::string_view(" _'*+-.,()").find(c) != std::string_view::npos;
 }
 
@@ -31,7 +31,7 @@ std::string_view kind_name(PatchKind kind) {
 
 std::string_view harmless_name(std::string_view name) {
   const bool harmless = !name.empty() && name.size() <= kLongestName && name.front() != ' ' && name.back() != ' ' &&
-                        std::ranges::all_of(name, may_stand) && std::ranges::any_of(name, is_letter_or_digit);
+                        std::ranges::all_of(name, is_allowed) && std::ranges::any_of(name, is_letter_or_digit);
   return harmless ? name : std::string_view{};
 }
 

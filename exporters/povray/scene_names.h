@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of molecules as comments of a scene, restricted to those that can do nothing there.
+// Writes names of molecules as comments of a scene, restricted to characters that have no effect there.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,17 @@
 
 namespace meniscus::povray {
 
-/// The name, or nothing if it is longer than 40 bytes or holds anything but letters and digits of ASCII, blanks between
-/// them, and _ ' * + - . , ( ) as names of atoms and classes have them: it then is in no scene.
+/// Returns the name if it is harmless, and an empty text otherwise. A harmless name has at most 40 bytes and consists
+/// of ASCII letters and digits, blanks between them, and the characters _ ' * + - . , ( ), which occur in names of
+/// atoms and classes. No other name is ever written into a scene.
 std::string_view harmless_name(std::string_view name);
 
-/// What the key calls a colour, as "  // chain A, C": at most five names. Empty: nothing that may be said.
+/// Returns the names of a colour in the key as a comment, such as "  // chain A, C", with at most five names. The
+/// result is empty if the colour has no harmless name.
 std::string color_comment(const ColorKey& key, const SceneColor& color);
 
-/// A line that tells a piece's kind and the atoms that it belongs to: "// toroidal A ARG 34 CA; A ARG 34 CB". atoms:
-/// into `names`. A name that is not harmless is "?".
+/// Returns a line with the kind of a piece and its atoms: "// toroidal A ARG 34 CA; A ARG 34 CB". atoms: indices into
+/// `names`. A name that is not harmless becomes "?".
 std::string piece_comment(PatchKind kind, std::span<const std::uint32_t> atoms, std::span<const std::string> names);
 
 }  // namespace meniscus::povray

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks what goes into a scene.
+// Checks the objects and options of a scene, and composes notes for its report.
 #include "exporters/povray/scene_report.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ glm::dvec3 middle(const Box& extent) { return glm::round((extent.low + extent.hi
 
 std::vector<std::string> notes(std::span<const SurfaceObject> objects, const Geometry& geometry, const Camera& camera) {
   std::vector<std::string> sentences;
-  // Rays begin on the plane through an orthographic camera, here as in the ray caster.
+  // Rays of an orthographic camera begin on the plane through it, in POV-Ray as in the ray caster.
   const glm::dvec3 forward = view_basis(camera).forward;
   std::size_t behind = 0, cut_away = 0;
   for (const SurfaceObject& object : objects) {
@@ -59,10 +59,10 @@ std::vector<std::string> notes(std::span<const SurfaceObject> objects, const Geo
   if (cut_away > 0)
     sentences.push_back(
         fmt::format("{} fixed probes have no object: other probes cut all of their patch away", cut_away));
-  const std::size_t held = geometry.primitives_in_memory();
-  if (held > kMemoryWarningObjects)
-    sentences.push_back(fmt::format("{} primitives, copies included, need about {} GB of memory in POV-Ray", held,
-                                    held * 18 / 10'000'000));
+  const std::size_t primitives = geometry.primitives_in_memory();
+  if (primitives > kMemoryWarningObjects)
+    sentences.push_back(fmt::format("{} primitives, copies included, need about {} GB of memory in POV-Ray", primitives,
+                                    primitives * 18 / 10'000'000));
   return sentences;
 }
 

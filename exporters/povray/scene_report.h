@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks that scenes of one surface and of a run make before and after they are written: names, extents, notes.
+// Checks for scenes of one surface and of a run, before and after they are written: names, extents, notes.
 #pragma once
 
 #include <span>
@@ -13,16 +13,16 @@
 
 namespace meniscus::povray {
 
-/// Of all atoms and copies.
+/// Returns the box of all atoms in all copies.
 Box atom_extent(std::span<const SurfaceObject> objects);
 
-/// Å, to three decimals.
+/// Returns the centre of a box in Å, rounded to three decimals.
 glm::dvec3 middle(const Box& extent);
 
-/// Throws Error: a name that cannot be in a scene, no pixels, no atom.
+/// Throws Error if the name of the scene is invalid, the picture has no pixels, or an object has no atom.
 void check(std::span<const SurfaceObject> objects, const SceneOptions& options);
 
-/// Sentences: what the picture lacks, what will be slow.
+/// Returns sentences about atoms that are cut off, patches that are left out, and large memory use of POV-Ray.
 std::vector<std::string> notes(std::span<const SurfaceObject> objects, const Geometry& geometry, const Camera& camera);
 
 }  // namespace meniscus::povray

@@ -8,13 +8,19 @@
 
 namespace meniscus {
 
-/// main.pov: what is behind the camera: settings and lights; mark: NAME of the scene. surface.pov: a surface; marks:
-/// GROUP (union or object), GEOMETRY and CAPS (what includes their files). map.inc: after the numbers of a volume map;
-/// mark: FILE. caps.inc: before caps; mark: DARK, the light of hatching. shapes.inc: before shapes. frame.inc: of a
-/// run, from the scene's frame to the file to include, after the list of frames; mark: NAME. style.inc: behind the
-/// colours. buffers.inc: all but the extent of the molecule, which comes before. settings.ini: after the sizes; marks:
-/// NAME, and PICTURE, what pictures of frames have between name and number. film.ini: of a run, behind that; marks:
-/// NAME, COUNT of frames. story.pov, story.ini: of a film (story.h); marks: NAME, WIDTH, HEIGHT, COUNT, RATE.
+/// Returns the templates of scenes, with the marks that are replaced in each:
+///  main.pov      settings and lights, after the camera: NAME of the scene, SHADOWS, SOFTNESS;
+///  surface.pov   a surface: GROUP ("union" or "object"), GEOMETRY and CAPS (#include statements for their files), and
+///                HANDLE, the name it gets in a user's own scene;
+///  map.inc       functions and colours of a volume map: FILE and the numbers that append_map() gives;
+///  caps.inc      definitions before caps: DARK, the light of hatching;
+///  shapes.inc    definitions before shapes;
+///  frame.inc     the choice of a frame's include, after the list of frames of a run: NAME, PART, NAMED;
+///  style.inc     lights and materials, after the colours;
+///  buffers.inc   the buffers, after the extent of the molecule;
+///  settings.ini  settings after the sizes: NAME, and PICTURE, the text between the name and the number of a picture;
+///  film.ini      settings of a run, after settings.ini: NAME, COUNT of frames;
+///  story.pov, story.ini  a film (story.h): NAME, WIDTH, HEIGHT, COUNT, RATE.
 std::span<const TemplateFile> povray_templates();
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes numbers and vectors as POV-Ray reads them.
+// Writes numbers and vectors in the notation of POV-Ray.
 #include "exporters/povray/scene_text.h"
 
 #include <cmath>
@@ -65,7 +65,7 @@ SceneText& SceneText::full_vector(const glm::dvec3& v) {
 }
 
 SceneText& SceneText::plane(const Plane& p, const glm::dvec3& anchor) {
-  // POV-Ray normalizes the normal it reads, so the rounded normal of unit length decides.
+  // POV-Ray normalizes the normal that it reads, so the rounded normal is normalized here, too.
   const double scale = std::pow(10.0, kRatioDecimals);
   glm::dvec3 rounded(std::round(p.normal.x * scale), std::round(p.normal.y * scale), std::round(p.normal.z * scale));
   rounded = glm::normalize(rounded);

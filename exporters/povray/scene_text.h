@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text of the POV-Ray scene language, built from numbers and literals of ours only.
+// Text in the POV-Ray scene language, built from numbers and from literals of this program only.
 #pragma once
 
 #include <string>
@@ -11,24 +11,25 @@
 
 namespace meniscus::povray {
 
-/// Collects scene text. Numbers are written without locale, in fixed notation, with trailing zeros cut.
-/// Throws Error when a number is not finite: a scene never holds nan or inf.
+/// Collects scene text. Numbers are written independently of the locale, in fixed notation, without trailing zeros.
+/// Every member throws Error for a number that is not finite, so that a scene never contains nan or inf.
 class SceneText {
  public:
-  /// A piece of the scene language; of what came from a file nothing but comments of scene_report.h.
+  /// Appends a piece of the scene language. Text from molecule files must not be passed, except as comments made by
+  /// color_comment() and piece_comment().
   SceneText& literal(std::string_view text);
-  /// Å, to 1e-6.
+  /// Appends a length in Å, rounded to 1e-6.
   SceneText& length(double value);
-  /// A component of a unit vector, a colour or a ratio, to 1e-7.
+  /// Appends a component of a unit vector, a colour or a ratio, rounded to 1e-7.
   SceneText& ratio(double value);
-  /// All digits a double has.
+  /// Appends a number with all digits of a double.
   SceneText& full(double value);
   SceneText& count(std::size_t value);
   SceneText& point(const glm::dvec3& p);        ///< <x,y,z> as lengths
   SceneText& direction(const glm::dvec3& d);    ///< <x,y,z> as ratios
   SceneText& full_vector(const glm::dvec3& v);  ///< <x,y,z> with all digits
-  /// `plane{...}` whose inside is dot(normal, x) <= offset. The offset is adapted to the rounded normal so that the
-  /// written plane has its least error near `anchor`, however far that is from the origin.
+  /// Appends `plane{...}` whose inside is dot(normal, x) <= offset. The offset is adapted to the rounded normal, so
+  /// that the error of the written plane is smallest near `anchor`, however far that is from the origin.
   SceneText& plane(const Plane& p, const glm::dvec3& anchor);
 
   const std::string& text() const { return text_; }

@@ -44,7 +44,8 @@ std::uint32_t palette_number(const std::vector<SceneColor>& colors, const glm::d
   return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
 }
 
-// Colours are numbers in the geometry, and a place counts from the origin.
+// Returns a check of the palette for an include file. Geometry depends on the colours, which it refers to by number,
+// and on the origin of coordinates.
 std::string palette_check(std::uint32_t palette) {
   SceneText out;
   out.literal("#ifdef (Meniscus_Palette) #if (Meniscus_Palette != ").count(palette);
@@ -54,7 +55,8 @@ std::string palette_check(std::uint32_t palette) {
   return out.text();
 }
 
-// The geometry must be of the same frame, and both of this run.
+// Returns the file of colours of one frame. Its checks ensure that the file belongs to the run, and that the geometry
+// belongs to the same frame.
 SceneText frame_colors_text(const std::vector<SceneColor>& colors, const SceneOptions& options, std::uint32_t of_run,
                             std::uint32_t of_frame) {
   SceneText out;
@@ -146,7 +148,7 @@ SceneReport SequenceScene::write_frame(std::size_t place, const Shown& shown) co
     return output.file(name);
   };
   const Geometry& geometry = content.geometry();
-  if (geometry.declares()) begin_file("objects", ".json").write(geometry.names_json({}));
+  if (geometry.declares_objects()) begin_file("objects", ".json").write(geometry.names_json({}));
   const std::uint32_t palette = run_.colors ? palette_ : palette_number(table.colors(), origin_);
   if (!run_.colors) {
     SceneText colors = frame_colors_text(table.colors(), options_, palette_, palette);

@@ -22,46 +22,49 @@
 
 namespace meniscus::povray {
 
-/// What all frames of a run share. Every process that makes some of them must be given the same.
+/// The properties that all frames of a run share. Every process that writes some of the frames must use the same run.
 struct Run {
-  std::vector<std::uint64_t> frames;  ///< of the trajectory, each once; POV-Ray's frames have these numbers
-  std::vector<Camera> cameras;        ///< one for all, or one a frame; of one projection
-  /// All that may occur, in the order of the style file; nothing: they change, and each frame has a file of its own.
+  std::vector<std::uint64_t> frames;  ///< frame numbers of the trajectory, each once, which POV-Ray's frames have, too
+  std::vector<Camera> cameras;        ///< one for all frames, or one per frame; all of one projection
+  /// All colours that may occur, in the order of the style file. Empty if colours change from frame to frame; each
+  /// frame then has a file of colours.
   std::optional<std::vector<SceneColor>> colors;
-  Box extent;                                   ///< Å: around all that is shown at all frames
-  bool surface = true;                          ///< shown; else `colors` must be nothing
-  bool shapes = false;                          ///< every frame has a file of those beside the surface
-  bool caps = false;                            ///< the surface is cut by planes in every frame
-  bool translucent = false;                     ///< some colour of some frame may be seen through
-  std::vector<ObjectPart> objects = {};         ///< further ones, of every frame: what each is
-  std::vector<MaterialRequest> materials = {};  ///< theirs (SceneStyle::materials)
-  std::shared_ptr<const VolumePaint> map = {};  ///< of the colours that are by one, the same in all frames
-  bool maps_change = false;                     ///< each frame has a file of its own; then so must colours
-  std::vector<FrameLook> looks = {};            ///< one a frame; none: all are as the options say
+  Box extent;                                   ///< box of everything that is shown in any frame, Å
+  bool surface = true;                          ///< true if the surface is shown; if false, `colors` must be empty
+  bool shapes = false;                          ///< true if every frame has a file of shapes
+  bool caps = false;                            ///< true if planes cut the surface in every frame
+  bool translucent = false;                     ///< true if the opacity of some colour may be less than 1 in some frame
+  std::vector<ObjectPart> objects = {};         ///< the further objects that every frame has
+  std::vector<MaterialRequest> materials = {};  ///< the materials of these objects (SceneStyle::materials)
+  std::shared_ptr<const VolumePaint> map = {};  ///< the volume map that colours points in all frames, or nullptr
+  bool maps_change = false;           ///< true if each frame has a map of its own; `colors` must be empty then
+  std::vector<FrameLook> looks = {};  ///< one per frame; empty if all frames have the look of the options
 };
 
+/// Writes a run of frames as one scene.
 class SequenceScene {
  public:
-  /// options.origin: nothing: the middle of the run's box. Throws Error (no frame, bad name or size, cameras of another
-  /// number).
+  /// If options.origin is empty, the origin is the middle of run.extent. Throws Error if there is no frame, if the name
+  /// or size is invalid, or if the number of cameras is neither 1 nor that of the frames.
   SequenceScene(Run run, SceneOptions options, std::filesystem::path folder);
-  /// The same of a film, whose frames are added one by one, numbered from 1. run: without frames and cameras.
+  /// Selects the constructor for a film, whose frames are added one by one and numbered from 1. Its run has neither
+  /// frames nor cameras.
   struct Film {};
   SequenceScene(Film, Run run, SceneOptions options, std::filesystem::path folder);
-  /// The place of the new frame.
+  /// Adds a frame to a film and returns its place in the run, from 0.
   std::size_t add_frame(const Camera& camera, const FrameLook& look);
 
-  /// Writes <name>.ini, <name>.pov, <name>.inc, <name>_style.inc, <name>_aov.inc, <name>_objects.json (the frames, and
-  /// what the colours mean), and of a volume map <name>_map.df3. Files that are there with just this content stay; the
-  /// others are written, all or none. Throws OutputError.
-  /// film: adds <name>_story.pov and <name>_story.ini; nullptr: no film.
+  /// Writes <name>.ini, <name>.pov, <name>.inc, <name>_style.inc, <name>_aov.inc, <name>_objects.json (the frames and
+  /// the meaning of the colours), and <name>_map.df3 if the run has a volume map. A file that exists with exactly this
+  /// content stays; the others are written, all or none. Throws OutputError.
+  /// film: a film that adds <name>_story.pov and <name>_story.ini, or nullptr.
   SceneReport write_shared(const Story* film = nullptr) const;
 
-  /// Writes <name>_geometry_#####.inc, numbered by the frame of the trajectory, and where the surface is several
-  /// objects <name>_objects_#####.json; with shapes <name>_shapes_#####.inc, with caps <name>_caps_#####.inc, with
-  /// further objects <name>_object_1_#####.inc, ..., with colours of its own <name>_colors_#####.inc, with a map of its
-  /// own <name>_map_#####.df3. Each may show nothing. place: in the run, from 0. shown: all that the run has. Throws
-  /// what write_scene throws, and Error for a colour that is not the run's.
+  /// Writes <name>_geometry_#####.inc, numbered by the frame of the trajectory. A surface of several objects adds
+  /// <name>_objects_#####.json; shapes add <name>_shapes_#####.inc; caps add <name>_caps_#####.inc; further objects add
+  /// <name>_object_1_#####.inc, ...; colours of the frame's own add <name>_colors_#####.inc; a map of the frame's own
+  /// adds <name>_map_#####.df3. Each of these may show nothing. place: index in the run, from 0. shown: everything that
+  /// the run says it has. Throws what write_scene() throws, and Error for a colour that is not in Run::colors.
   SceneReport write_frame(std::size_t place, const Shown& shown) const;
 
  private:
@@ -71,7 +74,7 @@ class SequenceScene {
   SceneOptions options_;
   std::filesystem::path folder_;
   glm::dvec3 origin_;
-  std::uint32_t palette_;  ///< of origin and colours, if all frames share them: scene and includes must agree on them
+  std::uint32_t palette_;  ///< checksum of the origin and the shared colours, on which scene and includes must agree
 };
 
 }  // namespace meniscus::povray

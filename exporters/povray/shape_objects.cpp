@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
 constexpr std::string_view kCastsShadow = " #if (Meniscus_Casts = 0) no_shadow #end";
 
-/// The pieces of one colour.
+/// The spheres and the parts of cylinders that have one colour.
 struct ColorGroup {
   std::vector<const SphereShape*> spheres;
   struct Half {
@@ -27,6 +27,7 @@ struct ColorGroup {
   std::vector<Half> cylinders;
 };
 
+/// Writes shapes piecewise into a file, relative to the scene's origin.
 class ShapeWriter {
  public:
   ShapeWriter(OutputFile& file, const glm::dvec3& origin) : file_(file), origin_(origin) {}
@@ -45,7 +46,7 @@ class ShapeWriter {
     texture(color).literal(kCastsShadow).literal("\n}\n");
   }
 
-  /// texture: per vertex of the mesh, into the colours.
+  /// Writes a mesh. color: an index into the colours per vertex.
   void write(const MeshShape& mesh, const std::vector<std::uint32_t>& color) {
     std::map<std::uint32_t, std::size_t> place;
     for (const std::uint32_t c : color) place.try_emplace(c, place.size());

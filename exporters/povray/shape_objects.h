@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spheres, cylinders and meshes of a scene, gathered by colour.
+// Writes spheres, cylinders and meshes of a scene, grouped by colour.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,9 +10,9 @@
 
 namespace meniscus::povray {
 
-/// Writes sphere, cylinder and mesh2 with their textures; a cylinder of two colours as its two halves. Names are ours,
-/// all else numbers. origin: Å, of the scene's coordinates. Colours that `table` does not have yet are added. Throws
-/// Error for a number that is not finite.
+/// Writes shapes as sphere, cylinder and mesh2 objects with textures. A cylinder of two colours becomes two halves. The
+/// text consists of names chosen by this program and of numbers only. origin: the origin of the scene's coordinates, in
+/// Å. Colours that `table` does not have yet are added. Throws Error for a number that is not finite.
 void write_shapes(OutputFile& file, const ColoredShapes& shapes, const glm::dvec3& origin, ColorTable& table,
                   const ObjectStyle& style = {});
 

@@ -18,10 +18,12 @@ namespace meniscus::povray {
 namespace {
 
 constexpr std::size_t kFlushValues = std::size_t{1} << 18;
-constexpr std::size_t kMostDensityPoints = 65'535;  // an axis
-/// POV-Ray's colour maps have at most 256 entries, and go straight through linear light between them.
+constexpr std::size_t kMostDensityPoints = 65'535;  // per axis
+/// The number of steps of a colour map. POV-Ray's colour maps have at most 256 entries and interpolate linear light
+/// between them.
 constexpr std::size_t kMapSteps = 200;
 
+/// Appends the lowest `count` bytes of a value in big-endian order.
 void push_bytes(std::string& bytes, std::uint32_t value, int count) {
   for (int n = count - 1; n >= 0; --n) bytes.push_back(static_cast<char>(value >> 8 * n & 0xff));
 }
@@ -37,7 +39,7 @@ void write_density(const VolumeGrid& grid, const std::function<void(std::string_
   const double width = static_cast<double>(high) - low;
   std::string bytes;
   for (const std::size_t points : size) push_bytes(bytes, static_cast<std::uint32_t>(points), 2);
-  // Its first axis runs fastest.
+  // The first axis of a density file runs fastest.
   for (std::size_t z = 0; z < size[2]; ++z)
     for (std::size_t y = 0; y < size[1]; ++y)
       for (std::size_t x = 0; x < size[0]; ++x) {
@@ -56,13 +58,12 @@ void append_map(SceneText& out, const VolumePaint& paint, std::string_view file,
   const VolumeFrame& frame = paint.grid.frame();
   const std::array<double, 2>& range = paint.scale.range;
   const auto [low, high] = std::ranges::minmax(paint.grid.values());
-  // A density file fills the unit cube, and has its n-th value of N at n/N; what lies after the last repeats the
-  // first.
+  // A density file fills the unit cube with its n-th value of N at n/N. After the last value, the first is repeated.
   SceneText matrix;
-  glm::dvec3 reach(0.0);
+  glm::dvec3 valid_extent(0.0);
   for (int axis = 0; axis < 3; ++axis) {
     const auto points = static_cast<double>(frame.size[axis]);
-    reach[axis] = (points - 1.0) / points;
+    valid_extent[axis] = (points - 1.0) / points;
     const glm::dvec3 edge = points * frame.step[axis];
     for (int k = 0; k < 3; ++k) matrix.full(edge[k]).literal(",");
   }
@@ -87,7 +88,7 @@ void append_map(SceneText& out, const VolumePaint& paint, std::string_view file,
               {"FROM", number(range[0])},
               {"TO", number(range[1])},
               {"MATRIX", matrix.text()},
-              {"REACH", text_of([&](SceneText& text) { text.full_vector(reach); })},
+              {"REACH", text_of([&](SceneText& text) { text.full_vector(valid_extent); })},
               {"MISSING", text_of([&](SceneText& text) { text.direction(glm::dvec3(paint.scale.missing_color)); })},
               {"COUNT", std::to_string(kMapSteps + 1)},
               {"COLORS", colors.text()},

@@ -14,14 +14,14 @@ import numpy as np
 from pymol import CmdException, cmd, util
 from pymol.cgo import BEGIN, COLOR, END, NORMAL, TRIANGLES, VERTEX
 
-# Which atoms PyMOL's own surface is made of, by its setting surface_mode.
+# The selections of atoms that PyMOL's own surface shows, by its setting surface_mode.
 SURFACE_MODES = ("not flag 25", "all", "not hydro", "visible", "visible and not hydro")
 
 completed = cmd.extendaa(cmd.auto_arg[0]["zoom"])  # a command whose first word is completed as a selection
 
 
-def the_library():
-    """The package, or one sentence that says how to get it."""
+def load_library():
+    """Returns the package meniscus. Raises CmdException with a sentence that says how to install it."""
     try:
         import meniscus
     except ImportError as error:
@@ -31,15 +31,16 @@ def the_library():
 
 
 class Atoms(NamedTuple):
-    """The atoms of one state that a surface is made of, an entry an atom."""
-    keys: list  #: (object, index), as PyMOL's iterate has them
+    """The atoms of one state that make up a surface, with one entry per atom."""
+    keys: list  #: (object, index) in the notation of PyMOL's iterate
     positions: np.ndarray  #: (n, 3) Å
     radii: np.ndarray  #: (n,) Å, PyMOL's vdw
-    selected: np.ndarray  #: (n,) whether the atom is of the selection and not of its surroundings alone
+    selected: np.ndarray  #: (n,) True if the atom is in the selection, False if it is in its surroundings only
 
 
 def atoms_of(selection, context, state):
-    """The atoms of a state (-1: the current one), none where it is empty; CmdException where no state has any."""
+    """Returns the Atoms of a state (-1: the current one), which may be none. Raises CmdException if no state has any.
+    """
     if context not in ("all", "selection"):
         raise CmdException(f"context={context} is neither all nor selection")
     mode = SURFACE_MODES[cmd.get_setting_int("surface_mode")]
@@ -58,29 +59,30 @@ def atoms_of(selection, context, state):
 
 
 @contextlib.contextmanager
-def refusals():
-    """What the library refuses is said in its sentence, without a traceback."""
+def library_errors():
+    """Turns errors of the library into CmdException, so that PyMOL shows their sentence without a traceback."""
     try:
         yield
-    except the_library().Error as error:
+    except load_library().Error as error:
         raise CmdException(str(error)) from error
 
 
 def surface_of(atoms, probe, kind="ses"):
-    """The exact surface."""
+    """Returns the exact surface of the atoms. Raises CmdException if none is selected or the library refuses them."""
     if not atoms.selected.any():
         raise CmdException("the selection has no atoms in this state")
-    with refusals():
-        return the_library().surface(atoms.positions, atoms.radii, probe, kind=kind if probe else "vdw")
+    with library_errors():
+        return load_library().surface(atoms.positions, atoms.radii, probe, kind=kind if probe else "vdw")
 
 
 def probe_of(probe):
-    """Å; PyMOL's setting solvent_radius unless given."""
+    """Returns the radius of the probe in Å, which is PyMOL's setting solvent_radius unless given."""
     return float(probe) if probe != "" else cmd.get_setting_float("solvent_radius")
 
 
 def free_name(name):
-    """The name for a new object, whose older graphics are deleted; CmdException where a molecule or map has it."""
+    """Returns the legal name for a new object, and deletes graphics of this name. Raises CmdException if a molecule or
+    a map has it."""
     name = cmd.get_legal_name(name)
     if name in cmd.get_names("objects"):
         if cmd.get_type(name) not in ("object:cgo", "object:group"):
@@ -90,7 +92,7 @@ def free_name(name):
 
 
 def element_colors(elements):
-    """PyMOL's own color of each element, as atoms of a passing object get it."""
+    """Returns PyMOL's own color of each element by coloring pseudoatoms of a temporary object."""
     passing, colors = cmd.get_unused_name("_elements"), {}
     for element in elements:
         cmd.pseudoatom(passing, elem=element)
@@ -101,14 +103,15 @@ def element_colors(elements):
 
 
 def colors_of(keys, selection, color):
-    """(n, 3) red, green, blue from 0 to 1, one an atom: its own color, that of its chain or element, or one for all."""
+    """Returns (n, 3) red, green and blue from 0 to 1 per atom: its own color, the color of its chain or element, or one
+    color for all atoms."""
     rows = {}
     cmd.iterate(f"byobject ({selection})", "rows[model, index] = (color, chain, elem)", space={"rows": rows})
     if color == "atom":
         indices = {key: row[0] for key, row in rows.items()}
     elif color == "chain":
         chains = sorted({row[1] for row in rows.values()})
-        of_chain = dict(zip(chains, itertools.cycle(util._color_cycle)))  # as util.cbc has them
+        of_chain = dict(zip(chains, itertools.cycle(util._color_cycle)))  # the colors of util.cbc
         indices = {key: of_chain[row[1]] for key, row in rows.items()}
     elif color == "element":
         of_element = element_colors({row[2] for row in rows.values()})
@@ -123,8 +126,8 @@ def colors_of(keys, selection, color):
 
 
 def cgo_of(mesh, colors, shown=None):
-    """A compiled graphics object: each triangle in the color of its atom, so that colors meet exactly where patches do,
-    with the exact normals of both sides at cusps. shown: of atoms, whether theirs are kept."""
+    """Returns a compiled graphics object. Each triangle has the color of its atom, so that colors meet exactly where
+    patches do, and normals at cusps are exact on both sides. shown: True for each atom whose triangles are kept."""
     normals = mesh.normals[mesh.triangles].reshape(-1, 3)
     normals[mesh.sharp_corners] = mesh.sharp_normals
     rows = np.empty((len(mesh.triangles), 28), dtype=np.float32)
@@ -138,8 +141,8 @@ def cgo_of(mesh, colors, shown=None):
 
 
 def load_states(states, name):
-    """Loads CGOs by the numbers of their states. States between them are there, too, but empty: without them PyMOL 2.5
-    breaks down."""
+    """Loads CGOs into an object by the numbers of their states. Missing states between them become empty states,
+    because PyMOL 2.5 crashes without them."""
     for number in range(1, max(states) + 1):
         cmd.load_cgo(states.get(number, []), name, number, zoom=0)
 
@@ -181,7 +184,7 @@ EXAMPLES
         atoms = atoms_of(selection, context, number)
         if state != 0 or atoms.selected.any():
             surface = surface_of(atoms, probe)
-            with refusals():
+            with library_errors():
                 mesh = surface.mesh(float(tolerance))
             place = number if number > 0 else cmd.get_state()
             states[place] = cgo_of(mesh, colors_of(atoms.keys, selection, color), atoms.selected)
@@ -262,14 +265,14 @@ EXAMPLES
     number = int(state) if int(state) > 0 else cmd.get_state()
     atoms, probe = atoms_of(selection, context, int(state) or -1), probe_of(probe)
     surface = surface_of(atoms, probe)
-    with refusals():
+    with library_errors():
         found = surface.pockets(float(large_probe), min_volume=float(min_volume))
     found = [pocket for pocket in found if atoms.selected[pocket.atoms].any()]
     name = free_name(name)
     for place, (pocket, color) in enumerate(zip(found, itertools.cycle(util._color_cycle)), 1):
-        with warnings.catch_warnings():  # probes lie closer together than atoms do
+        with warnings.catch_warnings():  # the library warns about probes, which lie closer together than atoms
             warnings.simplefilter("ignore")
-            balls = the_library().surface(pocket.probes, probe, kind="vdw").mesh(0.1)
+            balls = load_library().surface(pocket.probes, probe, kind="vdw").mesh(0.1)
         colors = np.tile(cmd.get_color_tuple(color), (len(pocket.probes), 1))
         load_states({number: cgo_of(balls, colors)}, f"{name}_{place}")
         cmd.group(name, f"{name}_{place}")
@@ -283,4 +286,4 @@ EXAMPLES
 
 
 def __init_plugin__(app=None):
-    """The Plugin Manager calls it; the commands are there by then."""
+    """Called by the Plugin Manager. It does nothing, because importing this module has defined the commands."""

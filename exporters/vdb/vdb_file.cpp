@@ -23,10 +23,10 @@ using Block = DistanceBand::Block;
 
 constexpr std::int64_t kMagic = 0x56444220;
 constexpr std::uint32_t kFileVersion = 224, kLibraryMajor = 10, kLibraryMinor = 0;
-constexpr std::uint32_t kActiveMask = 2;      // compression: values of active voxels alone
-constexpr std::int8_t kSelectBackground = 3;  // then a mask: inactive voxels that have the background, not its negative
+constexpr std::uint32_t kActiveMask = 2;      // compression that stores the values of active voxels only
+constexpr std::int8_t kSelectBackground = 3;  // a mask selects the background or its negative for inactive voxels
 constexpr std::string_view kIdentity = "00000000-0000-0000-0000-000000000000", kGrid = "surface";
-constexpr int kBlockBits = 3, kLowerBits = 4, kUpperBits = 5;  // of the edges of a block and of nodes, in children
+constexpr int kBlockBits = 3, kLowerBits = 4, kUpperBits = 5;  // log2 of the edges of blocks and nodes, in children
 constexpr int kLowerEdge = 1 << (kBlockBits + kLowerBits), kUpperEdge = kLowerEdge << kUpperBits;  // voxels
 
 template <std::size_t N>
@@ -43,7 +43,8 @@ void put_name(BinaryRows& rows, std::string_view text) {
   rows.put_text(text);
 }
 
-/// A node whose children are of type Child where it has some, and else have the background or its negative.
+/// A node of 2^bits children along each axis. A place without a child is a tile, which has the negative background if
+/// it is in `inside`, and the background otherwise.
 template <int bits, class Child>
 struct Node {
   static constexpr std::size_t kCount = std::size_t{1} << (3 * bits);
@@ -62,7 +63,8 @@ struct Node {
 using Lower = Node<kLowerBits, const Block*>;
 using Upper = Node<kUpperBits, Lower>;
 
-/// Of a child with `edge` voxels in a node of 2^bits children along each axis.
+/// Returns the place of the child that contains a voxel, in a node of 2^bits children along each axis. edge: the edge
+/// of a child in voxels.
 std::uint32_t place_in_node(const glm::ivec3& voxel, int edge, int bits) {
   std::uint32_t place = 0;
   for (int k = 0; k < 3; ++k)
@@ -71,6 +73,7 @@ std::uint32_t place_in_node(const glm::ivec3& voxel, int edge, int bits) {
   return place;
 }
 
+/// The tree of a level set. It refers to the band, which must outlive it.
 class Tree {
  public:
   explicit Tree(const DistanceBand& band) : band_(band) {
@@ -79,11 +82,11 @@ class Tree {
     for (const DistanceBand::Inside& cube : band.inside) fill(cube);
   }
 
-  /// Children of all levels in the order of their places: what OpenVDB reads back into.
+  /// Writes the structure of the tree: children of all levels in the order of their places, which OpenVDB expects.
   void put_topology(BinaryRows& rows, float background) const {
-    rows.put(std::int32_t{1});  // buffers of a block
+    rows.put(std::int32_t{1});  // number of buffers per block
     rows.put(background);
-    rows.put(std::uint32_t{0});  // tiles of the root
+    rows.put(std::uint32_t{0});  // number of tiles of the root
     rows.put(static_cast<std::uint32_t>(uppers_.size()));
     for (const auto& [origin, upper] : uppers_) {
       rows.put(origin);
@@ -102,6 +105,7 @@ class Tree {
         for (const auto& [at, block] : lower.children) visit(*block);
   }
 
+  /// Returns the mask of the voxels of a block that are within the band.
   std::bitset<512> active(const Block& block) const {
     std::bitset<512> mask;
     for (std::size_t n = 0; n < mask.size(); ++n) mask[n] = std::abs(block.distances[n]) < band_.reach;
@@ -116,7 +120,7 @@ class Tree {
   }
   Lower& lower(const glm::ivec3& voxel) { return upper(voxel).children[place_in_node(voxel, kLowerEdge, kUpperBits)]; }
 
-  /// In tiles of the node that has them.
+  /// Marks a cube inside the surface as tiles of the smallest nodes whose children it fills.
   void fill(const DistanceBand::Inside& cube) {
     const int edge = cube.size >= kLowerEdge ? kLowerEdge : DistanceBand::kEdge;
     for (int x = 0; x < cube.size; x += edge)
@@ -134,7 +138,7 @@ class Tree {
   std::map<std::array<std::int32_t, 3>, Upper> uppers_;
 };
 
-/// Names, types and values.
+/// The metadata of a file or a grid: names, types and values.
 class MetaData {
  public:
   void add(std::string_view name, std::string_view text) { add(name, "string", std::span<const char>(text)); }
@@ -193,15 +197,15 @@ void write_vdb(OutputFile& file, const DistanceBand& band, const VdbFile& about)
   BinaryRows head, grid;
   head.put(kMagic);
   for (const std::uint32_t word : {kFileVersion, kLibraryMajor, kLibraryMinor}) head.put(word);
-  head.put(std::int8_t{1});  // places of grids follow
+  head.put(std::int8_t{1});  // the offsets of grids follow
   head.put_text(kIdentity);
   MetaData data;
   data.add("creator", "Meniscus " MENISCUS_VERSION);
   data.put_into(head);
-  head.put(std::int32_t{1});  // grids
+  head.put(std::int32_t{1});  // number of grids
   put_name(head, kGrid);
   put_name(head, "Tree_float_5_4_3");
-  put_name(head, "");  // shares no tree
+  put_name(head, "");  // name of a grid with the same tree; there is none
 
   grid.put(kActiveMask);
   grid_data(tree, about.about).put_into(grid);

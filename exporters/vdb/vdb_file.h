@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Level sets as files of OpenVDB.
+// Writes level sets as OpenVDB files.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace meniscus {
 
-/// A grid "surface" of floats: distances in the band are its active voxels, and beyond it are its ends, negative
-/// inside. scale: length of 1 Å in the file, of distances too. about: one line.
+/// The unit and the description of a VDB file.
 struct VdbFile {
-  double scale = 1.0;
-  std::string about;
+  double scale = 1.0;  ///< length of 1 Å in the unit of the file, for coordinates and distances
+  std::string about;   ///< one line
 };
 
-/// Writes all of the file but does not commit it: version 224, which OpenVDB reads since 3.0 (K. Museth, "VDB:
-/// high-resolution sparse volumes with dynamic topology", ACM TOG 32 (2013), and OpenVDB's io). Without compression but
-/// for voxels that are not active, so that no library is needed.
+/// Writes the whole file but does not commit it. The grid "surface" contains floats: distances within the band are
+/// active voxels, and voxels beyond it have the half-width of the band, negative inside. The file has version 224,
+/// which OpenVDB reads since 3.0 (K. Museth, "VDB: high-resolution sparse volumes with dynamic topology", ACM TOG 32
+/// (2013), and OpenVDB's io). Only inactive voxels are compressed, so that no library is needed.
 void write_vdb(OutputFile& file, const DistanceBand& band, const VdbFile& about);
 
 }  // namespace meniscus

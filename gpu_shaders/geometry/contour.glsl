@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contour build-up: what balls leave of the circle of two others, arc by arc.
+// Contour build-up: finds the arcs of a circle of two balls that other balls leave exposed.
 // Based on: Totrov & Abagyan 1996.
 //
-// Common subset of GLSL and C++, below circle.glsl. What is left of the circle are variables: globals of a kernel, members
-// of a struct in C++, which has this file as its body (core/reduced_surface/contour/contour.h). The includer defines kUnitRoundoff and
-//   ExposedArc get_arc(uint n)            one of a list, and
-//   bool set_arc(uint n, ExposedArc arc)  stores one there, or after the last; false if there is no room
+// Written in the common subset of GLSL and C++; to be included after circle.glsl. The exposed part of the circle is
+// kept in variables: globals of a kernel, or members of a C++ struct that has this file as its body
+// (core/reduced_surface/contour/contour.h). The includer defines kUnitRoundoff and
+//   ExposedArc get_arc(uint n)            which returns an arc of a list, and
+//   bool set_arc(uint n, ExposedArc arc)  which stores an arc there or after the last one; false if there is no room.
 
 Circle contour_circle;
-real contour_weight;  // of the circle's first ball
-real contour_noise;   // half_plane_noise() of the circle
-real contour_unit;    // by which numbers are taken to be off, relative: a rounding, or more
-uint exposed_count;
-bool exposed_whole;
-bool exposed_doubtful;  // rounding could have changed a decision; those that follow are taken all the same
-real exposed_error;     // of any end point so far
+real contour_weight;    // weight of the circle's first ball
+real contour_noise;     // half_plane_noise() of the circle
+real contour_unit;      // assumed relative error of numbers: the unit roundoff or more
+uint exposed_count;     // number of exposed arcs
+bool exposed_whole;     // true if the whole circle is exposed
+bool exposed_doubtful;  // true if rounding could have changed a decision; later decisions are still made
+real exposed_error;     // bound on the error of all end points so far
 
 GEOMETRY void begin_contour(Circle c, real first_weight, real unit) {
   contour_circle = c;
@@ -41,7 +42,7 @@ GEOMETRY void expose_arc(ExposedArc arc) {
   else exposed_doubtful = true;
 }
 
-// Takes an arc away from what is left of the circle.
+// Removes a covered arc from the exposed part of the circle.
 GEOMETRY void cover_arc(CoveredArc covered, uint label) {
   exposed_error = max(exposed_error, covered.error);
   if (exposed_whole) {
@@ -50,7 +51,7 @@ GEOMETRY void cover_arc(CoveredArc covered, uint label) {
     return;
   }
   uint kept = 0u;
-  bool split = false;  // at most one arc is
+  bool split = false;  // at most one arc is split
   ExposedArc second = exposed_arc(real(0), real(0), label, label);
   for (uint n = 0u; n < exposed_count; ++n) {
     ExposedArc arc = get_arc(n);
@@ -64,10 +65,10 @@ GEOMETRY void cover_arc(CoveredArc covered, uint label) {
   if (split) expose_arc(second);
 }
 
-// Takes away what a half-plane covers that cuts the circle.
+// Removes the part that a half-plane covers, which must cut the circle.
 GEOMETRY void cover(HalfPlane h, uint label) { cover_arc(covered_arc(h), label); }
 
-// One ball against what is left of the circle.
+// Removes the part that a ball covers from the exposed part of the circle.
 GEOMETRY void block(Blocker ball, uint label) {
   real offset;
   if (surely_apart(contour_circle, contour_weight, contour_noise, ball.center, ball.square, ball.distance, ball.half_power,

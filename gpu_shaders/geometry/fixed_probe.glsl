@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a fixed probe is: the point at three SAS radii from three atoms, as sharp as its numbers allow; and which
-// probes are in one place.
+// The position of a fixed probe, which is the point at three SAS radii from three atoms, as accurately as its numbers
+// allow; and a test if two probes are in one place.
 //
-// Common subset of GLSL and C++ with GLM, see circle.glsl, which is to be included first. Decimals are quotients of whole
-// numbers, which are rounded once in any precision: GLSL takes 1e-6 for a float.
+// Written in the common subset of GLSL and C++ with GLM (circle.glsl, which must be included first). Decimal fractions
+// are written as quotients of integers, which are rounded once in any precision; GLSL would take 1e-6 for a float.
 #ifndef MENISCUS_GEOMETRY_FIXED_PROBE_GLSL
 #define MENISCUS_GEOMETRY_FIXED_PROBE_GLSL
 
-// The most by which decisions grow a radius, Å (core/reduced_surface/reduced_surface.h).
+// The greatest growth of a radius in decisions, Å (core/reduced_surface/reduced_surface.h).
 const real kLargestGrowth = real(3) / real(2000000000);
 
-// Squared height, Å², below which that growth may have moved a probe by its square root: such a probe is flat.
+// A probe is flat if its squared height (Å²) is below this value. The growth of radii may have moved it by the square
+// root of the growth.
 const real kFlat = real(1) / real(10000000);
 
-// Probes this near are one probe with n contacts, Å.
+// Probes nearer to each other than this (Å) are one probe with n contacts.
 const real kMergeDistance = real(1) / real(1000000);
 
-// A probe lower than this, Å, moves so much more than its atoms that it must come nearer to be one with another.
+// A probe lower than this (Å) moves much more than its atoms, so probes must be nearer to each other to be one.
 const real kSteep = real(1) / real(100);
 
 struct FixedProbe {
   real3 position;  // relative to the first atom
-  real height;     // over the plane of the atoms
+  real height;     // over the plane of the atoms, Å
 };
 
-// One Newton step on the three distances removes what a slim triangle lost.
+// Improves the position of a probe by one Newton step on its three distances, which removes the errors of slim
+// triangles.
 GEOMETRY real3 polished_probe(real3 x, real3 b, real3 c, real ra, real rb, real rc) {
   real3 eb = x - b;
   real3 ec = x - c;
@@ -35,15 +37,15 @@ GEOMETRY real3 polished_probe(real3 x, real3 b, real3 c, real ra, real rb, real 
   return x - (bc * residual.x + ca * residual.y + ab * residual.z) / dot(x, bc);
 }
 
-// b, c: second and third atom relative to the first; ra, rb, rc: SAS radii; side: +1 for the probe on the side of
-// cross(b, c), -1 for the other.
+// Returns the fixed probe of three atoms. b, c: second and third atom relative to the first; ra, rb, rc: SAS radii;
+// side: +1 for the probe on the side of cross(b, c), -1 for the other.
 GEOMETRY FixedProbe fixed_probe(real3 b, real3 c, real ra, real rb, real rc, real side) {
   FixedProbe probe;
   real h2;
   probe.position = probe_of_three(b, c, ra * ra, rb * rb, rc * rc, side, h2);
   if (h2 < kFlat) {
-    // Probe (almost) in the plane of its atoms: grown as the decision that found it was, but all alike, so that n-fold
-    // contacts stay in one place.
+    // The probe is (almost) in the plane of its atoms. The radii grow as in the decision that found it, but all by the
+    // same amount, so that n-fold contacts stay in one place.
     ra += kLargestGrowth;
     rb += kLargestGrowth;
     rc += kLargestGrowth;
@@ -55,21 +57,22 @@ GEOMETRY FixedProbe fixed_probe(real3 b, real3 c, real ra, real rb, real rc, rea
   return probe;
 }
 
-// Whether two probes are in one place; d: from one to the other, height0 and height1: over the planes of their atoms.
-GEOMETRY bool stand_together(real3 d, real height0, real height1) {
+// True if two probes are in one place. d: vector from one to the other; height0, height1: heights over the planes of
+// their atoms.
+GEOMETRY bool are_coincident(real3 d, real height0, real height1) {
   real near = kMergeDistance * min(real(1), min(height0, height1) / kSteep);
   return dot(d, d) < near * near;
 }
 
 GEOMETRY bool is_flat(real height) { return height * height < real(2) * kFlat; }
 
-// Whether they may be in one place although their positions are farther apart: one of them is flat, and its position
-// blurred. They do if the other one touches all atoms of the flat one.
-GEOMETRY bool may_stand_together(real3 d, real height0, real height1) {
+// True if two probes may be in one place although are_coincident() is false, because one of them is flat and its
+// position inaccurate. They are in one place if the other one touches all atoms of the flat one.
+GEOMETRY bool may_be_coincident(real3 d, real height0, real height1) {
   return dot(d, d) <= real(4) * kFlat && is_flat(height0) != is_flat(height1);
 }
 
-// d: from the probe to the atom's centre.
+// True if a probe touches an atom. d: vector from the probe to the centre of the atom.
 GEOMETRY bool touches_atom(real3 d, real sas_radius) { return abs(sqrt(dot(d, d)) - sas_radius) < kMergeDistance; }
 
 #endif

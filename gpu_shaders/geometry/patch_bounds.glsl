@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What clips and bounds a patch: contact planes, the shape of a saddle, and spheres around what is left.
+// The clips and bounds of patches: contact planes, the shape of a saddle, and bounding spheres.
 //
-// Common subset of GLSL and C++ with GLM, see circle.glsl.
+// Written in the common subset of GLSL and C++ with GLM (circle.glsl).
 #ifndef MENISCUS_GEOMETRY_PATCH_BOUNDS_GLSL
 #define MENISCUS_GEOMETRY_PATCH_BOUNDS_GLSL
 
@@ -11,15 +11,15 @@ struct PatchBound {
   real radius;
 };
 
-// A bound as a camera sees it.
+// A bounding sphere relative to a camera.
 struct SeenBound {
-  bool in_front;   // some of it is in front of the camera
-  real3 center;    // from the pivot
-  real radius;     // widened by the slack of pictures and by rounding to single precision
-  real nearest;    // no point of the bound is closer to the camera (orthographic: to its plane)
+  bool in_front;  // true if a part of it is in front of the camera
+  real3 center;   // relative to the pivot
+  real radius;    // widened by the slack of pictures and by rounding to single precision
+  real nearest;   // lower bound on the distance of its points from the camera (orthographic: from its plane)
 };
 
-// slack, pivot, eye_distance: as in PrimitiveParameters.
+// Returns a bound relative to a camera. slack, pivot, eye_distance: members of PrimitiveParameters.
 GEOMETRY SeenBound see_bound(PatchBound bound, real slack, real3 pivot, real3 camera_position, real3 forward,
                              real eye_distance, bool orthographic) {
   const real rounding = real(1) / real(1000000);
@@ -33,7 +33,8 @@ GEOMETRY SeenBound see_bound(PatchBound bound, real slack, real3 pivot, real3 ca
   return seen;
 }
 
-// The part of a sphere that sees the unit vector `axis` at an angle whose cosine is at least `cosine`.
+// Returns a bound of the spherical cap of points whose direction from the centre forms an angle with the unit vector
+// `axis` whose cosine is at least `cosine`.
 GEOMETRY PatchBound cap_bound(real3 center, real radius, real3 axis, real cosine) {
   PatchBound bound;
   bound.center = center;
@@ -45,23 +46,25 @@ GEOMETRY PatchBound cap_bound(real3 center, real radius, real3 axis, real cosine
   return bound;
 }
 
-// How far the plane of the contact circle of two atoms lies from the centre of the first, towards the second; radius:
-// of the first atom; ra, rb: both SAS radii (theorem 1.1).
+// Returns the distance of the plane of the contact circle of two atoms from the centre of the first, towards the second
+// (theorem 1.1). radius: radius of the first atom; ra, rb: both SAS radii.
 GEOMETRY real contact_height(real distance, real radius, real ra, real rb) {
   return (distance * distance + ra * ra - rb * rb) / (real(2) * distance) * (radius / ra);
 }
 
-// A toroidal patch in its own frame (origin: centre of the SAS circle, z: its axis), see patch_membership.glsl.
+// A toroidal patch in its own frame, with the origin at the centre of the SAS circle and z along its axis
+// (patch_membership.glsl).
 struct SaddleShape {
-  real height[2];    // z of the atoms
-  real extended[2];  // SAS radii
-  real contact_z[2];
-  real contact_rho[2];
-  real clip_z;  // the sphere through both contact circles, centre on the axis
-  real clip_radius;
+  real height[2];       // z of the atoms
+  real extended[2];     // SAS radii of the atoms
+  real contact_z[2];    // z of the contact circles
+  real contact_rho[2];  // radii of the contact circles
+  real clip_z;          // z of the centre of the sphere through both contact circles
+  real clip_radius;     // radius of that sphere
 };
 
-// height0, height1: z of the atoms; r0, r1: their radii; major: of the SAS circle.
+// Returns the shape of a toroidal patch. height0, height1: z of the atoms; r0, r1: their radii; major: radius of the
+// SAS circle.
 GEOMETRY SaddleShape saddle_shape(real height0, real height1, real r0, real r1, real major, real probe_radius) {
   SaddleShape s;
   s.height[0] = height0;
@@ -80,18 +83,19 @@ GEOMETRY SaddleShape saddle_shape(real height0, real height1, real r0, real r1, 
   return s;
 }
 
-// How far from its centre a spindle comes to its axis.
+// Returns the distance from the centre of a spindle torus at which it meets its axis.
 GEOMETRY real spindle_tip_height(real major, real probe_radius) {
   return sqrt((probe_radius - major) * (probe_radius + major));
 }
 
-// Cosine and sine of half the angle in [0, 2 pi) whose cosine and sine these are.
+// Returns the cosine and the sine of half an angle in [0, 2 pi), which is given by its cosine and its sine.
 GEOMETRY real2 half_angle(real cosine, real sine) {
   real half_cosine = sqrt(max(real(0.5) + real(0.5) * cosine, real(0)));
   return real2(sine < real(0) ? -half_cosine : half_cosine, sqrt(max(real(0.5) - real(0.5) * cosine, real(0))));
 }
 
-// axis, start: unit vectors, start where the arc begins; half_sweep: cosine and sine of half its angle in [0, 2 pi].
+// Returns a bound of a toroidal patch. axis: unit vector; start: unit vector from the centre to where the arc begins;
+// half_sweep: cosine and sine of half the angle of the arc, which is in [0, 2 pi].
 GEOMETRY PatchBound saddle_bound(SaddleShape s, real3 center, real3 axis, real3 start, real major, real2 half_sweep,
                                  real probe_radius) {
   // In cylinder coordinates the patch lies in a box; the farthest point from the centre is one of its corners.

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which part of a sphere or torus belongs to the surface, and whose atom's colour a point takes.
+// Tests if a point of a sphere or a torus belongs to the surface, and finds the atom whose colour the point has.
 //
-// Common subset of GLSL and C++ with GLM; the includer defines real, real2, real3, GEOMETRY, GEOMETRY_OUT and
-// GEOMETRY_INOUT; with the words of shared/lane.glsl, which in C++ may be packets.
-// `slack` (Å, >= 0) widens a patch past its borders: neighbours then overlap by that much and no ray slips between them.
-// Across contact circles and edges the surface is smooth, so the overlap is slack^2 / radius high: nothing.
+// Written in the common subset of GLSL and C++ with GLM. The includer defines real, real2, real3, GEOMETRY,
+// GEOMETRY_OUT and GEOMETRY_INOUT. The types of shared/lane.glsl may be packets in C++. `slack` (Å, >= 0) widens a
+// patch past its borders, so that neighbouring patches overlap and no ray passes between them. The surface is smooth
+// across contact circles and edges, so the height of the overlap is only slack^2 / radius.
 #ifndef MENISCUS_GEOMETRY_PATCH_MEMBERSHIP_GLSL
 #define MENISCUS_GEOMETRY_PATCH_MEMBERSHIP_GLSL
 #include "gpu_shaders/shared/lane.glsl"
 
-// x: relative to the plane's own origin.
+// True if x is inside a plane. x: point relative to the origin of the plane; slack: Å.
 GEOMETRY truth in_half_space(real3 x, real3 normal, real offset, real slack) {
   return dot(normal, x) <= offset + slack;
 }
 
-// Shortens [low, high] to the t where offset + slope*t <= 0.
+// Shortens the interval [low, high] to the part where offset + slope*t <= 0.
 GEOMETRY void clip_to_half_space(real offset, real slope, GEOMETRY_INOUT(real) low, GEOMETRY_INOUT(real) high) {
   real at = -offset / slope;
   truth empty = slope == real(0) && offset > real(0);
@@ -27,13 +27,14 @@ const int kWholeTurn = 0;
 const int kUpToHalfTurn = 1;
 const int kOverHalfTurn = 2;
 
-// Theorem 1.2, in the torus's own frame: origin = centre of the SAS circle, x = direction in
-// which the arc starts, z = axis. x: a point of the torus; major, minor: R and p; z_low, z_high: the planes of the two
-// contact circles; cos_sweep, sin_sweep: of the arc, which runs counter-clockwise.
+// True if a point of a torus belongs to a toroidal patch (theorem 1.2). The frame is that of the torus: its origin is
+// the centre of the SAS circle, x the direction in which the arc starts, z the axis. x: point of the torus; major: R;
+// z_low, z_high: planes of the two contact circles; cos_sweep, sin_sweep: cosine and sine of the angle of the arc,
+// which runs counter-clockwise; range: kWholeTurn, kUpToHalfTurn or kOverHalfTurn.
 GEOMETRY truth in_toroidal_patch(real3 x, real major, real z_low, real z_high, real cos_sweep,
                                  real sin_sweep, int range, real slack) {
   real rho_squared = x.x * x.x + x.y * x.y;
-  // The side that faces the axis, between the contact circles.
+  // The patch is on the side that faces the axis, between the contact circles.
   real limit = major + slack;
   truth between = x.z >= z_low - slack && x.z <= z_high + slack && rho_squared <= limit * limit;
   if (range == kWholeTurn) return between;
@@ -43,18 +44,20 @@ GEOMETRY truth in_toroidal_patch(real3 x, real major, real z_low, real z_high, r
   return between && (after_start || before_end);
 }
 
-// Outward normal (towards the solvent) at a point of the torus around z, towards the probe that touches it there.
+// Returns the outward normal, towards the solvent, at a point of the torus around z: towards the centre of the probe
+// that touches it there.
 GEOMETRY real3 torus_normal(real3 x, real major, real minor) {
   real rho = sqrt(x.x * x.x + x.y * x.y);
   real scale = select(rho > real(0), major / rho - real(1), real(0));
   return real3(x.x * scale, x.y * scale, -x.z) / minor;
 }
 
-// Of the two atoms of a toroidal patch at heights z0 and z1 on the axis, extended radii R0 and R1, the one whose contact
-// direction is nearest to that of the point x, seen from its probe: false for the first.
+// True if the second of the two atoms of a toroidal patch is nearer to a point. The directions of the contacts and of
+// the point are compared as seen from the probe that touches the point x. z0, z1: heights of the atoms on the axis;
+// extended0, extended1: their SAS radii.
 GEOMETRY truth toroidal_second_atom(real3 x, real major, real z0, real extended0, real z1, real extended1) {
   real rho = sqrt(x.x * x.x + x.y * x.y);
-  // In the half-plane of x: the probe is (major, 0), the contact directions are (-major, z)/extended.
+  // In the half-plane of x, the probe is at (major, 0), and the contact directions are (-major, z)/extended.
   real2 w = real2(rho - major, x.z);
   return dot(w, real2(-major, z1)) * extended0 > dot(w, real2(-major, z0)) * extended1;
 }

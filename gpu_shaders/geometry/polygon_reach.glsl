@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a spherical polygon reaches in a direction: what decides whether one fixed probe cuts another's patch.
+// Computes the extent of a spherical polygon in a direction, which determines if one fixed probe cuts the patch of
+// another.
 //
-// Written in the common subset of GLSL and C++ with GLM, see circle.glsl.
+// Written in the common subset of GLSL and C++ with GLM (circle.glsl).
 #ifndef MENISCUS_GEOMETRY_POLYGON_REACH_GLSL
 #define MENISCUS_GEOMETRY_POLYGON_REACH_GLSL
 
-// Largest dot product of the unit vector d with the points of one side, the great-circle arc from a to b; b itself counts
-// with the next side. outside: positive if d lies beyond the side; if it is for no side, d is in the polygon and the
-// largest dot product of all is 1.
+// Returns the largest dot product of the unit vector d with the points of one side, the great-circle arc from a to b.
+// The point b belongs to the next side. outside: positive if d lies beyond the side. If it is positive for no side, d
+// is in the polygon, and the largest dot product is 1.
 GEOMETRY real reach_of_side(real3 a, real3 b, real3 d, GEOMETRY_OUT(real) outside) {
   real3 normal = cross(a, b);
   outside = dot(normal, d);
@@ -20,10 +21,10 @@ GEOMETRY real reach_of_side(real3 a, real3 b, real3 d, GEOMETRY_OUT(real) outsid
   return best;
 }
 
-// What a polygon's sides say so far of a direction.
+// The extent of a polygon's sides so far in a direction.
 struct PolygonReach {
-  real farthest;      // largest dot product of all
-  real most_outside;  // of all sides; positive if the direction is not in the polygon
+  real farthest;      // largest dot product of the direction with points of the sides
+  real most_outside;  // largest value of `outside`; positive if the direction is not in the polygon
 };
 
 GEOMETRY PolygonReach no_reach() {
@@ -39,12 +40,14 @@ GEOMETRY void add_side(GEOMETRY_INOUT(PolygonReach) reach, real3 a, real3 b, rea
   reach.most_outside = max(reach.most_outside, outside);
 }
 
-// How far from a probe another one, in this direction, may stand for its bisector, at half of that, to cut the polygon.
+// Returns the largest distance between a probe and another one in this direction for which their bisector, at half the
+// distance, cuts the polygon.
 GEOMETRY real cut_reach(PolygonReach reach, real probe_radius) {
   return (reach.most_outside <= real(0) ? real(1) : reach.farthest) * real(2) * probe_radius;
 }
 
-// When in doubt, yes: every bisector is true (theorem 1.3), it may only be one that cuts nothing.
+// True if the bisector of two probes at this distance cuts the polygon, or in doubt. An unnecessary bisector is
+// harmless: every bisector is valid (theorem 1.3), but it may cut nothing.
 GEOMETRY bool reaches_bisector(PolygonReach reach, real probe_radius, real distance) {
   return cut_reach(reach, probe_radius) >= distance * (real(1) - real(1) / (real(1000000) * real(1000000)));
 }

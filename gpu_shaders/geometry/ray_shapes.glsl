@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a ray meets a sphere around the origin, the lateral surface of a cylinder, or a triangle.
+// Intersects a ray with a sphere around the origin, the lateral surface of a cylinder, or a triangle.
 //
-// Common subset of GLSL and C++ with GLM; the includer defines real, real2, real3, GEOMETRY and GEOMETRY_OUT, and the
-// words of shared/lane.glsl: in C++ they may be packets.
-// Precision: give a ray that starts near the sphere (a few radii); then the error is a few roundings of the radius.
+// Written in the common subset of GLSL and C++ with GLM. The includer defines real, real2, real3, GEOMETRY,
+// GEOMETRY_OUT and the types of shared/lane.glsl, which may be packets in C++. Precision: if the ray starts near the
+// sphere, within a few radii, the error is a few roundings of the radius.
 #ifndef MENISCUS_GEOMETRY_RAY_SHAPES_GLSL
 #define MENISCUS_GEOMETRY_RAY_SHAPES_GLSL
 #include "gpu_shaders/shared/lane.glsl"
@@ -14,7 +14,8 @@ struct SphereHits {
   real far_t;
 };
 
-// Points o + t*d, |d| = 1. Squares are taken only of the distance at closest approach, which keeps all digits.
+// Intersects the ray of points o + t*d, |d| = 1, with a sphere. Only the distance at closest approach is squared, which
+// keeps all digits.
 GEOMETRY SphereHits ray_sphere(real3 o, real3 d, real radius) {
   SphereHits hits;
   real closest_t = -dot(o, d);
@@ -27,9 +28,9 @@ GEOMETRY SphereHits ray_sphere(real3 o, real3 d, real radius) {
   return hits;
 }
 
-// Points o + t*d, |d| = 1, on the infinite cylinder about `axis` (of length 1) through the origin: in the plane across
-// the axis this is a circle, and the ray a line that is shorter by the sine of their angle. Nothing is found along the
-// axis. Precision: as ray_sphere.
+// Intersects the ray of points o + t*d, |d| = 1, with the infinite cylinder about `axis` (of length 1) through the
+// origin. In the plane perpendicular to the axis, the cylinder is a circle, and the ray is shorter by the sine of their
+// angle. A ray along the axis meets nothing. The precision is that of ray_sphere().
 GEOMETRY SphereHits ray_cylinder(real3 o, real3 d, real3 axis, real radius) {
   real3 across = o - axis * dot(o, axis);
   real3 along = d - axis * dot(d, axis);
@@ -50,8 +51,9 @@ struct TriangleHit {
   real v;  // weight of the third
 };
 
-// Points o + t*d of the triangle with one corner at the origin and edges `e1` and `e2` from there, both sides. Moeller &
-// Trumbore 1997, J. Graphics Tools 2, 21. The weights may lie outside by `slack`, so that neighbours leave no gap.
+// Intersects the ray of points o + t*d with both sides of the triangle with one corner at the origin and the edges `e1`
+// and `e2` from there (Moeller & Trumbore 1997, J. Graphics Tools 2, 21). The weights may be out of range by `slack`,
+// so that neighbouring triangles leave no gap.
 GEOMETRY TriangleHit ray_triangle(real3 o, real3 d, real3 e1, real3 e2, real slack) {
   TriangleHit hit;
   real3 p = cross(d, e2);

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a ray meets a torus around the z axis: Newton's method on pieces of the ray where it cannot fail.
+// Intersects a ray with a torus around the z axis, by Newton's method on pieces of the ray where it cannot fail.
 //
-// Common subset of GLSL and C++ with GLM; the includer defines real, real2, real3, GEOMETRY, GEOMETRY_OUT and
-// GEOMETRY_INOUT; with the words of shared/lane.glsl, which in C++ may be packets.
-// A quartic in single precision loses roots when solved by radicals. Here no quartic is formed: it has the torus as a
-// factor, |x|^2 + R^2 - p^2 - 2 R rho, which keeps all digits and whose turns along the ray are known.
+// Written in the common subset of GLSL and C++ with GLM. The includer defines real, real2, real3, GEOMETRY,
+// GEOMETRY_OUT and GEOMETRY_INOUT. The types of shared/lane.glsl may be packets in C++. Solving a quartic by radicals
+// in single precision loses roots. No quartic is formed here: the torus is one of its factors, |x|^2 + R^2 - p^2 - 2 R
+// rho, which keeps all digits and has known inflection points along the ray.
 #ifndef MENISCUS_GEOMETRY_RAY_TORUS_GLSL
 #define MENISCUS_GEOMETRY_RAY_TORUS_GLSL
 #include "gpu_shaders/shared/lane.glsl"
 
-// Points x with |x|^2 + R^2 - p^2 = 2 R rho, rho = distance from the z axis. For R < p (spindle) this is the outer,
-// apple part only: the lemon inside is the other factor of the quartic.
+// The torus consists of points x with |x|^2 + R^2 - p^2 = 2 R rho, where rho is the distance from the z axis. For R < p
+// (spindle) this is the outer part only, the apple; the lemon inside is the other factor of the quartic.
 struct TorusFactors {
   real apple;        // |x|^2 + R^2 - p^2 - 2 R rho: zero on the torus (the apple), negative inside the tube
   real apple_slope;  // derivative of `apple` along the ray; on the axis, where it jumps, towards larger t or smaller t
 };
 
-// offset: R^2 - p^2; side: 1 or -1, as above.
+// Returns the factor of the torus and its slope at a point of the ray. offset: R^2 - p^2; side: 1 or -1, the direction
+// of the one-sided derivative on the axis.
 GEOMETRY TorusFactors torus_factors(real3 o, real3 d, real major, real offset, real t, real side) {
   TorusFactors f;
   real3 x = o + d * t;
@@ -28,9 +29,10 @@ GEOMETRY TorusFactors torus_factors(real3 o, real3 d, real major, real offset, r
   return f;
 }
 
-// Newton's method towards the roots of the apple factor. Along the ray it is convex, then concave around the closest
-// approach to the axis, then convex again; the bounds of the middle piece have a closed form. Where a convex function
-// is positive, Newton's method walks towards a root without ever stepping over it, and sees when there is none.
+// The state of Newton's method for the roots of the apple factor. Along the ray the factor is convex, then concave
+// around the closest approach to the axis, then convex again; the bounds of the middle piece have a closed form. Where
+// a convex function is positive, Newton's method approaches a root without ever stepping over it, and detects that
+// there is none.
 struct TorusRuns {
   real knot[4];   // the three pieces: convex, concave, convex
   integer sure;     // bits: the run ends at a root
@@ -40,7 +42,8 @@ struct TorusRuns {
 GEOMETRY TorusRuns torus_runs(real3 o, real3 d, real major, real minor, real low, real high) {
   TorusRuns runs;
   real offset = (major - minor) * (major + minor);
-  // rho^2 = h2 + s2 (t - middle)^2; the second derivative of the factor, 2 - 2 R h2 s2 / rho^3, vanishes at +-width.
+  // rho^2 = h2 + s2 (t - middle)^2. The second derivative of the factor, 2 - 2 R h2 s2 / rho^3, is zero at middle +-
+  // width.
   real s2 = d.x * d.x + d.y * d.y;
   real middle = select(s2 > real(0), -(o.x * d.x + o.y * d.y) / s2, real(0));
   real x = o.x + d.x * middle;
@@ -74,7 +77,8 @@ GEOMETRY TorusRuns torus_runs(real3 o, real3 d, real major, real minor, real low
   return runs;
 }
 
-// Does the next waiting run; `none` if it finds no root. Roots come in ascending order. tolerance: of t.
+// Does the next waiting run, and returns its root or `none`. Roots are found in ascending order. tolerance: tolerance
+// of t.
 GEOMETRY real torus_run(real3 o, real3 d, real major, real minor, real tolerance, real none,
                         GEOMETRY_INOUT(TorusRuns) runs) {
   real offset = (major - minor) * (major + minor);
@@ -84,7 +88,7 @@ GEOMETRY real torus_run(real3 o, real3 d, real major, real minor, real tolerance
   real low = select(bit < 4, runs.knot[0], select(bit < 16, runs.knot[1], runs.knot[2]));
   real high = select(bit < 4, runs.knot[1], select(bit < 16, runs.knot[2], runs.knot[3]));
   real sign = select(bit == 4 || bit == 8, real(-1), real(1));
-  // A run down is only started where there is a root.
+  // A run down is started only if there is a root.
   truth sure = down || (runs.sure & bit) != 0;
   real t = select(down, high, low);
   real root = none;
@@ -103,14 +107,14 @@ GEOMETRY real torus_run(real3 o, real3 d, real major, real minor, real tolerance
     real walked = -value / slope;
     real next = select(down, t - walked, t + walked);
     truth outside = (down && next < low) || (!down && next > high);
-    // The next step would be about the square of this one over the slope.
+    // The next step is about the square of this one divided by the slope.
     truth settled = real(8) * walked * walked <= -tolerance * slope || ++n == 60;
     root = select(!ended && outside && sure, select(down, low, high), root);
     root = select(!ended && settled && !outside, next, root);
     ended = ended || outside || settled;
     t = next;
   } while (some(!ended));
-  // Where a run up finds none there is no second one either.
+  // If a run up finds no root, there is no second one either.
   runs.waiting = select(!down && root == none, runs.waiting & ~(bit * 2), runs.waiting);
   return root;
 }

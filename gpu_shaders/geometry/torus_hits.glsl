@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All points of a ray on a torus around the z axis.
+// Finds all intersections of a ray with a torus around the z axis.
 //
-// Common subset of GLSL and C++ with GLM, see ray_torus.glsl; not for packets.
+// Written in the common subset of GLSL and C++ with GLM (ray_torus.glsl). It does not work for packets.
 #ifndef MENISCUS_GEOMETRY_TORUS_HITS_GLSL
 #define MENISCUS_GEOMETRY_TORUS_HITS_GLSL
 #include "gpu_shaders/geometry/ray_torus.glsl"
 
 struct TorusHits {
-  int count;  // 0 to 4, ascending
-  real t[4];
+  int count;  // 0 to 4
+  real t[4];  // ascending
 };
 
-// Points o + t*d, |d| = 1, t in [low, high], on the torus of major radius R and minor radius p around the z axis
-// (without the lemon of a spindle torus). Precision: start the ray near the torus. tolerance: of t, about the roundoff.
+// Returns the points o + t*d, |d| = 1, t in [low, high], on the torus around the z axis, without the lemon of a spindle
+// torus. For good precision the ray must start near the torus. tolerance: tolerance of t, about the roundoff.
 GEOMETRY TorusHits ray_torus(real3 o, real3 d, real major, real minor, real low, real high, real tolerance) {
   TorusHits hits;
   hits.count = 0;

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values between the points of a grid.
+// Interpolates values between the points of a grid.
 //
-// Common subset of GLSL and C++, the body of a struct there (core/volume/volume_grid.cpp). The includer provides
-//   real grid_value(uint n)  of a point, the last axis fastest.
-// place: in steps from the first point; x_count and so on: points along each axis, at least two.
+// Written in the common subset of GLSL and C++, where it is the body of a struct (core/volume/volume_grid.cpp). The
+// includer provides
+//   real grid_value(uint n)  the value of a point, with the last axis fastest.
+// place: position in steps from the first point; x_count, y_count, z_count: numbers of points along the axes, at least
+// two.
 
+// True if a place is on the grid.
 GEOMETRY bool on_grid(real3 place, uint x_count, uint y_count, uint z_count) {
   return place.x >= real(0) && place.y >= real(0) && place.z >= real(0) && place.x <= real(x_count - 1u) &&
          place.y <= real(y_count - 1u) && place.z <= real(z_count - 1u);
 }
 
-// Of the eight points around a place that is on the grid.
+// Returns the value at a place on the grid, interpolated from the eight points around it.
 GEOMETRY real trilinear(real3 place, uint x_count, uint y_count, uint z_count) {
   uint x = min(uint(place.x), x_count - 2u);
   uint y = min(uint(place.y), y_count - 2u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fetches values of a cast block for the kernels of this stage, under the names that view_space.glsl asks for.
+// Fetches values of a cast block for the kernels of this stage, under the names that view_space.glsl needs.
 #ifndef MENISCUS_LOOK_BLOCK_TEXELS_GLSL
 #define MENISCUS_LOOK_BLOCK_TEXELS_GLSL
 #include "gpu_shaders/shared/constants.glsl"
@@ -16,7 +16,7 @@ int index_of(ivec2 pixel) { return pixel.y * view.size.x + pixel.x; }
 
 #include "gpu_shaders/look/view_space.glsl"
 
-// Along the view axis, in Å.
+// Returns the depth of a pixel along the view axis in Å, or kNothing.
 float depth_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(depth_texels, index_of(pixel)).x); }
 
 float depth_or_nothing(ivec2 pixel) { return in_block(pixel) ? depth_at(pixel) : kNothing; }

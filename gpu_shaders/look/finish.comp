@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Applies shade, depth cueing and silhouettes to one sample of each pixel of a block, and adds it to the picture.
-// AMBIENT_OCCLUSION and SILHOUETTES are defined where they are asked for: software GL would pay for them all the same.
+// AMBIENT_OCCLUSION and SILHOUETTES are defined only if they are requested, because software GL would compute them
+// always.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/block_texels.glsl"
 #include "gpu_shaders/look/parameters.glsl"
 
-layout(binding = 2) uniform usamplerBuffer shade_texels;  // visibility, depth; there for AMBIENT_OCCLUSION
-layout(binding = 3) uniform usamplerBuffer mark_texels;  // of each pixel; there if has_marks
+layout(binding = 2) uniform usamplerBuffer shade_texels;  // visibility, depth; bound for AMBIENT_OCCLUSION
+layout(binding = 3) uniform usamplerBuffer mark_texels;   // mark of each pixel; bound if has_marks
 layout(std430, binding = 0) readonly buffer Samples { vec4 samples[]; };  // linear, premultiplied
 layout(std430, binding = 1) buffer Picture { vec4 picture[]; };
 

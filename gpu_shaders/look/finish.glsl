@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shade, depth cueing and silhouettes: how they change the colour of a sample.
+// Changes the colour of a sample by shade, depth cueing and silhouettes.
 //
-// GLSL and, as the body of a struct, C++: see view_space.glsl. The includer provides `params` of FinishParameters,
-// shade_depth_or_nothing() of a pixel, which may lie outside of the block, and visibility_at() where that met something:
-// both of the sample whose shade this one takes; and shade_seen_at(), seen_at() of a pixel at that depth.
+// Written in GLSL and, as the body of a struct, in C++ (view_space.glsl). The includer provides `params` of
+// FinishParameters and three functions for the sample whose shade this one uses: shade_depth_or_nothing() of a pixel,
+// which may be outside of the block; visibility_at() of a pixel that has a hit; and shade_seen_at(), which is seen_at()
+// of a pixel at that depth.
 
-// Mean over 4 x 4 pixels, as a square of 5 x 5 whose rim counts half; pixels of other surfaces do not count, unless there
-// are no others.
+// Returns the mean visibility over 4 x 4 pixels, as a square of 5 x 5 whose rim has half the weight. Pixels of other
+// surfaces do not count, unless there are no others.
 GEOMETRY real mean_visibility(pixel_row pixel, real depth) {
   real3 p = position_at(pixel, depth);
   real3 normal = turned_over(facing(hit_normal_at(pixel), to_viewer_at(p)));
@@ -28,7 +29,7 @@ GEOMETRY real mean_visibility(pixel_row pixel, real depth) {
   return sum / weights;
 }
 
-// A sample's colour in the shade: its light, and its highlight, which needs more of the sky to be open.
+// Returns the colour of a sample in the shade. The highlight needs a greater visibility than the other light.
 GEOMETRY real3 shaded(real3 color, real alpha, pixel_row pixel, real depth) {
   real visible = mix(real(1.0), mean_visibility(pixel, depth), real(params.ambient_occlusion));
   real3 lit = color * visible;
@@ -40,20 +41,21 @@ GEOMETRY real3 shaded(real3 color, real alpha, pixel_row pixel, real depth) {
   return lit + real3(alpha * (open * open) * highlight);
 }
 
-// The least difference of depths that is a step, Å.
+// Returns the least difference of depths that is a step, in Å.
 GEOMETRY real least_step(real depth) { return 0.5 + params.step_pixels * pixel_size_at(depth); }
 
-// How much more it takes until the line is black, Å.
+// Returns the further difference of depths at which the line becomes black, in Å.
 GEOMETRY real step_range(real depth) { return 3.0 + params.fade_pixels * pixel_size_at(depth); }
 
-// False if no line is drawn between two pixels for their depths.
+// True if a line may be drawn between two pixels because of their depths.
 GEOMETRY truth may_step(real depth_a, real depth_b) {
   truth open = depth_a == real(kNothing) || depth_b == real(kNothing);
   truth steps = abs(depth_a - depth_b) > least_step(min(depth_a, depth_b));
   return (open && depth_a != depth_b) || (!open && steps);
 }
 
-// By how much the depths of two pixels that met something differ, but for what the slope of the flatter one explains; Å.
+// Returns the difference of the depths of two pixels that have hits, without the part that the slope of the flatter one
+// explains, in Å.
 GEOMETRY real jump_between(pixel_row a, real depth_a, pixel_row b, real depth_b) {
   real3 viewer_a = to_viewer_at(position_at(a, depth_a));
   real3 viewer_b = to_viewer_at(position_at(b, depth_b));
@@ -64,7 +66,7 @@ GEOMETRY real jump_between(pixel_row a, real depth_a, pixel_row b, real depth_b)
   return abs(depth_a - depth_b) - length(real2(a - b)) * pixel_size_at(min(depth_a, depth_b)) * slope;
 }
 
-// How strong that line is: from none at a small step to full at a large one.
+// Returns the strength of the line between two pixels, from 0 for a small step to 1 for a large one.
 GEOMETRY real step_ink(pixel_row a, real depth_a, pixel_row b, real depth_b) {
   real nearer = min(depth_a, depth_b);
   real least = least_step(nearer);
@@ -75,36 +77,36 @@ GEOMETRY real step_ink(pixel_row a, real depth_a, pixel_row b, real depth_b) {
   return select(depth_a == real(kNothing) && depth_b == real(kNothing), real(0.0), ink);
 }
 
-// Whether two points are of different parts, by their marks: four times the number of a part, and on a surface that has
-// patches 2 more, in a patch 3.
+// True if two points belong to different parts. A mark is four times the number of the part, plus 2 on a surface that
+// has patches, or plus 3 in a patch.
 GEOMETRY truth parts_differ(integer mark_a, integer mark_b) { return (mark_a >> 2) != (mark_b >> 2); }
 
-// Whether the border of a patch runs between two pixels that met something: both are of that surface, which goes on from
-// one to the other, and one of them alone is in a patch.
+// True if the border of a patch runs between two pixels that have hits: both are on the surface with patches, the
+// surface is continuous between them, and exactly one of them is in a patch.
 GEOMETRY truth parted_by_patch(pixel_row a, real depth_a, integer mark_a, pixel_row b, real depth_b, integer mark_b) {
   real tolerance = 0.3 + 2.0 * pixel_size_at(min(depth_a, depth_b));
   truth one_in_patch = (mark_a & mark_b & 2) != 0 && ((mark_a ^ mark_b) & 1) != 0;
   return one_in_patch && jump_between(a, depth_a, b, depth_b) <= tolerance;
 }
 
-// How much of a pixel a line of this width covers, at most, that belongs to the border towards the neighbour at this
-// offset: half of it lies on each side.
+// Returns the share of a pixel that a line covers at most. The line runs along the border towards the neighbour at this
+// offset, with half of its width on each side. width: pixels.
 GEOMETRY real covered_share(integer2 offset, float width) {
   return clamp(0.5 * width + 1.0 - length(real2(offset)), 0.0, 1.0);
 }
 
-// Beyond it they cover nothing.
+// Returns the greatest offset in pixels of a neighbour whose lines can cover a part of the pixel.
 GEOMETRY int farthest_neighbor() { return int(ceil(0.5 * params.widest_line)); }
 
-// How much of a pixel is covered by what parts it from the neighbour at this offset: a step of some strength, and a seam
-// of two parts or not. Where either is open, it is the outer line.
+// Returns the share of a pixel that the lines towards the neighbour at this offset cover. step: strength of a step of
+// depth; seam: true between two parts; open: true if one of both pixels has no hit, so that the line is an outer line.
 GEOMETRY real covered_by_border(integer2 offset, real step, truth seam, truth open) {
   real seam_ink = select(seam, covered_share(offset, params.part_lines), real(0.0));
   real inner_ink = max(covered_share(offset, params.inner_lines) * step, seam_ink);
   return select(open, covered_share(offset, params.outer_lines) * step, inner_ink);
 }
 
-// What is left of a colour at this depth.
+// Returns the share of a colour that depth cueing leaves at this depth.
 GEOMETRY real clarity(real depth) {
   real range = max(real(params.last_depth - params.first_depth), 1e-3);
   return 1.0 - params.depth_cue * clamp((depth - params.first_depth) / range, 0.0, 1.0);

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sample's colour as pictures show it: in the shade, in the air, under the lines.
+// Computes the final colour of a sample with shade, depth cueing and lines.
 //
-// GLSL; the CPU's rows have loops of their own (core/render/cpu/look_rows.h). The includer provides finish.glsl, depth_at()
-// and mark_at() of a pixel of the block. AMBIENT_OCCLUSION and SILHOUETTES are defined where they are asked for.
+// Written in GLSL only; the CPU's rows have loops of their own (core/render/cpu/look_rows.h). The includer provides
+// finish.glsl, and depth_at() and mark_at() of a pixel of the block. AMBIENT_OCCLUSION and SILHOUETTES are defined if
+// they are requested.
 
-// Shares of a pixel that black lines cover, with the depth of what they outline, and that lines around patches cover.
+// The share of a pixel that black lines cover, the depth of the object that they outline, and the share that lines
+// around patches cover.
 struct Ink {
   float covered;
   float depth;
   float patched;
 };
 
-// Software GL runs every branch: so each pixel first looks, cheaply, for the next neighbour that matters to it.
+// Returns the lines on a pixel. Software GL runs every branch, so each pixel first searches for its next relevant
+// neighbour by cheap tests.
 Ink ink_on(ivec2 pixel, float depth) {
   int reach = farthest_neighbor();
   Ink ink = Ink(0.0, depth, 0.0);
@@ -49,7 +52,7 @@ Ink ink_on(ivec2 pixel, float depth) {
   return ink;
 }
 
-// color: linear, premultiplied.
+// Returns the final colour of a sample. color: linear, premultiplied.
 vec4 finished_sample(vec4 color, ivec2 pixel, float depth) {
 #ifdef AMBIENT_OCCLUSION
   if (depth != kNothing) color.rgb = shaded(color.rgb, color.a, pixel, depth);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes how much of the sky each hit of a block sees, and keeps its depth beside that.
+// Computes the visibility of the sky for each hit of a block, and stores it with the depth of the hit.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/block_texels.glsl"
@@ -10,7 +10,7 @@ layout(std430, binding = 0) writeonly buffer Shade { vec2 shade[]; };  // visibi
 
 layout(std140, binding = 0) uniform Parameters { OcclusionParameters occlusion; };
 
-// Outside of the map there is nothing.
+// Returns the depth of a texel of the map, or kNothing outside of the map.
 float map_depth_or_nothing(ivec2 texel) {
   if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, occlusion.map_size))) return kNothing;
   return uintBitsToFloat(texelFetch(map_texels, texel.y * occlusion.map_size.x + texel.x).x);

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much of the sky each hit sees over what else the picture shows: ground-truth ambient occlusion (Jimenez, Wu,
-// Pesce & Jarabo 2016), the visible arc of each slice in closed form.
+// Computes the share of the sky that each hit sees above the other points of the picture: ground-truth ambient
+// occlusion (Jimenez, Wu, Pesce & Jarabo 2016), with the visible arc of each slice in closed form.
 //
-// Each pixel looks along a few directions only, which differ within blocks of 4 x 4 pixels in a fixed pattern
-// (interleaved sampling, Keller & Heidrich 2001); finish.glsl averages over such blocks, and nothing of it stays.
-// Horizons are those of the whole picture: one map of its depths serves all blocks, and shade reaches as far in a large
-// picture as in a small one at the same cost.
-// GLSL and, as the body of a struct, C++: see view_space.glsl. The includer provides `occlusion` of OcclusionParameters
-// and map_depth_or_nothing() of a texel of the map, which may lie outside.
+// Each pixel uses a few directions only, which differ within blocks of 4 x 4 pixels in a fixed pattern (interleaved
+// sampling, Keller & Heidrich 2001). finish.glsl averages over such blocks, so that the pattern disappears. Horizons
+// are those of the whole picture: one map of its depths serves all blocks, and shade extends as far in a large picture
+// as in a small one at the same cost. Written in GLSL and, as the body of a struct, in C++ (view_space.glsl). The
+// includer provides `occlusion` of OcclusionParameters, and map_depth_or_nothing() of a texel, which may be outside of
+// the map.
 
 const int kSliceCount = 2;
 const float kPi = 3.14159265;
 
-// Places of 0 to 15 in a block such that each row, column and quarter has small and large ones (Bayer 1973).
+// Returns a number from 0 to 15 for a pixel in a block, such that each row, column and quarter of the block has small
+// and large numbers (Bayer 1973).
 GEOMETRY integer pattern(integer2 pixel) {
   integer x = (pixel.x ^ pixel.y) & 3;
   return (x & 1) << 3 | (pixel.y & 1) << 2 | (x & 2) | (pixel.y & 2) >> 1;
 }
 
-// What is some pixels on from a pixel at `from`: where it is seen, in pixels from the picture's middle, and its depth.
+// Returns the possible occluder at an offset of `way` pixels from a pixel at `from`: its place in pixels from the
+// middle of the picture, and its depth.
 GEOMETRY real3 occluder_at(pixel_row pixel, real2 from, real2 way, float texels, vec2 middle) {
   real2 texel = round((from + way) * texels + middle);
   real2 place = (texel - middle) * occlusion.texel_edge;
@@ -31,12 +33,12 @@ GEOMETRY real3 occluder_at(pixel_row pixel, real2 from, real2 way, float texels,
   return select(is_near, real3(place.x, place.y, depth_or_nothing(other)), occluder);
 }
 
-// How far it is looked, in pixels.
+// The distances of the samples along a direction, in pixels.
 struct Steps {
   real ways[kStepCount];
 };
 
-// Closer steps near by, where small clefts are.
+// Returns distances of samples up to `reach` pixels. They are denser near the pixel, to resolve small clefts.
 GEOMETRY Steps steps_within(real reach, real offset) {
   Steps steps;
   for (int k = 0; k < kStepCount; ++k) {
@@ -46,9 +48,10 @@ GEOMETRY Steps steps_within(real reach, real offset) {
   return steps;
 }
 
-// Cosine of the horizon, seen from p, on the way along `direction`, at least `lowest`; in the picture's axes. range: Å.
+// Returns the cosine of the horizon angle seen from p along `direction`, at least `lowest`, in the picture's axes.
+// range: the distance beyond which nothing occludes, Å.
 GEOMETRY real horizon(pixel_row pixel, real3 p, real3 to_viewer, real2 direction, Steps steps, real range, real lowest) {
-  // All are fetched first: each takes its time, but they do not wait for each other.
+  // All samples are fetched first, so that their latencies overlap.
   real3 occluder[kStepCount];
   real2 from = real2(place_of(pixel));
   float texels = 1.0 / occlusion.texel_edge;
@@ -60,7 +63,7 @@ GEOMETRY real horizon(pixel_row pixel, real3 p, real3 to_viewer, real2 direction
     real depth = occluder[k].z;
     real3 to_other = seen_at(real2(occluder[k].x, occluder[k].y), depth, pixel_size_at(depth)) - p;
     real distance = length(to_other);
-    // What is far away shades less and less; a step at the radius would show as a rim.
+    // Occlusion decreases with distance, because a step at the radius would be visible as a rim.
     real weight = clamp((1.0 - distance / range) / 0.6, 0.0, 1.0);
     real cosine = mix(lowest, dot(to_other, to_viewer) / max(distance, 1e-6), weight);
     highest = select(depth != real(kNothing), max(highest, cosine), highest);
@@ -68,16 +71,16 @@ GEOMETRY real horizon(pixel_row pixel, real3 p, real3 to_viewer, real2 direction
   return highest;
 }
 
-// The cosine-weighted arc between the viewer's direction and the horizon at angle h, both in a slice where the normal
-// is at angle n.
+// Returns the cosine-weighted arc between the viewer's direction and the horizon at angle h, in a slice where the
+// normal is at angle n.
 GEOMETRY real arc(real h, real n) { return 0.25 * (cos(n) + 2.0 * h * sin(n) - cos(2.0 * h - n)); }
 
-// How far around a hit at this depth is looked for what hides the sky, in pixels.
+// Returns the radius in pixels around a hit at this depth in which occluders are searched.
 GEOMETRY real shade_reach(real depth) {
   return min(occlusion.radius / pixel_size_at(depth), occlusion.longest_reach);
 }
 
-// Of a pixel whose ray met something, at this depth.
+// Returns the visibility of the sky, from 0 to 1, for a pixel with a hit at this depth.
 GEOMETRY real sky_visibility(pixel_row pixel, real depth) {
   real3 p = position_at(pixel, depth);
   real3 to_viewer = to_viewer_at(p);

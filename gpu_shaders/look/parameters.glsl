@@ -10,7 +10,7 @@ struct DepthParameters {
 
 const int kStepCount = 6;  // how often each way from a pixel is looked at for what hides the sky
 
-// The whole picture's depths, in texels of one or more pixels; its middle is the picture's.
+// The map of the whole picture's depths, in texels of one or more pixels. Its middle is the middle of the picture.
 struct OcclusionParameters {
   vec2 map_middle;      // texels from the middle of the first
   ivec2 map_size;       // texels

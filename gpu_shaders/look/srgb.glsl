@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From linear light to sRGB (IEC 61966-2-1).
+// Converts linear light to sRGB (IEC 61966-2-1).
 
 vec3 srgb_from_linear(vec3 c) {
   c = clamp(c, 0.0, 1.0);

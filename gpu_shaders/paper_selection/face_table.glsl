@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the RS face of a triple of atoms: a hash table with linear probing.
-// To be included below probe_record.glsl and triple.glsl.
+// A hash table with linear probing that finds the RS face of a triple of atoms.
+// To be included after probe_record.glsl and triple.glsl.
 #include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/paper_selection/parameters.glsl"
 
-layout(std430, binding = 2) buffer FaceTable { uint face_table[]; };  // face + 1; 0: nothing
+layout(std430, binding = 2) buffer FaceTable { uint face_table[]; };  // face + 1, or 0 if the place is empty
 layout(std430, binding = 3) readonly buffer Probes { ProbeRecord probes[]; };
 layout(std140, binding = 0) uniform Parameters { FaceTableParameters params; };
 

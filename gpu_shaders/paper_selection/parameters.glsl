@@ -5,14 +5,14 @@
 #define MENISCUS_PAPER_SELECTION_PARAMETERS_GLSL
 
 struct DrawParameters {
-  uint count;  // of atoms or faces
+  uint count;  // number of atoms or faces
   float probe_radius;
-  uint pass;  // one program for both, so that both find the same numbers
+  uint pass;  // 0 or 1; one program does both passes, so that both compute the same numbers
 };
 
 struct FaceTableParameters {
   uint table_size;  // a power of two, at least twice the number of faces
-  uint count;       // of what looks into it or fills it
+  uint count;       // number of faces that fill it, or of arcs that search it
 };
 
 struct FaceParameters {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ray through the centre of a pixel, and the pixels that a group of 32 invocations asks about one ball.
+// The ray through the centre of a pixel, and the range of pixels that a group of 32 invocations tests for one ball.
 #include "gpu_shaders/visibility/view.glsl"
 
 struct PixelRay {

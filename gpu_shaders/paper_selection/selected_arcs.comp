@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "paper selection", 4 and 5: pass 0 adds the faces adjacent to visible ones, those at the other ends of their
-// edges; pass 1 keeps the edges and marks the atoms of all faces selected.
-// Reads: arcs, probes, face_table, visible atoms. Writes: selected, kept_arcs, drawn atoms, counters. One invocation per
-// arc. Overflow: none, kept_arcs has room for all arcs.
+// Stage "paper selection", 4 and 5: pass 0 adds the faces adjacent to visible ones, which are at the other ends of
+// their edges; pass 1 keeps the edges of all selected faces and marks their atoms.
+// Reads: arcs, probes, face_table, visible atoms. Writes: selected, kept_arcs, drawn atoms, counters. One invocation
+// per arc. Overflow: none, kept_arcs has room for all arcs.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.3: the adjacent face is the one at the smallest angle about the
-// edge; that is where the exposed arc ends.
+// edge, which is where the exposed arc ends.
 #version 450 core
 layout(local_size_x = 64) in;
 #define DOUBLE_PRECISION

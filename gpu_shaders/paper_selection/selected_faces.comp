@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stage "paper selection", 6: keeps the selected RS faces.
-// Reads: selected, probes, probe_balls, probe_balls_low. Writes: copies of the last three without the others, counters.
-// One invocation per probe. Overflow: none, the copies have room for all.
+// Reads: selected, probes, probe_balls, probe_balls_low. Writes: copies of the last three with the selected faces only,
+// counters. One invocation per probe. Overflow: none, the copies have room for all faces.
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "paper selection", 2: draws the RS faces that have a visible atom; those that some pixel's centre shows are visible.
-// Pass 0 finds the nearest face of each pixel, pass 1 marks it.
+// Stage "paper selection", 2: draws the RS faces that have a visible atom. A face is visible if the centre of some
+// pixel shows it. Pass 0 finds the nearest face of each pixel, pass 1 marks it.
 // Reads: probes, balls, visible atoms, pixel_depths. Writes: pixel_depths (bits of floats), selected. One group per
 // probe. Overflow: none.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.3.
@@ -11,14 +11,15 @@ layout(local_size_x = 32) in;
 #include "gpu_shaders/paper_selection/pixel_ray.glsl"
 #include "gpu_shaders/paper_selection/parameters.glsl"
 
-layout(std430, binding = 0) readonly buffer Balls { vec4 balls[]; };  // from the middle of the atoms
+layout(std430, binding = 0) readonly buffer Balls { vec4 balls[]; };  // relative to the middle of the atoms
 layout(std430, binding = 1) buffer PixelDepths { uint pixel_depths[]; };
 layout(std430, binding = 2) readonly buffer Visible { uint visible[]; };
 layout(std430, binding = 3) readonly buffer Probes { ProbeRecord probes[]; };
 layout(std430, binding = 4) writeonly buffer Selected { uint selected[]; };
 layout(std140, binding = 0) uniform Parameters { DrawParameters params; };
 
-// Distance along the ray to the triangle a, b, c; not positive where it misses (Moeller & Trumbore 1997).
+// Returns the distance along the ray to the triangle a, b, c, which is not positive if the ray misses it (Moeller &
+// Trumbore 1997).
 float triangle_depth(PixelRay ray, vec3 a, vec3 b, vec3 c) {
   vec3 ab = b - a;
   vec3 ac = c - a;

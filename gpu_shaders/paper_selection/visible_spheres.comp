@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "paper selection", 1: draws the vdW spheres; an atom is visible if some pixel's centre shows it.
-// Pass 0 finds the nearest sphere of each pixel, pass 1 marks its atom.
-// Reads: balls, pixel_depths. Writes: pixel_depths (bits of floats), visible, drawn. One group per atom. Overflow: none.
+// Stage "paper selection", 1: draws the vdW spheres. An atom is visible if the centre of some pixel shows it. Pass 0
+// finds the nearest sphere of each pixel, pass 1 marks its atom.
+// Reads: balls, pixel_depths. Writes: pixel_depths (bits of floats), visible, drawn. One group per atom. Overflow:
+// none.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.2.
 #version 450 core
 layout(local_size_x = 32) in;
@@ -9,7 +10,7 @@ layout(local_size_x = 32) in;
 #include "gpu_shaders/paper_selection/pixel_ray.glsl"
 #include "gpu_shaders/paper_selection/parameters.glsl"
 
-layout(std430, binding = 0) readonly buffer Balls { vec4 balls[]; };  // from the middle of the atoms, SAS radius
+layout(std430, binding = 0) readonly buffer Balls { vec4 balls[]; };  // relative to the middle of the atoms, SAS radius
 layout(std430, binding = 1) buffer PixelDepths { uint pixel_depths[]; };
 layout(std430, binding = 2) writeonly buffer Visible { uint visible[]; };
 layout(std430, binding = 3) writeonly buffer Drawn { uint drawn[]; };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exclusive prefix sum over `count` words in two levels, by groups that share their sums: for devices whose invocations
-// run side by side. Software GL, which is slow at barriers, takes parallel/scan.comp; both give the same words.
+// Computes the exclusive prefix sum over `count` words in two levels, by groups that share their sums. It is for
+// devices whose invocations run in parallel. Software GL, on which barriers are slow, uses parallel/scan.comp; both
+// give the same words.
 // Pass 0: each group adds up its chunk of words into totals[chunk].
 // Pass 1: a single group scans the totals in place and writes the grand total after the last word.
 // Pass 2: each group rewrites its chunk as prefix sums.
@@ -17,7 +18,8 @@ layout(std140, binding = 0) uniform Parameters { ScanParameters params; };
 
 shared uint sums[gl_WorkGroupSize.x];
 
-// The sum of `own` over the invocations before this one; sums[] ends with that over all. For the whole group to call.
+// Returns the sum of `own` over the invocations before this one. The last element of sums[] becomes the sum over all
+// invocations. The whole group must call it.
 uint sum_before(uint own) {
   uint at = gl_LocalInvocationIndex;
   barrier();

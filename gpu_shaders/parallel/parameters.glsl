@@ -5,9 +5,9 @@
 #define MENISCUS_PARALLEL_PARAMETERS_GLSL
 
 struct ScanParameters {
-  uint count;         // words
-  uint chunk_length;  // words per invocation, or per group
-  uint limit;         // no sum is larger
+  uint count;         // number of words
+  uint chunk_length;  // words per invocation or per group
+  uint limit;         // greatest value of a sum
 };
 
 #endif

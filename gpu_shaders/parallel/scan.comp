@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exclusive prefix sum over `count` words in three passes of serial chunks; no barriers, which software GL is slow at.
+// Computes the exclusive prefix sum over `count` words in three passes of serial chunks. It uses no barriers, because
+// they are slow on software GL.
 // Pass 0: one invocation per chunk adds up its words into totals[chunk].
 // Pass 1: a single invocation scans the totals in place and writes the grand total after the last word.
 // Pass 2: one invocation per chunk rewrites its words as prefix sums.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The end of every primitive's making: its bound seen from the camera, its place in the ray caster's tables.
-// To be included where real is double. Numbers are made in double and rounded once, as core/render/ray_cast_scene.cpp
-// does on the host.
+// Completes primitives: computes the bound relative to the camera, and appends to the tables of the ray caster.
+// To be included where real is double. Numbers are computed in double precision and rounded once, like those of
+// core/render/ray_cast_scene.cpp on the host.
 #include "gpu_shaders/geometry/patch_bounds.glsl"
 #include "gpu_shaders/ray_cast/records.glsl"
 #include "gpu_shaders/primitives/parameters.glsl"
@@ -28,7 +28,8 @@ void add_bits(dvec3 v, uint bits) {
   ++next_row;
 }
 
-// False when nothing of the bound lies in front of the camera; else sets the record's bound, and room for its rows.
+// Begins a primitive: sets the bound of its record, and reserves its rows. Returns false if no part of the bound is in
+// front of the camera.
 bool begin_primitive(PatchBound bound, uint row_count_of_it, out Primitive primitive) {
   SeenBound seen = see_bound(bound, double(scene.slack), scene.pivot, scene.camera_position, scene.camera_forward,
                              scene.eye_distance, scene.orthographic != 0u);

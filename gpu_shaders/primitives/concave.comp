@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "primitives", 2: a concave patch for every fixed probe (RS face), cut by all probes that reach into it.
-// Reads: probes, their neighbour lists, atoms. Writes: primitives, rows, counters. One invocation per probe of the batch.
-// Overflow: appends stop at the capacity but go on counting; the host grows and runs again.
+// Stage "primitives", 2: makes a concave patch for every fixed probe (RS face), cut by all probes that intersect it.
+// Reads: probes, their neighbour lists, atoms. Writes: primitives, rows, counters. One invocation per probe of the
+// batch. Overflow: appends stop at the capacity but go on counting; the host grows and runs again.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.4 (singularity handling), with every probe within two radii.
 #version 450 core
 layout(local_size_x = 64) in;
@@ -19,16 +19,16 @@ layout(std430, binding = 0) readonly buffer Atoms { dvec4 atoms[]; };  // centre
 layout(std430, binding = 1) readonly buffer Probes { ProbeRecord probes[]; };
 layout(std430, binding = 5) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 6) readonly buffer NeighborLabels { uint neighbor_labels[]; };
-layout(std430, binding = 7) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };  // relative centre
+layout(std430, binding = 7) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };  // centre relative to the probe
 layout(std140, binding = 0) uniform Parameters { ConcaveParameters params; };
 
-// Unit vectors, counter-clockwise seen from the probe. Three variables: NVIDIA's compiler (580.159) rounds doubles to floats in
-// arrays with a variable index.
+// Unit vectors towards the contacts, counter-clockwise seen from the probe. They are three variables, because NVIDIA's
+// compiler (580.159) rounds doubles to floats in arrays with a variable index.
 dvec3 contact_a;
 dvec3 contact_b;
 dvec3 contact_c;
 
-// Whether the bisector towards a probe at s + d reaches into the spherical polygon.
+// True if the bisector towards a probe at s + d cuts the spherical polygon.
 bool cuts(dvec3 d) {
   double distance = length(d);
   if (!(distance > 0.0LF) || distance >= 2.0LF * scene.probe_radius) return false;
@@ -42,28 +42,30 @@ bool cuts(dvec3 d) {
 
 bool touches(uint probe, uint atom) { return any(equal(probes[probe].atoms.xyz, uvec3(atom))); }
 
-// The radii are those of decisions, larger by less than a hundredth of what is asked for.
+// True if a probe at `position` touches three atoms. The radii are those of decisions, which are larger by less than a
+// hundredth of the tolerance.
 bool touches_all(dvec3 position, uvec3 of) {
   return touches_atom(position - atoms[of.x].xyz, sqrt(atoms[of.x].w)) &&
          touches_atom(position - atoms[of.y].xyz, sqrt(atoms[of.y].w)) &&
          touches_atom(position - atoms[of.z].xyz, sqrt(atoms[of.z].w));
 }
 
-// Whether the probe listed at `place` is a member of the same n-fold probe: there is no plane between them. Unlike
-// core/surface/fixed_probes.cpp this does not ask for arcs that join them (docs/explanation/theory.md says why that may be).
+// True if the probe listed at `place` is a member of the same n-fold probe, so that there is no plane between them.
+// Unlike core/surface/fixed_probes.cpp it does not require arcs that join them; docs/explanation/theory.md says why
+// that is valid.
 bool coincides(uint place, uint self) {
   vec3 coarse = neighbor_balls[place].xyz;
-  if (dot(coarse, coarse) > 1e-6) return false;  // more than may_stand_together() allows
+  if (dot(coarse, coarse) > 1e-6) return false;  // farther apart than may_be_coincident() allows
   ProbeRecord s = probes[self];
   ProbeRecord t = probes[neighbor_labels[place]];
   dvec3 d = t.position - s.position;
-  if (stand_together(d, s.height, t.height)) return true;
-  if (!may_stand_together(d, s.height, t.height)) return false;
+  if (are_coincident(d, s.height, t.height)) return true;
+  if (!may_be_coincident(d, s.height, t.height)) return false;
   return is_flat(s.height) ? touches_all(t.position, s.atoms.xyz) : touches_all(s.position, t.atoms.xyz);
 }
 
-// Contact n of the probe listed at `place`, a member of the same n-fold probe as the one at s: false if that one, or
-// a member listed before, touches this atom too.
+// True if contact n of the probe listed at `place` is a new contact of the n-fold probe of which it is a member. It is
+// not new if the probe `self`, or a member listed before, touches this atom, too.
 bool is_new_contact(uint self, uint first, uint place, int n) {
   uint atom = probes[neighbor_labels[place]].atoms[n];
   if (touches(self, atom)) return false;
@@ -86,13 +88,13 @@ void main() {
   dvec3 sum = contact_a + contact_b + contact_c;
   PatchBound bound = PatchBound(s, scene.probe_radius);
   if (length(sum) > 1e-6LF) {
-    // A cap of at most half a sphere is convex on the sphere: it holds the patch if it holds the contacts.
+    // A cap of at most half a sphere is convex on the sphere, so it contains the patch if it contains the contacts.
     dvec3 axis = normalize(sum);
     double cosine = min(min(dot(contact_a, axis), dot(contact_b, axis)), dot(contact_c, axis));
     bound = cap_bound(s, scene.probe_radius, axis, cosine);
   }
 
-  // Only where a probe is lower over its atoms than its radius does its patch leave its simplex (theorem 1.3).
+  // A patch leaves its simplex only if the probe is lower over its atoms than its radius (theorem 1.3).
   bool low = probe.height < scene.probe_radius;
   uint first = neighbor_first[entry];
   uint last = neighbor_first[entry + 1u];
@@ -121,7 +123,7 @@ void main() {
   add_bits(contact_a, atom.x);
   add_bits(contact_b, atom.y);
   add_bits(contact_c, atom.z);
-  // A point takes the colour of the nearest contact, and the other members of an n-fold probe have more of them.
+  // A point has the colour of the nearest contact, and the other members of an n-fold probe have further contacts.
   for (uint n = first; n < last && contact_count > 3u; ++n) {
     if (!coincides(n, self)) continue;
     for (int m = 0; m < 3; ++m) {

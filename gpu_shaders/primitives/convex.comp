@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "primitives", 7: a convex patch for every atom with exposed arcs, or whose whole sphere is exposed.
+// Stage "primitives", 7: makes a convex patch for every atom that has exposed arcs, or whose whole sphere is exposed.
 // Reads: kept atoms and their neighbour lists, arcs by atom, clips, atoms, radii. Writes: primitives, rows, counters.
 // One invocation per kept atom of the batch. Overflow: appends stop at the capacity but go on counting; the host grows
 // and runs again.
@@ -23,9 +23,9 @@ layout(binding = 1) uniform usamplerBuffer atom_arcs;  // partner, begin_by, end
 layout(std430, binding = 5) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 6) readonly buffer NeighborLabels { uint neighbor_labels[]; };
 layout(std140, binding = 0) uniform Parameters { ConvexParameters params; };
-layout(std430, binding = 7) readonly buffer Clips { uint clips[]; };  // with whole spheres, whether each is drawn
+layout(std430, binding = 7) readonly buffer Clips { uint clips[]; };  // for whole spheres, not 0 if the sphere is drawn
 
-// The contact plane towards b, from the centre of a: unit normal, offset.
+// Returns the contact plane of atom a towards b, relative to the centre of a: unit normal, offset.
 dvec4 contact_plane(uint a, uint b) {
   dvec3 d = atoms[b].xyz - atoms[a].xyz;
   double distance = length(d);
@@ -34,7 +34,7 @@ dvec4 contact_plane(uint a, uint b) {
 }
 
 #ifdef WHOLE_SPHERES
-// As in the paper: all of the vdW sphere, most of it inside the solid.
+// Makes the whole vdW sphere of an atom as in the paper. Most of it is inside the solid.
 void make_patch(uint a, uint entry) {
   Primitive sphere;
   if (clips[a] == 0u || !begin_primitive(PatchBound(atoms[a].xyz, radii[a]), 1u, sphere)) return;
@@ -46,9 +46,10 @@ void make_patch(uint a, uint entry) {
   append_primitive(sphere);
 }
 #else
-// Whether the sphere of an atom without arcs is exposed, as a whole then (theorem 4): no ball surely overlaps it. Those
-// that touch it but for rounding cover caps too small to cover a sphere together, and of any cap an arc would show.
-bool alone(uint a, uint entry) {
+// True if the sphere of an atom without arcs is exposed, which is then the whole sphere (theorem 4): no ball certainly
+// overlaps it. Balls that touch it within rounding cover caps that are too small to cover a sphere together, and the
+// border of any cap would be an exposed arc.
+bool is_sphere_exposed(uint a, uint entry) {
   const double nearer = 1.0LF + 32.0LF * kUnitRoundoff;
   for (uint n = neighbor_first[entry]; n < neighbor_first[entry + 1u]; ++n) {
     dvec4 other = atoms[neighbor_labels[n]];
@@ -60,7 +61,7 @@ bool alone(uint a, uint entry) {
 uint plane_count;
 PatchBound bound;
 
-// One more plane: into the bound at first, then into the rows.
+// Adds a plane to the bound, or to the rows if `into_rows`.
 void add_plane(uint a, uint b, bool into_rows) {
   dvec4 plane = contact_plane(a, b);
   if (into_rows) {
@@ -86,7 +87,7 @@ void add_planes(uint a, uint entry, uint first, uint last, bool into_rows) {
 void make_patch(uint a, uint entry) {
   uint first = texelFetch(atom_arc_first, int(a)).x;
   uint last = texelFetch(atom_arc_first, int(a) + 1).x;
-  if (clips[a] == kNotShown || (first == last && !alone(a, entry))) return;
+  if (clips[a] == kNotShown || (first == last && !is_sphere_exposed(a, entry))) return;
   plane_count = 0u;
   bound = PatchBound(atoms[a].xyz, radii[a]);
   add_planes(a, entry, first, last, false);
@@ -106,7 +107,7 @@ void make_patch(uint a, uint entry) {
 
 void main() {
   uint entry = linear_invocation_index();
-  // One condition: behind a second return lavapipe of Mesa 22.3, which zink draws by, ends with a segmentation fault.
+  // There is a single condition, because lavapipe of Mesa 22.3, which zink uses, crashes after a second return.
   if (entry >= min(params.entry_count, entries_of(params.atom_count) - params.first_entry)) return;
   make_patch(ball_of(params.first_entry + entry), entry);
 }

@@ -4,7 +4,7 @@
 #ifndef MENISCUS_PRIMITIVES_PARAMETERS_GLSL
 #define MENISCUS_PRIMITIVES_PARAMETERS_GLSL
 
-// How primitives are seen and where they go, for all kernels that make them.
+// The camera and the capacities of the tables, for all kernels that make primitives.
 struct PrimitiveParameters {
   dvec3 pivot;
   double eye_distance;  // from the camera to the pivot
@@ -19,18 +19,18 @@ struct PrimitiveParameters {
 const int kPrimitiveBinding = 1;
 
 struct ArcParameters {
-  uint arc_count;  // at most; the GPU knows how many
+  uint arc_count;  // upper bound; the GPU has the exact number
 };
 
 struct ConcaveParameters {
-  uint first_probe;  // of the batch
-  uint probe_count;  // in the batch, at most
+  uint first_probe;  // first probe of the batch
+  uint probe_count;  // upper bound on the number of probes in the batch
 };
 
 struct ConvexParameters {
-  dvec3 middle;      // of the atoms
-  uint first_entry;  // of the batch
-  uint entry_count;  // in the batch, at most
+  dvec3 middle;      // middle of the atoms
+  uint first_entry;  // first entry of the batch
+  uint entry_count;  // upper bound on the number of entries in the batch
   uint atom_count;
 };
 

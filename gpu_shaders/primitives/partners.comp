@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "primitives", 5: the atoms on the arcs around an atom, each marked once in its list.
-// Reads: arcs, lists of arcs by atom. Writes: those lists with marks, clips. One invocation per arc and side; it goes through
-// the list once. Overflow: none; where loops are cut short, all neighbours clip.
+// Stage "primitives", 5: marks each atom on the arcs around an atom once in that atom's list.
+// Reads: arcs, lists of arcs by atom. Writes: those lists with marks, clips. One invocation per arc and side, which
+// traverses the list once. Overflow: none; if loops are cut short, all neighbours clip.
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/constants.glsl"
@@ -17,7 +17,7 @@ void main() {
   bvec3 is_new = bvec3(true, arc.y != kNone, arc.z != kNone && arc.z != arc.y);
   for (uint n = listed.first; n < (is_new.y || is_new.z ? listed.last : listed.place); ++n) {
     uvec3 other = texelFetch(atom_arcs, int(n)).xyz;
-    // Atoms at the ends of arcs have arcs too, but perhaps none that the view needs.
+    // Atoms at the ends of arcs have arcs, too, but perhaps none that the view needs.
     is_new.y = is_new.y && arc.y != other.x;
     is_new.z = is_new.z && arc.z != other.x;
     if (n < listed.place) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "primitives", 4: which convex patches may show.
-// Reads: kept atoms, radii, depths. Writes: clips, zeros before. One invocation per kept atom. Overflow: none.
+// Stage "primitives", 4: marks the convex patches that may be visible.
+// Reads: kept atoms, radii, depths. Writes: clips (zeros before). One invocation per kept atom. Overflow: none.
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"

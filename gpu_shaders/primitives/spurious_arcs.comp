@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "primitives", 6: whether the atoms on arcs around an atom clip its patch to what it is.
-// Reads: arcs, lists of arcs by atom with marks, atoms. Writes: clips. One invocation per arc and side, for one of each circle;
-// it goes through the atom's partners once. At first in single precision, then in double for atoms in doubt.
-// Overflow: none; where loops are cut short, all neighbours clip.
+// Stage "primitives", 6: tests if the atoms on arcs around an atom clip its patch exactly, or leave spurious arcs.
+// Reads: arcs, lists of arcs by atom with marks, atoms. Writes: clips. One invocation per arc and side, which works on
+// one arc of each circle and traverses the atom's partners once. It runs in single precision first, then in double
+// precision for atoms in doubt. Overflow: none; if loops are cut short, all neighbours clip.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.4.
 #version 450 core
 layout(local_size_x = 64) in;
@@ -15,22 +15,22 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Atoms { dvec4 atoms[]; };  // centre, decision weight
 
 #ifdef DOUBLE_PRECISION
-const uint kOfThese = kInDoubt;
-const uint kWhereDoubtful = kByNeighbors;
+const uint kTestedClips = kInDoubt;
+const uint kClipsInDoubt = kByNeighbors;
 bool too_small(Circle c, real w0) { return false; }
 #else
-const uint kOfThese = kByPartners;
-const uint kWhereDoubtful = kInDoubt;
+const uint kTestedClips = kByPartners;
+const uint kClipsInDoubt = kInDoubt;
 bool too_small(Circle c, real w0) { return c.radius_squared <= kSmallestCircle * kUnitRoundoff * w0; }
 #endif
 
-bool known(ListedArc listed, uvec3 border) {
+bool is_surface_arc(ListedArc listed, uvec3 border) {
   for (uint n = listed.first; n < listed.last; ++n)
     if (texelFetch(atom_arcs, int(n)).xyz == border) return true;
   return false;
 }
 
-// What the partners leave of the circle (a, b).
+// Finds the arcs of the circle (a, b) that the partners of atom a leave exposed.
 void expose_among_partners(ListedArc listed, uint b) {
   dvec4 ball = atoms[listed.atom];
   real w0 = real(ball.w);
@@ -49,23 +49,23 @@ void expose_among_partners(ListedArc listed, uint b) {
   }
 }
 
-// Whether an arc that is left is not one of the surface: then some other atom is needed.
+// True if an exposed arc is not an arc of the surface, so that another atom must clip the patch.
 bool is_spurious(ListedArc listed, uint b) {
-  bool spurious = exposed_whole && !known(listed, uvec3(b, kNone, kNone));
+  bool spurious = exposed_whole && !is_surface_arc(listed, uvec3(b, kNone, kNone));
   for (uint n = 0u; n < exposed_count && !spurious; ++n) {
     ExposedArc arc = get_arc(n);
-    spurious = !known(listed, uvec3(b, arc.begin_by, arc.end_by));
+    spurious = !is_surface_arc(listed, uvec3(b, arc.begin_by, arc.end_by));
   }
   return spurious;
 }
 
 void main() {
   ListedArc listed;
-  if (!find_listed_arc(kOfThese, listed)) return;
+  if (!find_listed_arc(kTestedClips, listed)) return;
   uvec4 arc = texelFetch(atom_arcs, int(listed.place));
   if ((arc.w & kOnCircle) == 0u) return;
   expose_among_partners(listed, arc.x);
-  if (exposed_doubtful) atomicMax(clips[listed.atom], kWhereDoubtful);
+  if (exposed_doubtful) atomicMax(clips[listed.atom], kClipsInDoubt);
   else if (is_spurious(listed, arc.x)) clips[listed.atom] = kByNeighbors;
   if (loops_cut_short()) clips[listed.atom] = kByNeighbors;
 }

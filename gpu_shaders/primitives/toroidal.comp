@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "primitives", 1: a toroidal patch for every arc (RS edge).
-// Reads: arcs, atoms, radii. Writes: primitives, rows, counters. One invocation per arc.
-// Overflow: appends stop at the capacity but go on counting; the host grows and runs again.
+// Stage "primitives", 1: makes a toroidal patch for every arc (RS edge).
+// Reads: arcs, atoms, radii. Writes: primitives, rows, counters. One invocation per arc. Overflow: appends stop at the
+// capacity but go on counting; the host grows and runs again.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.4.
 #version 450 core
 layout(local_size_x = 64) in;
@@ -16,29 +16,29 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 5) readonly buffer ArcCount { uint arc_count; };
 layout(std140, binding = 0) uniform Parameters { ArcParameters params; };
 
-// What the ball of k covers of the circle of atom i, as the decisions saw it.
+// Returns the arc that the ball of k covers on the circle of atom i, with the decision weights.
 CoveredArc decided_arc(uint k, uint i, Circle circle) {
   return covered_by(circle, atoms[i].w, atoms[k].xyz - atoms[i].xyz, atoms[k].w);
 }
 
-// Nothing, where it is not (nearly) a whole turn? In double, where core/surface/fixed_probes.cpp asks in quadruple
-// precision; what may come of that, arc_vanishes() says.
-bool vanishes(uvec4 arc) {
+// True if an arc is empty rather than (nearly) a whole turn. It uses double precision, where
+// core/surface/fixed_probes.cpp uses quadruple precision; arc_vanishes() says when that matters.
+bool is_empty_arc(uvec4 arc) {
   Circle decided = circle_of_two_spheres(atoms[arc.y].xyz - atoms[arc.x].xyz, atoms[arc.x].w, atoms[arc.y].w);
   return arc_vanishes(decided_arc(arc.z, arc.x, decided), decided_arc(arc.w, arc.x, decided));
 }
 
-// Whether a probe touches all atoms of another one.
+// True if a probe touches all atoms of another one.
 bool touches_all(dvec3 position, Triple t) {
   return touches_atom(position - atoms[t.a].xyz, extended(t.a, scene.probe_radius)) &&
          touches_atom(position - atoms[t.b].xyz, extended(t.b, scene.probe_radius)) &&
          touches_atom(position - atoms[t.c].xyz, extended(t.c, scene.probe_radius));
 }
 
-bool coincide(Triple s, FixedProbe at_s, Triple t, FixedProbe at_t) {
+bool are_same_probe(Triple s, FixedProbe at_s, Triple t, FixedProbe at_t) {
   dvec3 d = at_s.position - at_t.position;
-  if (stand_together(d, at_s.height, at_t.height)) return true;
-  if (!may_stand_together(d, at_s.height, at_t.height)) return false;
+  if (are_coincident(d, at_s.height, at_t.height)) return true;
+  if (!may_be_coincident(d, at_s.height, at_t.height)) return false;
   return is_flat(at_s.height) ? touches_all(at_t.position, s) : touches_all(at_s.position, t);
 }
 
@@ -59,7 +59,7 @@ void main() {
     FixedProbe begin = place_probe(first, scene.probe_radius);
     FixedProbe end = place_probe(last, scene.probe_radius);
     bool together = ends_coincide(begin.position, end.position);
-    if ((together || coincide(first, begin, last, end)) && vanishes(arc)) return;
+    if ((together || are_same_probe(first, begin, last, end)) && is_empty_arc(arc)) return;
     rolling = part_between(rolling, begin.position, end.position);
     if (together) {
       rolling.cosine = 1.0LF;

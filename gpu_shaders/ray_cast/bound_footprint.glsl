@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rectangle of pixels, and of tiles, that a bounding sphere may touch; a little too large rather than too small.
-// GLSL and, as the body of a struct, C++ (core/render/cpu); to be included below the block `params` of TileListParameters.
+// Computes the rectangle of pixels, and of tiles, that a bounding sphere may touch. It may be slightly too large, but
+// never too small. Written in GLSL and, as the body of a struct, in C++ (core/render/cpu). To be included after the
+// block `params` of TileListParameters.
 #ifndef MENISCUS_RAY_CAST_BOUND_FOOTPRINT_GLSL
 #define MENISCUS_RAY_CAST_BOUND_FOOTPRINT_GLSL
 #include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/shared/tangent_slopes.glsl"
 
-// Tiles [low, high) along one axis.
+// Returns the range of tiles [low, high) along one axis.
 ivec2 tile_range(vec2 pixels, int tile_count) {
-  // A pixel's samples reach to its borders: half a pixel more on each side is plenty.
+  // Samples may lie anywhere in a pixel, so half a pixel more on each side is sufficient.
   vec2 edge = floor((pixels + vec2(-0.5, 0.5)) / float(kTileEdge)) + vec2(0.0, 1.0);
   return ivec2(clamp(edge, vec2(0.0), vec2(float(tile_count))));
 }
 
-// x and y of the rectangle in pixels as (x_low, x_high, y_low, y_high); low above high if nothing is in front of the
-// camera.
+// Returns the rectangle in pixels as (x_low, x_high, y_low, y_high). The lower bounds exceed the upper ones if nothing
+// is in front of the camera.
 vec4 bound_pixels(vec4 bound) {
   float x = dot(vec3(bound), params.right);
   float y = -dot(vec3(bound), params.up);
@@ -32,7 +33,8 @@ vec4 bound_pixels(vec4 bound) {
   return vec4(params.block_center.x + slopes_x * scale, params.block_center.y + slopes_y * scale);
 }
 
-// x and y of the rectangle [low, high) of tiles, likewise; empty if nothing is in front of the camera.
+// Returns the rectangle of tiles as (x_low, x_high, y_low, y_high) without the upper bounds. It is empty if nothing is
+// in front of the camera.
 ivec4 bound_footprint(vec4 bound) {
   vec4 pixels = bound_pixels(bound);
   if (pixels.x > pixels.y) return ivec4(0);

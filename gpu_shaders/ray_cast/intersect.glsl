@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nearest points of one primitive on the four rays of an invocation.
+// Finds the nearest points of one primitive on the four rays of an invocation.
 //
-// Four rays share each fetch of a primitive's rows: on software GL fetching costs more than all arithmetic. Both sides
-// of a patch count, because a camera may be inside the solid.
+// Four rays share each fetch of a primitive's rows, because on software GL fetching costs more than all arithmetic.
+// Both sides of a patch count, because the camera may be inside the solid.
 
 struct Rays {
   vec3 p[4];  // on the plane through the pivot
   vec3 d[4];  // unit length
 };
 
-// Nearest hits so far, and what decides between two at one distance.
+// The nearest hits so far, with the values that decide between two hits at one distance.
 struct Nearest {
   vec4 t;
   uvec4 primitive;
@@ -17,7 +17,7 @@ struct Nearest {
   uvec4 tie_key;
 };
 
-// Keeps the nearer hit; of two at the same distance the same one in any order.
+// Keeps the nearer hit. Of two hits at the same distance it keeps the same one in any order.
 void keep_nearest(uint index, Primitive primitive, int k, float t, inout Nearest nearest) {
   bool tie_won = primitive.kind < nearest.kind[k] ||
                  (primitive.kind == nearest.kind[k] && primitive.tie_key < nearest.tie_key[k]);
@@ -29,15 +29,16 @@ void keep_nearest(uint index, Primitive primitive, int k, float t, inout Nearest
   }
 }
 
-// Which of the four points x, relative to the patch's centre, are on the patch; asks only where `asked`.
-bvec4 on_clipped_sphere(Primitive primitive, vec3 x[4], float radius, bvec4 asked) {
+// Returns which of the four points x are on the patch. x: points relative to the patch's centre; tested: true for each
+// point to test.
+bvec4 on_clipped_sphere(Primitive primitive, vec3 x[4], float radius, bvec4 tested) {
   uint end = primitive.first_row + 1u + primitive.plane_count;
-  for (uint i = primitive.first_row + 1u; i < end && any(asked); ++i) {
+  for (uint i = primitive.first_row + 1u; i < end && any(tested); ++i) {
     vec4 plane = row(i);
-    for (int k = 0; k < 4; ++k) asked[k] = asked[k] && in_half_space(x[k], plane.xyz, plane.w, params.slack);
+    for (int k = 0; k < 4; ++k) tested[k] = tested[k] && in_half_space(x[k], plane.xyz, plane.w, params.slack);
   }
-  for (int k = 0; k < 4; ++k) asked[k] = asked[k] && shows_sphere_point(primitive, x[k], radius);
-  return asked;
+  for (int k = 0; k < 4; ++k) tested[k] = tested[k] && shows_sphere_point(primitive, x[k], radius);
+  return tested;
 }
 
 void hit_clipped_sphere(uint index, Primitive primitive, Rays rays, inout Nearest nearest) {
@@ -68,7 +69,7 @@ void hit_clipped_sphere(uint index, Primitive primitive, Rays rays, inout Neares
     if (far_found[k]) keep_nearest(index, primitive, k, far_t[k], nearest);
 }
 
-// Bits of the rays that may meet torus `index` before their hits so far.
+// Returns the bits of the rays that may meet torus `index` before their nearest hits so far.
 uint rays_towards_torus(uint index, Nearest nearest) {
   TorusPatch saddle = load_torus(index);
   uint rays = 0u;

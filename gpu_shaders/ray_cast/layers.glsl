@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What planes leave of a ray, and how opaque a film is along it.
+// Computes the part of a ray that planes keep, and the opacity of a film along a ray.
 //
-// GLSL and, as the body of a struct, C++ (core/render/cpu): rays may be packets, planes are the same for all.
-// The includer provides plane_count(), plane() of a number below that (kept is where dot(xyz, x) < w), and patch_hits.glsl.
+// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where rays may be packets with common planes.
+// The includer provides plane_count(), plane() of a number below that (points with dot(xyz, x) < w are kept), and
+// patch_hits.glsl.
 
 const uint kNoPlane = 0xffffffffu;  // the camera; far away
 
-// The part of a ray that all planes keep, and the planes that it begins and ends on. Nothing is kept if `to` is not beyond
-// `from`.
+// The part of a ray that all planes keep, and the planes at its begin and its end. Nothing is kept unless `to` is
+// greater than `from`.
 struct KeptPart {
   real from;
   real to;
@@ -36,8 +37,9 @@ GEOMETRY KeptPart kept_part(real3 p, real3 d, real eye_t) {
   return kept;
 }
 
-// What goes through a film along a slant goes through more of it (Bouguer 1729). straight: its opacity where a ray meets it
-// head on, between 0 and 1; facing: cosine of the angle between ray and normal.
+// Returns the opacity of a film along a ray, which is greater at grazing angles because the path in it is longer
+// (Bouguer 1729). straight: opacity for a perpendicular ray, between 0 and 1; facing: cosine of the angle between ray
+// and normal.
 GEOMETRY real film_opacity(real straight, real facing) {
   return 1.0 - pow(1.0 - straight, 1.0 / max(abs(facing), 0.05));
 }

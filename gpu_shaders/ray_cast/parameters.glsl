@@ -4,7 +4,7 @@
 #ifndef MENISCUS_RAY_CAST_PARAMETERS_GLSL
 #define MENISCUS_RAY_CAST_PARAMETERS_GLSL
 
-// A block of a picture, as one sample of each of its pixels sees it.
+// The view of a block of a picture, for one sample of each of its pixels.
 struct BlockView {
   vec3 right;
   float eye_distance;  // from the camera's position to the pivot's plane, in Å

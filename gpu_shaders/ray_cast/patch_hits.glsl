@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a ray meets a patch.
+// Intersects rays with patches.
 //
-// GLSL and, as the body of a struct, C++ (core/render/cpu): rays may be packets, patches are the same for all of a packet.
-// The includer provides row(), load_primitive(), `view`, `params` and `some_hidden`, and touched_atom.glsl.
-// Each ray is moved to its closest approach first: there the numbers are as small as the primitive, and single precision
-// is good to about 1e-6 Å. What a ray hits of a primitive depends on nothing but the two, to the bit: not on the hits so
-// far, nor on the order in which primitives come. Pictures of more or fewer hidden primitives are therefore the same.
+// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where rays may be packets with a common
+// patch. The includer provides row(), load_primitive(), `view`, `params` and `some_hidden`, and touched_atom.glsl. Each
+// ray is moved to its closest approach first. Numbers there are as small as the primitive, and single precision is good
+// to about 1e-6 Å. The hit of a ray on a primitive depends on these two only, to the last bit: neither on earlier hits
+// nor on the order of primitives. Therefore pictures with more or fewer hidden primitives are equal.
 
 const float kMiss = 3.0e38;
 
-// True if no point p + t*d with t < high of any ray within `spread` (Å, at the pivot, growing as the rays spread) of
-// this one is in the sphere. This is where most candidates end. Here packets may be of spheres, too.
+// True if no point p + t*d with t < high of this ray, or of any ray within `spread` of it, is in the sphere. It rejects
+// most candidates. spread: Å at the pivot, growing as the rays diverge. The spheres may be packets, too.
 GEOMETRY truth misses_bound(real3 center, real radius, real3 p, real3 d, real eye_t, real spread, real high) {
   real3 to_bound = p - center;
   real bound_t = -dot(to_bound, d);
   real3 closest = to_bound + d * bound_t;
-  // At the far end of the sphere neighbouring rays are farthest from this one.
+  // Neighbouring rays are farthest from this one at the far end of the sphere.
   real widest = spread;
   if (view.orthographic == 0u) widest = spread * max((bound_t + radius - eye_t) / -eye_t, real(0.0));
   real reach = radius + widest;
@@ -23,7 +23,7 @@ GEOMETRY truth misses_bound(real3 center, real radius, real3 p, real3 d, real ey
   return room < real(0.0) || bound_t - sqrt(room) > high;
 }
 
-// Where a ray enters and leaves the sphere of a patch; points are relative to its centre.
+// The points where a ray enters and leaves the sphere of a patch, relative to its centre.
 struct SphereMeeting {
   truth found;
   real near_t;
@@ -46,7 +46,7 @@ GEOMETRY SphereMeeting meet_sphere(vec4 place, real3 p, real3 d) {
   return meeting;
 }
 
-// A toroidal patch, as its rows say.
+// A toroidal patch with the values of its rows.
 struct TorusPatch {
   Primitive primitive;
   vec3 center;
@@ -76,8 +76,8 @@ GEOMETRY TorusPatch load_torus(uint index) {
   return saddle;
 }
 
-// A ray in a torus's own frame, from its closest approach on, which is `shift` along it; the patch may only be met from
-// `low` to `high`, and not at all if low >= high.
+// A ray in the frame of a torus, whose origin is its closest approach at the parameter `shift`. It can meet the patch
+// only between `low` and `high`, and not at all if low >= high.
 struct LocalRay {
   real3 o;
   real3 d;
@@ -86,8 +86,8 @@ struct LocalRay {
   real high;
 };
 
-// As far as the sphere through both contact circles, which holds the whole patch and nothing of the outer half of the
-// torus.
+// Returns the part of a ray inside the sphere through both contact circles, which contains the whole patch and nothing
+// of the outer half of the torus.
 GEOMETRY LocalRay to_saddle_ball(TorusPatch saddle, real3 p, real3 d) {
   LocalRay ray;
   real3 o = p - saddle.center;
@@ -101,7 +101,7 @@ GEOMETRY LocalRay to_saddle_ball(TorusPatch saddle, real3 p, real3 d) {
   return ray;
 }
 
-// Where it is between the patch's ends.
+// Shortens a ray to the part between the ends of the patch, if these are at most half a turn apart.
 GEOMETRY void clip_to_sweep(TorusPatch saddle, GEOMETRY_INOUT(LocalRay) ray) {
   if (saddle.primitive.plane_count != uint(kUpToHalfTurn)) return;
   clip_to_half_space(-ray.o.y - params.slack, -ray.d.y, ray.low, ray.high);
@@ -115,20 +115,20 @@ GEOMETRY LocalRay to_torus(TorusPatch saddle, real3 p, real3 d) {
   return ray;
 }
 
-// Whether the ray may meet the patch before `nearest_t`: a little more than that, for the rounding of the sum in
-// hit_torus.
+// True if the ray may meet the patch before `nearest_t`, with a margin for the rounding of the sum in hit_torus().
 GEOMETRY truth goes_towards_torus(LocalRay ray, real nearest_t) {
   return ray.low < ray.high && ray.low <= nearest_t - ray.shift + params.slack;
 }
 
-// x: on the torus, in its own frame.
+// True if a point of the torus is on the patch and shown. x: point in the frame of the torus.
 GEOMETRY truth on_toroidal_patch(TorusPatch saddle, real3 x) {
   return in_toroidal_patch(x, saddle.major, saddle.shape.x, saddle.shape.y, saddle.cos_sweep, saddle.sin_sweep,
                            int(saddle.primitive.plane_count), params.slack) &&
          shows_torus_point(saddle.primitive, x, saddle.major);
 }
 
-// Where, or kMiss. Roots are looked for by the patch alone: hits so far would leave their mark on the last bits.
+// Returns the parameter of the first hit of a ray on a toroidal patch, or kMiss. The search does not depend on earlier
+// hits, because they would change the last bits of the result.
 GEOMETRY real hit_torus(TorusPatch saddle, LocalRay ray) {
   TorusRuns runs = torus_runs(ray.o, ray.d, saddle.major, params.probe_radius, ray.low, ray.high);
   real t = real(kMiss);

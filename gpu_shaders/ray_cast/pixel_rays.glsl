@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rays of a block's pixels.
+// Computes the rays of a block's pixels.
 //
-// GLSL and, as the body of a struct, C++ (core/render/cpu); to be included below the block `view` of BlockView. Words of
-// shared/lane.glsl.
+// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu), with the types of shared/lane.glsl. To be
+// included after the block `view` of BlockView.
 
-// Where the ray through a place of the block, in pixels from the centre of its first one, meets the pivot's plane.
+// Returns the point where the ray through a place of the block meets the pivot's plane. place: pixels from the centre
+// of the first pixel of the block.
 GEOMETRY real3 ray_point_at(real2 place) {
   real2 offset = (view.first_offset + place + view.sample_offset) * view.pixel_size;
   return view.right * offset.x - view.up * offset.y;
@@ -15,7 +16,7 @@ GEOMETRY real3 ray_direction(real3 p) {
   return normalize(view.forward + p / view.eye_distance);
 }
 
-// Parameter of the camera's position (orthographic: of the plane through it).
+// Returns the ray parameter of the camera's position (orthographic: of the plane through it).
 GEOMETRY real eye_parameter(real3 d) {
   if (view.orthographic != 0u) return real(-view.eye_distance);
   return -view.eye_distance / dot(d, view.forward);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ray casts one sample of each pixel of a block: a group is a tile of 16 x 16 pixels, an invocation 2 x 2 of them.
+// Ray casts one sample of each pixel of a block. A group is a tile of 16 x 16 pixels, an invocation 2 x 2 of them.
 //
-// tile_lists.comp gives each tile the primitives that may show in it, by slices of their nearest distance; rays stop
-// where a slice begins behind their hits. The first sample goes through the pixel's centre and writes the exact point.
-// SOME_HIDDEN is defined if points of hidden atoms are no hits. Invocations whose loops a driver cuts short (long lists,
-// see loop_guard.glsl) write nothing but that they are unfinished; with RESUMED these go through their lists again, in
-// one pass for each `part_length` entries.
+// tile_lists.comp lists the primitives that may be visible in each tile, by slices of their nearest distance. Rays stop
+// at the first slice that begins behind their hits. The first sample goes through the pixel's centre and writes the
+// exact point. SOME_HIDDEN is defined if points of hidden atoms are not hits. Invocations whose loops a driver cuts
+// short (long lists, loop_guard.glsl) write only that they are unfinished. With RESUMED, these traverse their lists
+// again, in one pass for each `part_length` entries.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -22,16 +22,17 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform usamplerBuffer primitive_texels;  // three texels each: struct Primitive
 layout(binding = 1) uniform usamplerBuffer row_texels;
-layout(binding = 2) uniform usamplerBuffer slot_ends;  // of tile_lists.comp: where each slice of each tile ends
+layout(binding = 2) uniform usamplerBuffer slot_ends;  // of tile_lists.comp: the end of each slice of each tile
 layout(binding = 3) uniform usamplerBuffer entries;
-layout(binding = 4) uniform usamplerBuffer tile_order;  // of split_tiles.comp: a group each
-layout(std430, binding = 0) readonly buffer Colors { vec4 atom_color[]; };  // linear, alpha: opacity, 0 if hidden; three more for the kinds
+layout(binding = 4) uniform usamplerBuffer tile_order;  // of split_tiles.comp: the tile of each group
+// Linear colours of atoms, then of the three kinds; alpha: opacity, 0 if hidden.
+layout(std430, binding = 0) readonly buffer Colors { vec4 atom_color[]; };
 layout(std430, binding = 1) buffer Picture { vec4 picture[]; };             // sums of linear, premultiplied samples
 layout(std430, binding = 2) writeonly buffer Hits { Hit hits[]; };
 layout(std430, binding = 3) buffer Unfinished {
-  uint longest;             // list of an unfinished invocation; 0: there is none
-  uint still_too_long;      // RESUMED: parts that were cut short again
-  uint unfinished[];        // not 0 for invocations that are: 64 for each tile
+  uint longest;         // length of the longest list of an unfinished invocation; 0 if there is none
+  uint still_too_long;  // RESUMED: number of parts that were cut short again
+  uint unfinished[];    // not 0 for unfinished invocations; 64 per tile
 };
 
 layout(std140, binding = 0) uniform Parameters { RayCastParameters params; };
@@ -52,9 +53,10 @@ Primitive load_primitive(uint index) {
   return Primitive(bound_of(index), uintBitsToFloat(a.x), a.y, a.z, a.w, b.x, b.y, b.z, b.w);
 }
 
-ivec2 tile_origin;  // of this group, in pixels
+ivec2 tile_origin;  // first pixel of this group's tile
 
-// Pixel k of this invocation's four. Consecutive invocations, which a vector holds, fill squares rather than rows.
+// Returns pixel k of the four of this invocation. Consecutive invocations, which share a vector, fill squares, not
+// rows.
 ivec2 pixel_of(int k) {
   int i = int(gl_LocalInvocationIndex);
   ivec2 quad = ivec2((i & 3) | (i >> 1 & 4), (i >> 2 & 1) | (i >> 3 & 6));
@@ -63,7 +65,7 @@ ivec2 pixel_of(int k) {
 
 #include "gpu_shaders/ray_cast/pixel_rays.glsl"
 
-// Rays are cheaper to make again than to keep where an index can reach them.
+// Returns the point of ray k on the pivot's plane. Computing it again is cheaper than keeping it in an indexed array.
 vec3 ray_point(int k) { return ray_point_at(vec2(pixel_of(k))); }
 
 #ifdef SOME_HIDDEN
@@ -79,28 +81,29 @@ truth shows(uint atom) { return atom_color[atom].a > 0.0; }
 #include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/ray_cast/shade.glsl"
 
-// What an invocation walks through: a part of its tile's list, with the ray in the middle of its four.
+// The part of a tile's list that an invocation traverses, with the ray in the middle of its four.
 struct Walk {
   int first;
   int end;
   vec3 p;
   vec3 d;
   float eye_t;
-  float spread;  // Å from the middle ray to the others
+  float spread;  // distance from the middle ray to the others at the pivot's plane, Å
 };
 
 bool misses(vec4 bound, Walk walk, float farthest) {
   return misses_bound(bound.xyz, bound.w, walk.p, walk.d, walk.eye_t, walk.spread, farthest);
 }
 
-// The place of the next primitive after `i` that one of the four rays may meet, or the end.
+// Returns the place of the next primitive after `i` that one of the four rays may meet, or the end.
 int next_candidate(Walk walk, int i, Nearest nearest) {
   float farthest = max(max(nearest.t.x, nearest.t.y), max(nearest.t.z, nearest.t.w));
   bool found = true;
   do {
     ++i;
     uint index = texelFetch(entries, i).x;
-    // All that follow begin no earlier than the slice of this one; to ask each would cost more than it saves.
+    // All later primitives begin no earlier than the slice of this one. Testing each of them would cost more than it
+    // saves.
     if (i < walk.end && ((i - walk.first) & 7) == 0 &&
         slice_begin(slices, slice_of(slices, nearest_of(index))) + walk.eye_t - walk.spread > farthest)
       i = walk.end;
@@ -147,14 +150,14 @@ void trace_tori(Walk walk, inout Nearest nearest) {
   } while (waiting != 0u);
 }
 
-Nearest nothing_yet() {
+Nearest no_hits() {
   Nearest nearest;
   nearest.t = vec4(kMiss);
   nearest.primitive = nearest.kind = nearest.tie_key = uvec4(kNoPrimitive);
   return nearest;
 }
 
-// A tile's list: spheres from x to y, tori from y to z.
+// Returns the list of a tile: spheres from x to y, tori from y to z.
 ivec3 list_of(uint tile) {
   int slot = int(kSlotsPerTile * tile);
   return ivec3(tile == 0u ? 0 : int(texelFetch(slot_ends, slot - 1).x),
@@ -162,14 +165,14 @@ ivec3 list_of(uint tile) {
                int(texelFetch(slot_ends, slot + int(kSlotsPerTile) - 1).x));
 }
 
-// Software GL runs every branch for all lanes of a vector. So each invocation first walks, cheaply, to what it has to
-// look at next, and then all of them look.
+// Finds the nearest hits of the four rays in a list. Software GL runs every branch for all lanes of a vector, so each
+// invocation first advances to its next candidate by cheap tests, and then all of them test their candidates.
 void trace(ivec3 list, inout Nearest nearest) {
   Walk walk;
   walk.p = 0.5 * (ray_point(0) + ray_point(3));
   walk.d = ray_direction(walk.p);
   walk.eye_t = eye_parameter(walk.d);
-  // The four rays lie half a pixel's diagonal from the middle; a little more covers their rounding.
+  // The four rays are half a pixel's diagonal from the middle. A slightly larger value covers their rounding.
   walk.spread = 0.75 * view.pixel_size;
   walk.first = list.x;
   walk.end = list.y;
@@ -186,11 +189,12 @@ struct State {
   uvec4 kind;
   uvec4 tie_key;
 };
-layout(std430, binding = 4) buffer States { State states[]; };  // by invocation, as `unfinished`
+layout(std430, binding = 4) buffer States { State states[]; };  // by invocation, like `unfinished`
 
-// True when the invocation has been through its whole list. One that is cut short again waits for shorter parts.
+// Traces one part of the list. Returns true if the invocation has traversed its whole list. An invocation that is cut
+// short again is resumed with shorter parts.
 bool trace_part(uint tile, uint place, out Nearest nearest) {
-  nearest = nothing_yet();
+  nearest = no_hits();
   if (params.part > 0)
     nearest = Nearest(states[place].t, states[place].primitive, states[place].kind, states[place].tie_key);
   ivec3 list = list_of(tile);
@@ -242,7 +246,7 @@ void main() {
   unfinished[place] = 0u;
 #else
   ivec3 list = list_of(tile);
-  Nearest nearest = nothing_yet();
+  Nearest nearest = no_hits();
   trace(list, nearest);
   if (loops_cut_short()) {
     unfinished[place] = 1u;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Data that the host and the ray caster exchange, for GLSL and C++: a bound for each primitive, rows of four floats,
-// hits.
+// Data that the host and the ray caster exchange: a bound for each primitive, rows of four floats, and hits.
 //
-// Common subset of GLSL and C++; in C++ the includer provides vec3, vec4 and uint.
-// All positions are relative to the pivot, a point in the middle of the picture close to what it shows, so that single
-// precision keeps its digits where the picture looks. Offsets of planes are relative to the primitive's own centre.
+// Written in the common subset of GLSL and C++; in C++ the includer provides vec3, vec4 and uint.
+// All positions are relative to the pivot, a point in the middle of the picture and near the shown objects, so that
+// single precision keeps its digits there. Offsets of planes are relative to the centre of the primitive.
 //
 // Rows of a convex patch:    centre, radius | plane_count x (normal, offset)
 // Rows of a toroidal patch:  centre, R | start, cos sweep | axis, sin sweep | z_low, z_high, clip z, clip radius |
@@ -25,7 +24,7 @@ struct Primitive {
   uint tie_key;       // triple.glsl: which of two patches of a kind a ray shows that meets both at once
 };
 
-// Where the ray through a pixel's centre ends.
+// The hit of the ray through a pixel's centre.
 struct Hit {
   vec3 normal;     // towards the solvent
   float t;         // from the ray's point on the plane through the pivot, in Å

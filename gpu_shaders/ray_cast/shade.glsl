@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a hit looks like: its normal, its atom, and studio light on its colour.
+// Computes the normal and the atom of a hit, and applies studio light to its colour.
 //
-// GLSL and, as the body of a struct, C++ (core/render/cpu): points may be packets, the primitive is the same for all.
-// The includer provides what touched_atom.glsl asks for, sheen.glsl, `view` and `params`.
+// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where points may be packets with a common
+// primitive. The includer provides everything that touched_atom.glsl needs, sheen.glsl, `view` and `params`.
 
 struct SurfacePoint {
   real3 normal;  // towards the solvent
@@ -32,13 +32,14 @@ GEOMETRY SurfacePoint surface_point(Primitive primitive, real3 p) {
   return point;
 }
 
-// What reaches a point of the key light.
+// The part of the key light that reaches a point.
 struct KeyLight {
   real diffuse;  // as much as the surface is turned towards it
   real open;     // share of the lamp that nothing covers
 };
 
-// With nothing before the lamp. Wrapped diffuse light: a soft terminator, as from a large lamp.
+// Returns the unoccluded key light at a point with normal n. Wrapped diffuse light makes a soft terminator like a large
+// lamp.
 GEOMETRY KeyLight open_key_light(real3 n) {
   KeyLight key;
   key.diffuse = max((dot(n, params.key_direction) + 0.25) / 1.25, 0.0);
@@ -46,9 +47,9 @@ GEOMETRY KeyLight open_key_light(real3 n) {
   return key;
 }
 
-// Key light (unless set otherwise from the upper left behind the camera), a dim fill from the right, a sky that is
-// brighter above, and a little sheen. All directions are in the camera's axes (x right, y up, z towards the camera);
-// colours are linear.
+// Returns a colour in studio light: a key light (from the upper left behind the camera by default), a dim fill light
+// from the right, a sky that is brighter above, and a highlight. All directions are in the camera's axes (x right, y
+// up, z towards the camera). Colours are linear.
 GEOMETRY real3 studio_light(real3 albedo, real3 n, real3 to_camera, KeyLight key) {
   real fill_light = max((dot(n, params.fill_direction) + 0.3) / 1.3, 0.0);
   real sky = 0.5 + 0.5 * n.y;
@@ -57,7 +58,7 @@ GEOMETRY real3 studio_light(real3 albedo, real3 n, real3 to_camera, KeyLight key
   real3 light = params.key_strength * (params.key_color * (params.key_share * key.diffuse * falloff)) +
                 params.fill_color * (params.fill_share * fill_light) +
                 mix(real3(params.ground), real3(params.sky), sky) * (0.35 + 0.65 * facing);
-  // What comes evenly from everywhere comes from the lamp as well: in its shadow there is less.
+  // A share of the ambient light comes from the lamp, so there is less of it in the lamp's shadow.
   if (params.ambient > 0.0) light = mix(light, real3(1.0 - params.key_share * (1.0 - key.open)), real(params.ambient));
   if (params.specular == 0.0) return albedo * light;
   return albedo * light + real3(key.open * sheen(n, to_camera, params.key_direction, params.key_strength,
@@ -68,13 +69,14 @@ GEOMETRY real3 in_camera_axes(real3 v) {
   return real3(dot(v, view.right), dot(v, view.up), -dot(v, view.forward));
 }
 
-// Towards the camera's side, for surfaces are seen from inside the solid, or through what is hidden, too.
+// Returns a normal in the camera's axes, reversed if necessary so that it points to the camera's side. Surfaces are
+// visible from inside the solid, and through hidden parts, too. d: direction of the ray.
 GEOMETRY real3 shown_normal(real3 normal, real3 d) {
   real3 n = in_camera_axes(normal);
   return select(dot(n, -in_camera_axes(d)) < 0.0, -n, n);
 }
 
-// A colour in that light where a ray of direction d meets a surface with this normal.
+// Returns a colour in studio light where a ray of direction d meets a surface with this normal.
 GEOMETRY real3 lit(real3 albedo, real3 normal, real3 d) {
   real3 n = shown_normal(normal, d);
   return studio_light(albedo, n, -in_camera_axes(d), open_key_light(n));

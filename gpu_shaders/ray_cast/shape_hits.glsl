@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a ray meets a cylinder or a triangle beside a surface, and what it is like there.
+// Intersects rays with cylinders and triangles, which are drawn in addition to a surface, and computes normals and
+// atoms.
 //
-// GLSL and, as the body of a struct, C++ (core/render/cpu): rays and points may be packets, the shape is the same for
-// all of a packet. The includer provides row(), and patch_hits.glsl and shade.glsl above. Rays are moved to their closest
-// approach first, as there.
+// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where rays and points may be packets with a
+// common shape. The includer provides row(), and includes patch_hits.glsl and shade.glsl before. Rays are moved to
+// their closest approach first, as in patch_hits.glsl.
 
 struct CylinderMeeting {
   truth near_found;
@@ -46,7 +47,8 @@ GEOMETRY SurfacePoint cylinder_point(Primitive primitive, real3 p) {
   return point;
 }
 
-// Weights from the areas of the parts that the point makes; the atom is that of the greatest.
+// Returns the normal and the atom of a point of a triangle. The normal is interpolated by barycentric weights, and the
+// atom is that of the corner with the greatest weight.
 GEOMETRY SurfacePoint triangle_point(Primitive primitive, real3 p) {
   vec3 e1 = vec3(row(primitive.first_row + 1u));
   vec3 e2 = vec3(row(primitive.first_row + 2u));

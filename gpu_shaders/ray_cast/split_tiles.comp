@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts tiles that list something from empty ones, so that no group is started for nothing: software GL has no early way
-// out of a kernel.
+// Separates tiles that list primitives from empty ones, so that no group is started for an empty tile. On software GL a
+// kernel cannot return early.
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/ray_cast/depth_slices.glsl"
 
 layout(binding = 0) uniform usamplerBuffer slot_ends;
-layout(std430, binding = 0) writeonly buffer TileOrder { uint tile_order[]; };  // listing ones from the front on
-// Group counts {x, y, z} for those that list something, then their number; the same for the empty ones, which are at
-// the end. To be {0, 1, 1, 0} before.
+layout(std430, binding = 0) writeonly buffer TileOrder { uint tile_order[]; };  // tiles with primitives, then empty
+// Group counts {x, y, z} for tiles with primitives, then their number; the same for empty tiles. Both must be {0, 1, 1,
+// 0} before.
 layout(std430, binding = 1) buffer Dispatches { uint dispatches[8]; };
 
 layout(std140, binding = 0) uniform Parameters { SplitTilesParameters params; };

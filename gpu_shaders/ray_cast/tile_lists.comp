@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which primitives may show in which tile, by slices of depth. Order within a slice is left to chance.
+// Lists the primitives that may be visible in each tile, by slices of depth. The order within a slice is arbitrary.
 // Pass 0: counts[slot of tile, kind and slice] += 1 for each tile that a primitive's bound touches.
-// Pass 1: counts hold their prefix sums; each primitive takes the next place of its slot, so that in the end each
-//         count is where its slot ends and the next one begins. Overflow: the scan and pass 1 stop at the capacity; the
-//         host makes the frame again.
+// Pass 1: counts contain their prefix sums; each primitive takes the next place of its slot, so that in the end each
+//         count is the end of its slot and the begin of the next one. Overflow: the scan and pass 1 stop at the
+// capacity;
+//         the host makes the frame again.
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
@@ -20,7 +21,7 @@ layout(std430, binding = 1) writeonly buffer Entries { uint entries[]; };
 layout(std430, binding = 2) readonly buffer TileDepths { float tile_depth[]; };
 layout(std430, binding = 3) readonly buffer PrimitiveCount { uint primitive_count; };
 
-// Footprints too large for one invocation; the whole group shares them.
+// Footprints that are too large for one invocation. The whole group shares them.
 const int kNarrow = 64;
 shared uint wide_count;
 shared uint wide_primitive[64];

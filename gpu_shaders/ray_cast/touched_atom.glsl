@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which atom a point takes its colour from, and whether that atom is shown: points of hidden atoms are not hits.
+// Finds the atom whose colour a point has, and tests if that atom is shown, because points of hidden atoms are not
+// hits.
 //
-// GLSL and, as the body of a struct, C++ (core/render/cpu): points may be packets, the primitive is the same for all.
-// The includer provides row(), shows() of an atom, and `some_hidden`, without which nobody asks.
+// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where points may be packets with a common
+// primitive. The includer provides row(), shows() of an atom, and `some_hidden`, which is false if all atoms are shown.
 
-// On a concave patch; x: from the probe's centre. The nearest contact wins; of two, the smaller atom, in whatever order
-// they are.
+// Returns the atom of a point on a concave patch, which is that of the nearest contact. Of two equally near contacts,
+// the atom with the smaller number counts, in any order of the contacts. x: point relative to the probe's centre.
 GEOMETRY natural concave_atom(Primitive primitive, real3 x, float radius) {
   uint first_contact = primitive.first_row + 1u + primitive.plane_count;
   natural atom = natural(kNoPrimitive);
@@ -21,14 +22,14 @@ GEOMETRY natural concave_atom(Primitive primitive, real3 x, float radius) {
   return atom;
 }
 
-// On a toroidal patch; x: in the torus's own frame.
+// Returns the atom of a point on a toroidal patch. x: point in the frame of the torus.
 GEOMETRY natural toroidal_atom(Primitive primitive, real3 x, float major) {
   vec4 atoms = row(primitive.first_row + 4u);
   return select(toroidal_second_atom(x, major, atoms.x, atoms.y, atoms.z, atoms.w), natural(primitive.second_atom),
                 natural(primitive.atom));
 }
 
-// x: from the centre of a convex or concave patch.
+// True if the atom of a point on a convex or concave patch is shown. x: point relative to the centre of the sphere.
 GEOMETRY truth shows_sphere_point(Primitive primitive, real3 x, float radius) {
   if (!some_hidden) return truth(true);
   if (primitive.kind == kConvex) return shows(natural(primitive.atom));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The uniform grid over atom centres, as all kernels that look for neighbours see it.
+// The uniform grid over atom centres, for all kernels that search for neighbours.
 #include "gpu_shaders/reduced_surface/parameters.glsl"
 
 layout(std140, binding = kCellGridBinding) uniform CellGridBlock { CellGrid grid; };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "circles": the exposed arcs of the circle of each overlapping pair (RS edges), or the word that it is doubtful.
-// Reads: circles (pairs, or in double the doubtful ones), neighbour lists, atoms. Writes: arcs, doubtful, counters.
-// One invocation per circle. Overflow: appends stop at the capacity but go on counting; the host grows and runs again.
+// Stage "circles": finds the exposed arcs (RS edges) of the circle of each overlapping pair, or reports the circle as
+// doubtful.
+// Reads: circles (pairs, or in double the doubtful ones), neighbour lists, atoms. Writes: arcs, doubtful, counters. One
+// invocation per circle. Overflow: appends stop at the capacity but go on counting; the host grows and runs again.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.3 (potential RS faces), by circles instead of triples.
 #version 450 core
 layout(local_size_x = 64) in;
@@ -13,7 +14,8 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
 #include "gpu_shaders/reduced_surface/parameters.glsl"
 
-layout(std430, binding = 0) readonly buffer Circles { uvec2 circles[]; };  // entry of atom i, place of j in the neighbour list
+// The entry of atom i, and the place of j in its neighbour list.
+layout(std430, binding = 0) readonly buffer Circles { uvec2 circles[]; };
 layout(std430, binding = 1) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 2) readonly buffer NeighborLabels { uint neighbor_labels[]; };
 #ifdef DOUBLE_PRECISION
@@ -27,7 +29,7 @@ layout(std430, binding = 4) writeonly buffer Arcs { uvec4 arcs[]; };  // i, j, b
 layout(std430, binding = 5) writeonly buffer Doubtful { uvec2 doubtful[]; };
 layout(std430, binding = 6) buffer Counters {
   uint arc_count;
-  uint doubtful_counts[2];  // in single precision, in double
+  uint doubtful_counts[2];  // numbers in single and in double precision
 };
 layout(std140, binding = 0) uniform Parameters { CircleParameters params; };
 
@@ -36,7 +38,7 @@ const uint kPrecision = 1u;
 uint circle_count() { return min(doubtful_counts[0], params.circle_count); }
 #else
 const uint kPrecision = 0u;
-// Without room for all neighbours there are not all the pairs that were counted.
+// Returns the number of circles, or 0 if there was no room for all neighbours. Some counted pairs are missing then.
 uint circle_count() {
   bool complete = neighbor_first[params.entry_count] < params.list_limit;
   return complete ? min(pair_first[params.entry_count], params.circle_count) : 0u;
@@ -48,7 +50,7 @@ void append(uvec4 arc) {
   if (slot < params.arc_capacity) arcs[slot] = arc;
 }
 
-// Centre relative to atom i and weight of the neighbour at place n.
+// Gives the centre relative to atom i and the weight of the neighbour at place n.
 void neighbor(uint i, uint n, out real3 center, out real weight) {
 #ifdef DOUBLE_PRECISION
   dvec4 other = atoms[neighbor_labels[n]];
@@ -78,7 +80,7 @@ void main() {
   Circle c = circle_of_two_spheres(d, w0, w1);
   real unit = max(kUnitRoundoff, real(params.doubt));
   begin_contour(c, w0, unit);
-  if (c.radius_squared < real(-1024) * unit * w0) return;  // the balls do not overlap after all
+  if (c.radius_squared < real(-1024) * unit * w0) return;  // the balls certainly do not overlap
   if (c.radius_squared <= max(kSmallestCircle * kUnitRoundoff, real(1024) * unit) * w0) {
     exposed_doubtful = true;
   } else {
@@ -88,7 +90,7 @@ void main() {
       real3 q;
       real wq;
       neighbor(i, n, q, wq);
-      block(blocking_ball(q, wq, w0), n);  // named by its place in the list until an arc needs the atom
+      block(blocking_ball(q, wq, w0), n);  // the label is the place in the list; append() replaces it by the atom
       if (contour_ended()) break;
     }
     if (loops_cut_short()) exposed_doubtful = true;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contour build-up in a kernel: geometry/contour.glsl with a list of arcs that does not grow.
+// Contour build-up in a kernel: geometry/contour.glsl with a list of arcs of fixed capacity.
 #include "gpu_shaders/geometry/circle.glsl"
 
-// More arcs than this on one circle are left to the host, as doubtful circles are. Real structures show up to five.
+// Circles with more arcs than this are left to the host, like doubtful circles. Real structures have up to five.
 const uint kArcCapacity = 8u;
 
-// Circles whose squared radius is smaller than this many roundings of the ball's are in doubt as a whole: half an angle's
-// digits are lost on them.
+// A circle is in doubt as a whole if its squared radius is less than this many roundings of the ball's squared radius,
+// because half of the digits of angles are lost on it.
 const real kSmallestCircle = real(65536);
 
 #ifdef DOUBLE_PRECISION
-// As bits: NVIDIA's compiler (580.159) rounds doubles to floats in arrays with a variable index.
+// The ends are stored as bits, because NVIDIA's compiler (580.159) rounds doubles to floats in arrays with a variable
+// index.
 uvec4 exposed_ends[kArcCapacity];
 uvec2 exposed_labels[kArcCapacity];
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "fixed probes" (RS faces): places those that the view needs, visible or cutting what is visible.
-// Reads: arcs, atoms, radii, kept atoms, depths. Writes: probes, probe_balls, probe_balls_low, counters.
-// One invocation per arc. Overflow: appends stop at the capacity but go on counting; the host grows and runs again.
-// Based on: Krone, Dachsbacher & Ertl 2010, section 3.3 (visible and adjacent RS faces), by theorem 2 instead.
+// Stage "fixed probes": places the fixed probes (RS faces) that the view needs, which are visible or cut visible
+// patches.
+// Reads: arcs, atoms, radii, kept atoms, depths. Writes: probes, probe_balls, probe_balls_low, counters. One invocation
+// per arc. Overflow: appends stop at the capacity but go on counting; the host grows and runs again.
+// Based on: Krone, Dachsbacher & Ertl 2010, section 3.3 (visible and adjacent RS faces), but selected by theorem 2.
 #version 450 core
 layout(local_size_x = 64) in;
 #define DOUBLE_PRECISION
@@ -15,11 +16,11 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/reduced_surface/parameters.glsl"
 
 layout(std430, binding = 2) writeonly buffer Probes { ProbeRecord probes[]; };
-layout(std430, binding = 3) writeonly buffer ProbeBalls { vec4 probe_balls[]; };         // from the middle of the atoms, p
-layout(std430, binding = 4) writeonly buffer ProbeBallsLow { vec4 probe_balls_low[]; };  // what is left of the centre
+layout(std430, binding = 3) writeonly buffer ProbeBalls { vec4 probe_balls[]; };  // relative to the atoms' middle, p
+layout(std430, binding = 4) writeonly buffer ProbeBallsLow { vec4 probe_balls_low[]; };  // rounding error of the centre
 layout(std430, binding = 5) buffer Counters {
   uint probe_count;
-  uint end_sums[6];  // over the ends of arcs, by the place of the third atom among the sorted three: two keys each
+  uint end_sums[6];  // sums of two keys over the ends of arcs, by the place of the third atom among the sorted three
 };
 layout(std430, binding = 6) readonly buffer ArcCount { uint arc_count; };
 layout(std140, binding = 0) uniform Parameters { FixedProbeParameters params; };
@@ -28,7 +29,7 @@ void append(Triple t) {
   FixedProbe probe = place_probe(t, params.probe_radius);
   dvec3 from_middle = probe.position - params.middle;
   vec3 coarse = vec3(from_middle);
-  // What a probe makes or cuts is within p of it.
+  // Everything that a probe makes or cuts is within its radius p.
   if (!begins_in_front(coarse, float(params.probe_radius))) return;
   uint slot = atomicAdd(probe_count, 1u);
   if (slot >= params.probe_capacity) return;
@@ -45,11 +46,11 @@ void main() {
   if (arc.z == kNone) return;
   for (int end = 0; end < 2; ++end) {
     uint k = end == 1 ? arc.w : arc.z;
-    // A probe that touches an atom the view does not need, the view does not need.
+    // The view needs no probe that touches an atom which the view does not need.
     if (!is_listed(k)) continue;
     Triple t = triple_at(arc.x, arc.y, k, end == 1);
-    // Three arcs end at every probe, with each of its atoms once as the third: the certificate of closure (theorem 3)
-    // is that the keys of all three kinds of ends have equal sums.
+    // Three arcs end at every probe, and each of its atoms is the third atom of one of them. The certificate of closure
+    // (theorem 3) is that the sums of keys over these three kinds of ends are equal.
     uint role = role_of_third(arc.x, arc.y, k);
     atomicAdd(end_sums[2u * role], triple_key(t, 0u));
     atomicAdd(end_sums[2u * role + 1u], triple_key(t, 0x9e6c63d0u));

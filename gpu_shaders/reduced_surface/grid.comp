@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "grid": sorts atoms into cells. Pass 0 counts the atoms of each cell, pass 1 (after a scan) fills them in.
-// Reads: atoms. Writes: cell_first (counts, then scanned), rank, cell_atoms.
-// One invocation per atom. Overflow: none, every array has its final size.
+// Stage "grid": sorts atoms into cells. Pass 0 counts the atoms of each cell; pass 1 (after a scan) fills the cells.
+// Reads: atoms. Writes: cell_first (counts, then scanned), rank, cell_atoms. One invocation per atom. Overflow: none,
+// every array has its final size.
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/reduced_surface/cell_grid.glsl"
 
-layout(std430, binding = 0) readonly buffer Atoms { vec4 atoms[]; };  // xyz from the molecule's middle, w: SAS radius
+layout(std430, binding = 0) readonly buffer Atoms { vec4 atoms[]; };  // relative to the molecule's middle, SAS radius
 layout(std430, binding = 1) buffer CellFirst { uint cell_first[]; };
 layout(std430, binding = 2) buffer Rank { uint rank[]; };
 layout(std430, binding = 3) writeonly buffer CellAtoms { uint cell_atoms[]; };

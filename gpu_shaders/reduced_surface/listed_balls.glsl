@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The balls whose neighbours are listed: every ball in order, or those that a view needs.
+// The balls whose neighbours are listed: all balls in order, or those that a view needs.
 
 #ifdef LISTED
 layout(binding = 2) uniform usamplerBuffer listed_balls;   // ascending
-layout(binding = 3) uniform usamplerBuffer listed_before;  // per ball, and one more: how many listed ones come before it
+layout(binding = 3) uniform usamplerBuffer listed_before;  // number of listed balls before each ball and before the end
 
-// Entries, for so many balls.
+// Returns the number of entries for the first `ball_count` balls.
 uint entries_of(uint ball_count) { return texelFetch(listed_before, int(ball_count)).x; }
 
 uint ball_of(uint entry) { return texelFetch(listed_balls, int(entry)).x; }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "neighbors": lists the atoms whose SAS balls overlap, roughly nearest first, as seen from each atom.
-// Pass 0 counts neighbours and pairs (i < j, both listed); pass 1 (after scans) writes them.
-// Reads: atoms, atoms_low, cells. Writes: class_counts, neighbor_first, pair_first (counts, then scanned), neighbor_balls,
-// neighbor_labels, pairs. One invocation per atom of the batch; entries after the last one have empty lists. Overflow:
-// scans stop at the capacity, and so does pass 1; the host makes the frame again.
+// Stage "neighbors": lists the atoms whose SAS balls overlap that of each atom, roughly nearest first. Pass 0 counts
+// neighbours and pairs (i < j, both listed); pass 1 (after scans) writes them.
+// Reads: atoms, atoms_low, cells. Writes: class_counts, neighbor_first, pair_first (counts, then scanned),
+// neighbor_balls, neighbor_labels, pairs. One invocation per atom of the batch; entries after the last one have empty
+// lists. Overflow: scans and pass 1 stop at the capacity; the host makes the frame again.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.3 (neighbourhood grid).
 #version 450 core
 layout(local_size_x = 64) in;
@@ -12,13 +12,13 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/reduced_surface/cell_grid.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
 
-layout(binding = 0) uniform usamplerBuffer atom_texels;                       // floats: hi part, SAS radius
-layout(std430, binding = 0) buffer ClassCounts { uint class_counts[]; };  // per atom of the batch and class
-layout(std430, binding = 1) readonly buffer AtomsLow { vec4 atoms_low[]; };  // lo part, w: 1 if swallowed
+layout(binding = 0) uniform usamplerBuffer atom_texels;                      // floats: high part of centre, SAS radius
+layout(std430, binding = 0) buffer ClassCounts { uint class_counts[]; };     // per atom of the batch and class
+layout(std430, binding = 1) readonly buffer AtomsLow { vec4 atoms_low[]; };  // low part of centre, 1 if swallowed
 layout(std430, binding = 2) readonly buffer CellFirst { uint cell_first[]; };
 layout(binding = 1) uniform usamplerBuffer cell_atoms;
 layout(std430, binding = 3) buffer BallCount {
-  uint cut_short;  // 1: some ball has too many balls about it
+  uint cut_short;  // 1 if some ball has too many neighbours
   uint ball_count;
 };
 layout(std430, binding = 4) buffer NeighborFirst { uint neighbor_first[]; };
@@ -29,7 +29,8 @@ layout(std140, binding = 0) uniform Parameters { NeighborParameters params; };
 
 vec4 atom(uint index) { return uintBitsToFloat(texelFetch(atom_texels, int(index))); }
 
-// Near balls cover most of a circle, so they should come first; a few distance classes do nearly as well as sorting.
+// The number of distance classes. Near balls cover most of a circle, so they should come first, and a few classes are
+// nearly as good as sorting.
 const uint kClasses = 6u;
 
 void main() {
@@ -74,7 +75,8 @@ void main() {
           vec3 coarse = other.xyz - self.xyz;
           float sum = other.w + self.w;
           float square = dot(coarse, coarse);
-          // Generous by more than the rounding: a ball that only seems to overlap covers nothing and costs little.
+          // The margin is greater than the rounding. A ball that does not really overlap covers nothing and costs
+          // little.
           if (square > sum * sum * 1.00001 || j == i) continue;
           vec4 other_low = atoms_low[j];
           if (other_low.w > 0.5) continue;

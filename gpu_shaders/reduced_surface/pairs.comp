@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "pairs": lists every overlapping pair i < j once, as (entry of i, place of j in the neighbour list).
-// Reads: neighbor_first, neighbor_labels, pair_first. Writes: pairs. One invocation per atom of the batch.
-// Overflow: scans stop at the capacity; the host makes the frame again.
+// Stage "pairs": lists every overlapping pair i < j once as (entry of i, place of j in the neighbour list).
+// Reads: neighbor_first, neighbor_labels, pair_first. Writes: pairs. One invocation per atom of the batch. Overflow:
+// scans stop at the capacity; the host makes the frame again.
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"

@@ -4,7 +4,7 @@
 #ifndef MENISCUS_REDUCED_SURFACE_PARAMETERS_GLSL
 #define MENISCUS_REDUCED_SURFACE_PARAMETERS_GLSL
 
-// The uniform grid over atom centres, as all kernels that look for neighbours see it.
+// The uniform grid over atom centres, for all kernels that search for neighbours.
 struct CellGrid {
   vec4 low;   // xyz: low corner, Å; w: 1 / cell edge
   vec4 size;  // xyz: number of cells along each axis (whole numbers)
@@ -12,35 +12,35 @@ struct CellGrid {
 const int kCellGridBinding = 1;
 
 struct GridParameters {
-  uint atom_count;  // at most; the GPU knows how many
+  uint atom_count;  // upper bound; the GPU has the exact number
 };
 
 struct NeighborParameters {
-  uint first_entry;  // of the batch
-  uint entry_count;  // in the batch, at most
+  uint first_entry;  // first entry of the batch
+  uint entry_count;  // upper bound on the number of entries in the batch
   float largest_radius;
-  uint capacity;  // of the lists
+  uint capacity;  // capacity of the lists
 };
 
 struct PairParameters {
-  uint first_entry;  // of the batch
-  uint entry_count;  // in the batch
+  uint first_entry;  // first entry of the batch
+  uint entry_count;  // number of entries in the batch
 };
 
 struct CircleParameters {
-  double doubt;       // what is decided by less goes to the host: relative, see decision_doubt()
-  uint first_entry;   // of the batch, which the neighbour lists count from
-  uint entry_count;   // in the batch
-  uint circle_count;  // at most; the GPU knows how many
-  uint list_limit;    // neighbour lists that have come to it had no room
+  double doubt;       // decisions by a smaller relative margin go to the host (decision_doubt())
+  uint first_entry;   // first entry of the batch, at which the neighbour lists begin
+  uint entry_count;   // number of entries in the batch
+  uint circle_count;  // upper bound; the GPU has the exact number
+  uint list_limit;    // neighbour lists of this total length had no room
   uint arc_capacity;
   uint doubtful_capacity;
 };
 
 struct FixedProbeParameters {
-  dvec3 middle;  // of the atoms
+  dvec3 middle;  // middle of the atoms
   double probe_radius;
-  uint arc_count;  // at most; the GPU knows how many
+  uint arc_count;  // upper bound; the GPU has the exact number
   uint probe_capacity;
 };
 

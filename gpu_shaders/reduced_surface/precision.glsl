@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arithmetic in which a kernel variant decides: single precision first, double where that leaves doubt.
+// The arithmetic of a kernel variant: single precision first, and double precision for decisions that are then in
+// doubt.
 #ifdef DOUBLE_PRECISION
 #define real double
 #define real2 dvec2

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers that kernels and the host must share, for GLSL and C++ (core/gpu/kernel_records.h).
+// Numbers that kernels and the host share, for GLSL and C++ (core/gpu/kernel_records.h).
 #ifndef MENISCUS_SHARED_CONSTANTS_GLSL
 #define MENISCUS_SHARED_CONSTANTS_GLSL
 

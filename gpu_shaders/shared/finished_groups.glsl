@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The end of every kernel: counts the groups that reach it, for core/gpu/work_proof.h to compare with those started.
-// Appended to each kernel, whose own main() is called kernel_main() there, so that no early return slips past.
+// Counts the groups that reach the end of a kernel, which core/gpu/work_proof.h compares with the started ones.
+// It is appended to each kernel, whose own main() is renamed to kernel_main(), so that early returns are counted, too.
 #undef main
 layout(binding = 0, offset = 0) uniform atomic_uint finished_groups;
 
 void main() {
   kernel_main();
-  // One invocation stands for its group: the last, as software GL runs them in order.
+  // The last invocation counts for its group, because software GL runs invocations in order.
   if (gl_LocalInvocationIndex == gl_WorkGroupSize.x * gl_WorkGroupSize.y * gl_WorkGroupSize.z - 1u)
     atomicCounterIncrement(finished_groups);
 }

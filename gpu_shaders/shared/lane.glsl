@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Types and functions for values that differ from ray to ray: in a kernel, single values. Where C++ compiles the same
-// source they may be packets of values, and are types and functions there (core/render/ray_geometry.h,
-// core/render/cpu/packet.h); of a pixel_row there are as many, side by side. Whatever is the same for all rays has GLSL's own types.
+// Types and functions for values that differ from ray to ray. In a kernel they are single values. Where C++ compiles
+// the same source, they may be packets of values, defined in core/render/ray_geometry.h and core/render/cpu/packet.h; a
+// pixel_row is then a row of adjacent pixels. Values that are the same for all rays have GLSL's own types.
 #if !defined(MENISCUS_SHARED_LANE_GLSL) && !defined(__cplusplus)
 #define MENISCUS_SHARED_LANE_GLSL
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a sphere seen from the eye spreads along one axis of the picture.
+// Computes the extent of a sphere seen from the eye along one axis of the picture.
 #ifndef MENISCUS_SHARED_TANGENT_SLOPES_GLSL
 #define MENISCUS_SHARED_TANGENT_SLOPES_GLSL
 
-// Slopes x/z of the two lines through the eye that touch the circle around (x, z), widened by what rounding may do.
+// Returns the slopes x/z of the two lines through the eye that touch the circle around (x, z), widened by the possible
+// rounding error.
 vec2 tangent_slopes(float x, float z, float radius) {
-  // Close to the eye the difference below would lose its digits, and the circle fills the picture anyway.
+  // Close to the eye the difference below would lose its digits. The circle fills the picture there anyway.
   if (z < 1.01 * radius) return vec2(-1e20, 1e20);
   float denominator = (z - radius) * (z + radius);
   float root = radius * sqrt(x * x + denominator);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "cusps": the exposed arcs of the circle of each pair of probes that cut each other.
-// Reads: circles, neighbour lists of probes, heads, sides. Writes: arcs (after their counters), doubtful.
-// One invocation per circle. Overflow: appends stop at the capacity but go on counting; the host grows and runs again.
-// Based on: Totrov & Abagyan 1996 among fixed probes; order around the axis for the pencils of spindle circles.
+// Stage "cusps": finds the exposed arcs of the circle of each pair of probes that cut each other.
+// Reads: circles, neighbour lists of probes, heads, sides. Writes: arcs (after their counters), doubtful. One
+// invocation per circle. Overflow: appends stop at the capacity but go on counting; the host grows and runs again.
+// Based on: Totrov & Abagyan 1996, applied to fixed probes; the order around the axis decides for pencils of spindle
+// circles.
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
@@ -13,11 +14,11 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/reduced_surface/exposed_arcs.glsl"
 #include "gpu_shaders/singularities/parameters.glsl"
 
-layout(std430, binding = 0) readonly buffer Circles { uvec2 circles[]; };  // probe s, place of t in its list
+layout(std430, binding = 0) readonly buffer Circles { uvec2 circles[]; };  // probe s, place of probe t in its list
 layout(std430, binding = 1) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 2) readonly buffer NeighborLabels { uint neighbor_labels[]; };
 layout(std430, binding = 3) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };
-layout(std430, binding = 4) readonly buffer Heads { uvec2 heads[]; };  // per probe: first side, 1 if low
+layout(std430, binding = 4) readonly buffer Heads { uvec2 heads[]; };  // first side of each probe, 1 if it is low
 layout(std430, binding = 5) readonly buffer Sides { SideRecord sides[]; };
 layout(std430, binding = 6) buffer Arcs {
   uint arc_count;
@@ -29,27 +30,27 @@ layout(std430, binding = 6) buffer Arcs {
 layout(std430, binding = 7) writeonly buffer Doubtful { uvec2 doubtful[]; };
 layout(std140, binding = 0) uniform Parameters { CuspParameters params; };
 
-const uint kPencilCapacity = 6u;  // spindle circles that one pair of probes shares; more: doubtful
+const uint kPencilCapacity = 6u;  // spindle circles that a pair of probes may share; pairs with more are doubtful
 uint pencil_sides[kPencilCapacity];
 
-bool hold_pencils(uint count) { return count <= kPencilCapacity; }
+bool reserve_pencils(uint count) { return count <= kPencilCapacity; }
 uint first_side(uint probe) { return heads[probe].x; }
 uint circle_of(uint side) { return sides[side].circle; }
 uint partner_of(uint side) { return sides[side].partner; }
 
 #include "gpu_shaders/geometry/pencil.glsl"
 
-// What single precision leaves in doubt of where a pair's circle meets the axis of a spindle, and the error of the points
-// where it does.
+// The margin within which single precision does not decide if a pair's circle meets the axis of a spindle, and the
+// error of the points where it does.
 const float kAxisDoubt = 1e-4;
 const float kAxisError = 1e-6;
 
-// Past the axes of shared spindle circles nothing of the pair's circle is left.
+// Removes the parts of the pair's circle past the axes of shared spindle circles.
 void cover_past_axes() {
   for (uint k = 0u; k < pencil_count; ++k) {
     SideRecord side = sides[pencil_sides[k]];
     HalfPlane h = half_plane_past_axis(contour_circle, side.gap_direction.xyz, side.circle_center.xyz);
-    // The end points are named, but their place in single precision is not exact: other decisions must know.
+    // The end points are named, but their positions are not exact in single precision, which affects other decisions.
     h.error = kAxisError * (1.0 + abs(h.offset));
     float margin;
     int meeting = meet_axis(h, side.touching == 1u, margin);

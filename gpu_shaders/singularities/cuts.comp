@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "cuts": which probes reach into the spherical polygon of each low probe (flag 1), do not (0), or may (2).
-// Reads: neighbour lists of probes, heads, sides. Writes: flags, one per list entry.
-// One invocation per probe of the batch. Overflow: none.
+// Stage "cuts": decides which probes cut the spherical polygon of each low probe: flag 1 if they do, 0 if not, 2 in
+// doubt.
+// Reads: neighbour lists of probes, heads, sides. Writes: flags, one per list entry. One invocation per probe of the
+// batch. Overflow: none.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.4 (singularity handling), with every probe within two radii.
 #version 450 core
 layout(local_size_x = 64) in;
@@ -13,18 +14,18 @@ layout(local_size_x = 64) in;
 
 layout(std430, binding = 0) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 1) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };
-layout(std430, binding = 2) readonly buffer Heads { uvec2 heads[]; };  // per probe: first side, 1 if low
+layout(std430, binding = 2) readonly buffer Heads { uvec2 heads[]; };  // first side of each probe, 1 if it is low
 layout(std430, binding = 3) readonly buffer Sides { SideRecord sides[]; };
 layout(std430, binding = 4) writeonly buffer Flags { uint flags[]; };
 layout(std140, binding = 0) uniform Parameters { CutParameters params; };
 
-// Single precision leaves a margin in doubt: some 60 roundings of a side's normal, twenty times magnified where the root
-// below it is taken of a twentieth.
+// The margin within which single precision does not decide: about 60 roundings of a side's normal, magnified twentyfold
+// where the root in reach_of_side() is taken of a twentieth.
 const float kDoubt = 1e-4;
 
 uint flag_of(uint first, uint past, vec3 toward) {
   float distance = length(toward);
-  // Close probes are decided by a root near zero, where single precision has nothing left.
+  // For close probes a root near zero decides, for which single precision has no digits left.
   if (distance < 0.1 * params.probe_radius) return 2u;
   vec3 d = toward / distance;
   PolygonReach reach = no_reach();

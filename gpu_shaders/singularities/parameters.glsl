@@ -5,13 +5,13 @@
 #define MENISCUS_SINGULARITIES_PARAMETERS_GLSL
 
 struct CutParameters {
-  uint first_probe;  // of the batch
-  uint probe_count;  // in the batch
+  uint first_probe;  // first probe of the batch
+  uint probe_count;  // number of probes in the batch
   float probe_radius;
 };
 
 struct CuspParameters {
-  uint first_probe;  // of the batch, which the neighbour lists count from
+  uint first_probe;  // first probe of the batch, at which the neighbour lists begin
   uint circle_count;
   uint arc_capacity;
   uint doubtful_capacity;

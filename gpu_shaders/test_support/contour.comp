@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Test kernel: contour build-up in double precision, one circle an invocation.
+// Test kernel: contour build-up in double precision, with one circle per invocation.
 #version 450 core
 layout(local_size_x = 64) in;
 #define DOUBLE_PRECISION
@@ -9,13 +9,13 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/test_support/parameters.glsl"
 
 struct Answer {
-  uvec4 counted;  // arcs, whether the circle is whole, whether it is in doubt, unused
+  uvec4 counted;  // number of arcs, 1 if the circle is whole, 1 if it is in doubt, unused
   dvec2 ends[8];
   uvec2 labels[8];
 };
 
 layout(std430, binding = 0) readonly buffer Atoms { dvec4 atoms[]; };      // centre, weight
-layout(std430, binding = 1) readonly buffer Circles { uvec4 circles[]; };  // i, j, where the neighbours of i begin and end
+layout(std430, binding = 1) readonly buffer Circles { uvec4 circles[]; };  // i, j, begin and end of the neighbours of i
 layout(std430, binding = 2) readonly buffer Neighbors { uint neighbors[]; };
 layout(std430, binding = 3) writeonly buffer Answers { Answer answers[]; };
 layout(std140, binding = 0) uniform Parameters { QueryParameters params; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts in two nested loops and says whether they were cut short.
+// Test kernel: counts in two nested loops, and reports if they were cut short.
 #version 450 core
 layout(local_size_x = 1) in;
 #include "gpu_shaders/shared/loop_guard.glsl"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What tests tell their kernels, as uniform blocks of GLSL and structs of C++ (core/gpu/kernel_records.h says how).
+// Parameters of test kernels, as uniform blocks of GLSL and structs of C++ (core/gpu/kernel_records.h says how).
 #ifndef MENISCUS_TEST_SUPPORT_PARAMETERS_GLSL
 #define MENISCUS_TEST_SUPPORT_PARAMETERS_GLSL
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Test kernel: the ray caster's geometry functions in single precision, one query an invocation.
+// Test kernel: the ray caster's geometry functions in single precision, with one query per invocation.
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
@@ -17,7 +17,7 @@ struct Query {
 
 struct Answer {
   vec4 torus_t;
-  vec4 normal_at_first;  // w: count of torus hits
+  vec4 normal_at_first;  // w: number of torus hits
   vec4 sphere;           // near, far, found, unused
 };
 

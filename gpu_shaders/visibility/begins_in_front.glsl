@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Theorem 2 for any ball: does it begin in front of the nearest vdW sphere on some ray?
+// Tests by theorem 2 if any ball begins in front of the nearest vdW sphere on some ray.
 #include "gpu_shaders/visibility/view.glsl"
 
 layout(binding = 4) uniform usamplerBuffer tile_depths;   // floats
 layout(binding = 5) uniform usamplerBuffer block_depths;  // floats
 
-// More blocks than this are not asked one by one: drivers have limits (loop_guard.glsl).
+// The greatest number of blocks that are tested one by one, because drivers limit loops (loop_guard.glsl).
 const int kMostSteps = 8192;
 
-// position: from the middle of the atoms. False only if no ray of the picture enters the ball in front of the vdW
-// spheres: rays are asked block by block, with bounds that hold for every ray of a block.
+// True if a ray of the picture may enter the ball in front of the vdW spheres. It returns false only if no ray does:
+// rays are tested block by block, with bounds that hold for every ray of a block. position: relative to the middle of
+// the atoms.
 bool begins_in_front(vec3 position, float radius) {
   if (view.keep_all != 0u) return true;
   radius += view.margin;

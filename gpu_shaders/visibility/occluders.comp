@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "visible atoms", 1: draws the vdW spheres into blocks of pixels; each keeps the depth by which all its rays end.
-// Reads: balls. Writes: block_depths (bits of floats, filled with those of kNothing before).
-// One group per atom. Overflow: none.
+// Stage "visible atoms", 1: draws the vdW spheres into blocks of pixels. Each block keeps a depth by which all of its
+// rays have ended.
+// Reads: balls. Writes: block_depths (bits of floats, filled with those of kNothing before). One group per atom.
+// Overflow: none.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.2 (visible atoms), with blocks of rays instead of single ones.
 #version 450 core
 layout(local_size_x = 32) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/visibility/view.glsl"
 
-layout(std430, binding = 0) readonly buffer Balls { vec4 balls[]; };  // from the middle of the atoms, SAS radius
+layout(std430, binding = 0) readonly buffer Balls { vec4 balls[]; };  // relative to the middle of the atoms, SAS radius
 layout(std430, binding = 1) buffer BlockDepths { uint block_depths[]; };
 layout(std140, binding = 0) uniform Parameters { VisibleAtomsParameters params; };
 
@@ -28,7 +29,7 @@ void main() {
     ivec2 block = low + ivec2(n % blocks.x, n / blocks.x);
     if (block.x >= row_length || block.y >= row_count) continue;
     float depth = latest_depth(ray_block(block * view.block_edge, view.block_edge), v, radius);
-    // Positive floats are ordered as their bits are.
+    // Positive floats have the same order as their bits.
     if (depth < kNothing) atomicMin(block_depths[block.y * row_length + block.x], floatBitsToUint(depth));
   }
 }

@@ -5,8 +5,8 @@
 #define MENISCUS_VISIBILITY_PARAMETERS_GLSL
 
 struct View {
-  vec3 eye;           // from the middle of the atoms
-  float pixel_scale;  // of a pixel at distance 1; orthographic: in Å
+  vec3 eye;           // relative to the middle of the atoms
+  float pixel_scale;  // size of a pixel at distance 1; orthographic: in Å
   vec3 right;
   float margin;  // covers the rounding of every bound, in Å
   vec3 up;
@@ -14,7 +14,7 @@ struct View {
   vec3 forward;
   int block_edge;      // pixels; divides kTileEdge
   ivec2 picture_size;  // pixels
-  uint keep_all;       // 1: the eye may be in the solid, or the whole surface is wanted
+  uint keep_all;       // 1 if the eye may be in the solid, or if the whole surface is requested
 };
 const int kViewBinding = 2;
 

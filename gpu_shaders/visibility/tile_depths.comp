@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "visible atoms", 2: the depth by which all rays of a tile have ended, for the quick half of every later test.
+// Stage "visible atoms", 2: finds the depth by which all rays of a tile have ended, for the quick half of later tests.
 // Reads: block_depths. Writes: tile_depths. One invocation per tile. Overflow: none.
 #version 450 core
 layout(local_size_x = 64) in;
@@ -19,7 +19,7 @@ void main() {
   for (int y = 0; y < blocks; ++y)
     for (int x = 0; x < blocks; ++x) {
       ivec2 block = tile * blocks + ivec2(x, y);
-      // Blocks past the picture's edge have no rays.
+      // Blocks outside of the picture have no rays.
       if (any(greaterThanEqual(block * view.block_edge, view.picture_size))) continue;
       latest = max(latest, block_depths[block.y * tiles.x * blocks + block.x]);
     }

@@ -1,7 +1,8 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a pixel's ray meets a primitive: the nearest point wins by its depth. TORI or SHAPES is defined for these kinds; else
-// it is a clipped sphere. With LAYERS the next hit of each ray is looked for, behind the one in state_texels.
+// Intersects the ray of a pixel with a primitive. The nearest point wins by its depth. TORI or SHAPES is defined for
+// these kinds; otherwise the primitive is a clipped sphere. With LAYERS it finds the next hit of each ray behind the
+// one in state_texels.
 #ifdef GL_EXT_conservative_depth
 #extension GL_EXT_conservative_depth : enable
 #endif
@@ -53,7 +54,8 @@ float meet_torus(uint torus, PixelRay ray, float from) {
   TorusPatch saddle = load_torus(torus);
   LocalRay local = to_torus(saddle, ray.p, ray.d);
 #ifdef LAYERS
-  // From where planes let the ray in, whatever it has met: where roots are looked for leaves its mark on their last bits.
+  // The search begins where planes let the ray in, independently of earlier hits, because the begin affects the last
+  // bits of the roots.
   local.low = max(local.low, kept_part(ray.p, ray.d, ray.eye_t).from - local.shift);
   if (!goes_towards_torus(local, kMiss)) return kMiss;
   TorusRuns runs = torus_runs(local.o, local.d, saddle.major, params.probe_radius, local.low, local.high);

@@ -1,7 +1,7 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
-// A sample in the shade, in the air and under the lines, added to those before. With LAYERS it is opaque, whatever its alpha
-// says, and what lines cover of it is written, too.
+// Applies shade, depth cueing and lines to a sample, and adds it to earlier samples. With LAYERS the sample is opaque
+// independently of its alpha, and the share that lines cover is written, too.
 #include "gpu_shaders/webgl/sample_texels.glsl"
 
 uniform usampler2D sample_texels;      // points.frag's colours

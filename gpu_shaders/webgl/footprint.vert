@@ -1,7 +1,7 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
-// The rectangle of pixels that a primitive's bound may touch, at the depth where it begins. The picture's top row is the
-// lowest of the target.
+// Makes the rectangle of pixels that a primitive's bound may touch, at the depth where the bound begins. The top row of
+// the picture is the lowest row of the target.
 #include "gpu_shaders/webgl/tables.glsl"
 
 TileListParameters params;  // of the one block that is the picture

@@ -1,6 +1,6 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts what comes next on each ray behind what is there already, and says where to look further.
+// Blends the next event on each ray behind the earlier layers, and writes where the search continues.
 #define LAYERS 1
 #include "gpu_shaders/webgl/layer_texels.glsl"
 

@@ -1,7 +1,7 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
-// What comes next on each ray: the hit that cast.frag has found, or the cap before it. The next hit behind a plane tells
-// whether the ray is in the solid there, for then it goes out of it.
+// Finds the next event on each ray: the hit that cast.frag has found, or the cap before it. If the ray leaves the solid
+// at the next hit behind a plane, it is in the solid at the plane, so there is a cap.
 #define LAYERS 1
 #include "gpu_shaders/webgl/scene.glsl"
 

@@ -1,6 +1,6 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps what comes next on a ray if it is the first thing that is seen (FIRST), or if it is opaque.
+// Keeps the next event on a ray if it is the first visible one (FIRST), or otherwise if it is opaque.
 #define LAYERS 1
 #include "gpu_shaders/webgl/layer_texels.glsl"
 

@@ -1,6 +1,6 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
-// Where each ray begins to look for a surface that is cut or seen through.
+// Initializes the search of each ray for layers of a cut or translucent surface.
 #define LAYERS 1
 #include "gpu_shaders/webgl/scene.glsl"
 

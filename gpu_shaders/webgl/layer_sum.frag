@@ -1,6 +1,6 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
-// What is seen through, over what is opaque, both finished; added to the samples before.
+// Blends finished translucent layers over the finished opaque layer, and adds the result to earlier samples.
 #define LAYERS 1
 #include "gpu_shaders/webgl/tables.glsl"
 #include "gpu_shaders/look/parameters.glsl"
@@ -21,7 +21,7 @@ float opacity_of_first(ivec2 pixel) {
   return inside ? uintBitsToFloat(texelFetch(first_texels, pixel, 0)).a : 0.0;
 }
 
-// A line beside what is seen first is as opaque as it is there.
+// Returns the opacity of a line next to the first visible layer, which is the greatest opacity of that layer nearby.
 float opacity_nearby(ivec2 pixel) {
   int reach = int(ceil(0.5 * params.widest_line + 0.5));
   float nearby = 0.0;

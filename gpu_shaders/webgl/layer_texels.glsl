@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fetches what comes next on a ray, with its colour, and tells it from the shapes beside the surface, which are opaque.
+// Fetches the next event on a ray with its colour, and tests if it is in front of the opaque shapes that are drawn in
+// addition to the surface.
 #ifndef MENISCUS_WEBGL_LAYER_TEXELS_GLSL
 #define MENISCUS_WEBGL_LAYER_TEXELS_GLSL
 #include "gpu_shaders/webgl/scene.glsl"

@@ -1,13 +1,13 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
-// How much of the sky each point sees, and its depth beside that.
+// Computes the visibility of the sky at each point, and stores it with the depth of the point.
 #include "gpu_shaders/webgl/sample_texels.glsl"
 
 uniform usampler2D map_texels;  // points.frag's normals and depths of the first sample
 layout(std140) uniform Parameters { OcclusionParameters occlusion; };
 layout(location = 0) out uvec4 shade;  // visibility, depth; as bits
 
-// Outside of the map there is nothing.
+// Returns the depth of a texel of the map, or kNothing outside of the map.
 float map_depth_or_nothing(ivec2 texel) {
   if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, occlusion.map_size))) return kNothing;
   return uintBitsToFloat(texelFetch(map_texels, texel, 0).w);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours of points by a volume map, whose numbers are in one table: colours of its scale, of what it does not reach, a
-// number per atom that is 0 where the map colours it, and its values. As painted() in core/render/cpu/host_scene.cpp.
+// Colours points by a volume map. One table has its numbers: colours of the scale, the colour outside of the map, a
+// number per atom that is 0 if the map colours it, and the values. It does the same as painted() in
+// core/render/cpu/host_scene.cpp.
 #ifndef MENISCUS_WEBGL_PAINTED_GLSL
 #define MENISCUS_WEBGL_PAINTED_GLSL
 
@@ -19,7 +20,7 @@ real grid_value(uint n) { return map_number(uint(map_parts.z) + n); }
 
 vec3 map_color(uint first) { return vec3(map_number(first), map_number(first + 1u), map_number(first + 2u)); }
 
-// Linear. offset: Å outside of the surface.
+// Returns the linear colour of a point x. offset: distance from the surface at which the map is sampled, Å.
 vec3 painted(vec3 of_atom, uint atom, vec3 x, vec3 normal, float offset) {
   if (map_is_shown == 0.0 || entry(map_texels, uint(map_parts.y) + atom).x != 0u) return of_atom;
   vec4 point = vec4(x + offset * normal, 1.0);

@@ -1,6 +1,7 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
-// What the point is like that a pixel's ray has met: its colour in the light, its normal, its depth, its atom.
+// Computes the properties of the point that a pixel's ray has met: its colour in the light, its normal, its depth, its
+// atom.
 #include "gpu_shaders/webgl/scene.glsl"
 
 #ifdef LAYERS

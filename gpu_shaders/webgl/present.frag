@@ -1,6 +1,6 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums of samples over a background, as sRGB; the canvas begins with the lowest row.
+// Blends sums of samples over a background and converts them to sRGB. The canvas begins with the lowest row.
 precision highp float;
 precision highp int;
 precision highp usampler2D;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fetches what points.frag wrote, under the names that the shared sources of the look ask for.
+// Fetches the results of points.frag under the names that the shared sources of the look need.
 #ifndef MENISCUS_WEBGL_SAMPLE_TEXELS_GLSL
 #define MENISCUS_WEBGL_SAMPLE_TEXELS_GLSL
 #include "gpu_shaders/webgl/tables.glsl"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ray caster's shared sources over the tables of a page.
+// Includes the ray caster's shared sources for the tables of a page.
 #ifndef MENISCUS_WEBGL_SCENE_GLSL
 #define MENISCUS_WEBGL_SCENE_GLSL
 #include "gpu_shaders/webgl/tables.glsl"
@@ -45,14 +45,15 @@ vec4 plane(int i) { return planes[i]; }
 #include "gpu_shaders/ray_cast/layers.glsl"
 #include "gpu_shaders/ray_cast/repeated_hit.glsl"
 
-// Of a ray in state_texels: t that the next hit lies beyond, as bits; facing of the hit there, as bits; these.
+// The flags in the third word of a ray's state in state_texels. The first two words are, as bits, the parameter t
+// beyond which the next hit lies, and the facing of the hit at t.
 const uint kHasHit = 1u;    // there is a hit at t
 const uint kEnded = 2u;     // nothing more is seen of it
 const uint kHasBegun = 4u;  // it has gone in through a cap, or has met the surface
 const uint kHasShown = 8u;  // something on it is seen
 #endif
 
-// The ray of a pixel, from where the records count.
+// The ray of a pixel, in the coordinates of the records.
 struct PixelRay {
   vec3 p;
   vec3 d;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What shaders of WebGL 2 (GLSL ES 3.00) need before the sources that they share with the kernels: precisions, and tables in
-// textures of 2048 columns where kernels have buffers.
+// Definitions that shaders of WebGL 2 (GLSL ES 3.00) need before the sources that they share with the kernels:
+// precisions, and tables in textures of 2048 columns where kernels have buffers.
 #ifndef MENISCUS_WEBGL_TABLES_GLSL
 #define MENISCUS_WEBGL_TABLES_GLSL
 precision highp float;

@@ -65,7 +65,7 @@ namespace {
 
 void declare_balls(CLI::App& command) {
   describe(command, "  meniscus export balls 1tii.pdb -o 1tii.balls");
-  auto declared = std::make_shared<DeclaredCommand<>>(command, for_atoms);
+  auto declared = std::make_shared<DeclaredCommand<>>(command, run_properties().with({"output.file"}));
   declared->options.describe_output("File to write");
   command.callback([declared] {
     declared->options.take();

@@ -11,10 +11,10 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cases=0 failures=0
 
-# What a JSON report says of the surface: all but the device, times, and the version.
+# Prints the results of a JSON report: everything but the device, times, and the version.
 results_only() { grep -v -E '"(ms|name|device|version)":' "$1" || true; }
 
-# The pixels of PNG files, in the order of their names: other compressors make other bytes of the same picture.
+# Prints checksums of the pixels of PNG files, in the order of their names: compressors may write the same picture in different bytes.
 pixels_of() {
   /usr/bin/python3 - "$@" <<'PYTHON'
 import sys

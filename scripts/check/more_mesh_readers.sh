@@ -10,7 +10,7 @@ cd "$(dirname "$0")/../.."
 program=$(realpath "${1:?usage: scripts/check/more_mesh_readers.sh PROGRAM}")
 build=$(dirname "$program")
 validator=$PWD/build/gltf-validator
-# Not a package that scripts/packages.sh asks for: Debian's npm cannot stand beside other builds of node.
+# scripts/packages.sh does not install npm, because Debian's npm conflicts with other builds of node.
 command -v npm >/dev/null || { echo "more_mesh_readers.sh: npm is not installed; it brings the validator" >&2; exit 1; }
 
 python=$PWD/build/clients/bin/python

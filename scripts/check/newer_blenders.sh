@@ -64,7 +64,7 @@ for version in "${versions[@]}"; do
     chmod +x "$home/blender"
   fi
   release=$("$home/bin/python" -c "import bpy; print(bpy.app.version_string)" 2>/dev/null | head -n 1)
-  # What an upload and a repository of extensions ask for, and what Install from Disk does.
+  # Checks the extension as an upload, a repository and Install from Disk do.
   validator=$(find "$home/lib" -path '*/bl_pkg/cli/blender_ext.py' -print -quit)
   unpacked=$home/extension
   rm -rf "$unpacked" "$home/profile"

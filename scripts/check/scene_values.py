@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scene_values.py [--check]: writes two files from the table of properties of the library that MENISCUS_LIBRARY names: the
-types of a scene's values for Python, exporters/bindings/python/meniscus/_scene_values.py, and of the panel in Blender the fields
-about molecules and runs and the colour schemes, exporters/blender/addon/meniscus_import/computing/preparation_table.py. --check:
-writes nothing, and fails where a file is not what it would write."""
+"""scene_values.py [--check]: writes two files from the properties of the library at MENISCUS_LIBRARY: the types of the values of
+scenes in Python, exporters/bindings/python/meniscus/_scene_values.py, and the fields and colour schemes of the panel in Blender,
+exporters/blender/addon/meniscus_import/computing/preparation_table.py. --check writes nothing and fails if a file is out of date."""
 import pathlib
 import re
 import sys
@@ -15,10 +14,10 @@ PACKAGE = EXPORTERS / "bindings/python"
 sys.path.insert(0, str(PACKAGE))
 
 import meniscus
-from meniscus import _library as lib
+from meniscus import _header as header
 
 HEAD = '''# SPDX-License-Identifier: BSD-3-Clause
-"""The types of a scene's values, written by scripts/check/scene_values.py from the table of properties."""
+"""The types of the values of scenes, written by scripts/check/scene_values.py from the properties of the library."""
 from __future__ import annotations
 
 import os
@@ -28,25 +27,26 @@ from typing import Literal, TypedDict, Union
 Path = Union[str, "os.PathLike[str]"]
 Text = Union[str, float]
 '''
-TYPES = {lib.VALUE_FLAG: "bool", lib.VALUE_NUMBER: "float", lib.VALUE_COUNT: "int", lib.VALUE_TEXT: "Text",
-         lib.VALUE_FILE: "Path", lib.VALUE_NEW_FILE: "Path", lib.VALUE_CAMERA: "Path"}
+TYPES = {header.VALUE_FLAG: "bool", header.VALUE_NUMBER: "float", header.VALUE_COUNT: "int", header.VALUE_TEXT: "Text",
+         header.VALUE_FILE: "Path", header.VALUE_NEW_FILE: "Path", header.VALUE_CAMERA: "Path"}
 
 
-#: What the panel has, in its order.
+#: The keys of the properties in the panel, in its order.
 PANEL = ("molecule.model", "molecule.altloc", "molecule.assembly", "molecule.hydrogens", "molecule.radii", "molecule.keep_water",
          "molecule.keep_ions", "frames.superpose", "frames.whole", "frames.smooth")
 PANEL_HEAD = '''# SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panel asks about molecules and runs, written by scripts/check/scene_values.py from Meniscus' table of properties."""
+"""The fields of the panel about molecules and runs. scripts/check/scene_values.py writes this file from Meniscus' table of
+properties."""
 
 import collections
 
-#: key: of scene files. type: flag, count, word or text. words: all of a word, some usual ones of a text. initial: the default.
-#: lowest, highest: of a count.
+#: A field. key: key in scene files. type: flag, count, word or text. words: all values of a word, or some usual values of
+#: a text. initial: the default. lowest, highest: range of a count.
 Row = collections.namedtuple("Row", "key type words initial lowest highest help")
 
 ROWS = (
 '''
-PANEL_TYPES = {lib.VALUE_FLAG: "flag", lib.VALUE_COUNT: "count", lib.VALUE_WORD: "word", lib.VALUE_TEXT: "text"}
+PANEL_TYPES = {header.VALUE_FLAG: "flag", header.VALUE_COUNT: "count", header.VALUE_WORD: "word", header.VALUE_TEXT: "text"}
 
 
 def refusal(atoms, scheme):
@@ -59,7 +59,7 @@ def refusal(atoms, scheme):
 
 
 def schemes():
-    """Pairs of a colour scheme's word and whether it needs more than the atoms of a file."""
+    """Returns pairs of the word of a colour scheme, and whether it needs more than the atoms of a file."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "atom.xyz"
         path.write_text("1\n\nC 0 0 0\n")
@@ -69,16 +69,18 @@ def schemes():
 
 
 def panel_text():
+    """Returns the text of preparation_table.py."""
     known = {p.key: p for p in meniscus.properties()}
     rows = [known[key] for key in PANEL]
     return PANEL_HEAD + "".join(
         f"    Row({p.key!r}, {PANEL_TYPES[p.type]!r}, {tuple(p.words)!r}, {p.initial!r}, {p.lowest:g}, {p.highest:g},\n        {p.help!r}),\n"
-        for p in rows) + ")\n\n#: Colour schemes, and whether they need more than the atoms of a file.\nSCHEMES = (\n" + textwrap.fill(
+        for p in rows) + ")\n\n#: Colour schemes, and True for those that need more than the atoms of a file.\nSCHEMES = (\n" + textwrap.fill(
             ", ".join(map(repr, schemes())), 140, initial_indent="    ", subsequent_indent="    ") + ")\n"
 
 
 def type_of(known):
-    if known.type == lib.VALUE_WORD:
+    """Returns the Python type of the values of a property."""
+    if known.type == header.VALUE_WORD:
         one = "Literal[" + ", ".join(f'"{word}"' for word in known.words) + "]"
     else:
         one = TYPES[known.type]
@@ -86,6 +88,7 @@ def type_of(known):
 
 
 def lines_of(known):
+    """Returns the lines of a property: its help as a comment, and its type."""
     default = f" [{known.initial}]" if known.initial else ""
     value = f"{known.value}: " if known.value else ""
     help_lines = textwrap.wrap(f"{value}{known.help}{default}", 112, initial_indent="    #: ", subsequent_indent="    #: ")
@@ -94,11 +97,12 @@ def lines_of(known):
 
 
 def file_text():
+    """Returns the text of _scene_values.py."""
     known = meniscus.properties()
     text = HEAD
     for name, base, said, chosen in (
-            ("SurfaceValues", "TypedDict", "Of the picture of a surface: look and size.", [p for p in known if p.of_surface]),
-            ("SceneValues", "SurfaceValues", "Of a scene.", [p for p in known if not p.of_surface])):
+            ("SurfaceValues", "TypedDict", "The properties of a picture of a surface: its look and its size.", [p for p in known if p.of_surface]),
+            ("SceneValues", "SurfaceValues", "The properties of a scene.", [p for p in known if not p.of_surface])):
         text += f'\n\nclass {name}({base}, total=False):\n    """{said}"""\n'
         text += "\n".join(line for p in chosen for line in lines_of(p)) + "\n"
     return text

@@ -4,7 +4,7 @@
 cmake_minimum_required(VERSION 3.25)
 set(compiled app core exporters gpu_shaders scripts/cmake CMakeLists.txt)
 
-# Of files below SOURCE, by their paths and contents.
+# Computes a checksum of files below SOURCE from their paths and contents.
 function(checksum_of result)
   set(sums "")
   foreach(path IN LISTS ARGN)
@@ -25,7 +25,7 @@ function(git result)
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
-# A tree inside of somebody else's repository is none of it.
+# A tree inside another repository is not under its version control.
 git(root rev-parse --show-toplevel)
 file(REAL_PATH "${SOURCE}" real_source)
 git(commit describe --always --abbrev=12 --exclude=*)

@@ -1,5 +1,6 @@
-# What Meniscus is built from. The library needs GLM, fmt and TBB; each other part of it needs a library of its own, and
-# where that is missing the call that would need it says so. The programs need more; of their parts some can be left out.
+# The libraries that Meniscus is built from. libmeniscus needs GLM, fmt and TBB; each other part of it needs a library of
+# its own, and without that library its calls report that they are not available. The programs need more; some of their
+# parts can be left out.
 option(MENISCUS_APP "Build the programs; OFF: libmeniscus alone, of what is there" ON)
 option(MENISCUS_DROP_INS "Build the programs in the place of MSMS and NanoShaper, which need molecule files and no more" ${MENISCUS_APP})
 option(MENISCUS_PREVIEW "Build the window and the page of `meniscus preview`; with the programs only" ON)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Solvent-accessible areas beside RustSASA, zsasa and FreeSASA, of PyPI, in an environment made for it. Prints tables in Markdown.
+# Compares solvent-accessible areas with RustSASA, zsasa and FreeSASA of PyPI, in a virtual environment. Prints tables in Markdown.
 #   compare_areas.sh LIBMENISCUS PLOT.svg [FILE ...]   cost and error of one molecule after another, drawn as a plot: the same atoms and
 #                                                      radii, one thread, the calls alone; by default of 1UBQ and 1TII
 set -euo pipefail

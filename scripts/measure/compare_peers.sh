@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# compare_peers.sh [MENISCUS] [FILE.pdb ...]: areas, those of a trajectory and pictures beside those of PyMOL, FreeSASA, gmx sasa and MDTraj as Debian
-# ships them: the same atoms and radii, the same picture, two cores each, in one run. Prints tables in Markdown. Installs what
+# compare_peers.sh [MENISCUS] [FILE.pdb ...]: compares areas, areas of a trajectory, and pictures with Debian's PyMOL, FreeSASA, gmx sasa and
+# MDTraj: the same atoms and radii, the same picture, two cores each, in one run. Prints tables in Markdown. Installs what
 # is missing; MENISCUS is build/release/meniscus if it is not named.
 set -euo pipefail
 cd "$(dirname "$0")/../.."

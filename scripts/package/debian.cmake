@@ -1,5 +1,5 @@
 # `cpack` makes Debian packages: the program; the shared library, named after its soname; what programs that use it are
-# compiled with; the Python package. Of what is linked to dpkg-shlibdeps finds the packages.
+# compiled with; the Python package. dpkg-shlibdeps finds the packages of linked libraries.
 set(MENISCUS_MAINTAINER "Meniscus developers <maintainers@meniscus.invalid>" CACHE STRING
     "Whom a Debian package names as its maintainer")
 set(generated ${CMAKE_BINARY_DIR}/generated/debian)
@@ -57,7 +57,7 @@ macro(debian_package component name)
   endif()
 endmacro()
 
-# GL is loaded by name, by epoxy. What draws, films and renders may be missing where only areas are wanted.
+# GL is loaded by name, by epoxy. Packages for drawing, films and rendering are optional for users of areas alone.
 debian_package(program meniscus
   SECTION science
   DEPENDS "libegl1, libgl1"

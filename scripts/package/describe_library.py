@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Describes a shared library or a program of any system without running it: the processor, the oldest system, the
-libraries that it needs, and how many functions a library has.
+"""Describes shared libraries and programs of any system without running them: the processor, the oldest system, the libraries that
+they need, and the number of functions of a library.
 
-describe_library.py FILE...     needs lief, of PyPI. Exit code 1 if one needs a library that its system does not bring, or takes a
-mathematical function from the system, whose last digit is that of the system, or if a library gives other names than
+describe_library.py FILE...     needs lief from PyPI. The exit code is 1 if a file needs a library that is not part of its system,
+if it uses a mathematical function of the system, whose last digit depends on the system, or if a library exports other names than
 meniscus_*."""
 
 import os
@@ -14,13 +14,13 @@ import sys
 import lief
 
 
-#: Those that no standard rounds exactly, without the suffix of float and long double.
+#: Functions whose rounding no standard defines, without the suffix for float and long double.
 INEXACT = set("acos acosh asin asinh atan atan2 atanh cbrt cos cosh erf erfc exp exp10 exp2 expm1 hypot lgamma log log10 log1p log2 pow "
               "sin sincos sinh tan tanh tgamma".split())
 
 
 def of_system(binary):
-    """Mathematical functions that it takes from elsewhere."""
+    """Returns the mathematical functions that a file imports."""
     if isinstance(binary, lief.PE.Binary):
         names = {entry.name for library in binary.imports for entry in library.entries}
     else:
@@ -28,18 +28,21 @@ def of_system(binary):
     return sorted({name.lstrip("_").partition("@")[0] for name in names} & (INEXACT | {name + suffix for name in INEXACT for suffix in "fl"}))
 
 
-#: What systems bring: glibc, Windows, macOS.
+#: The libraries that are part of glibc, Windows and macOS.
 OF_SYSTEMS = re.compile(r"lib(c|dl|m|pthread|rt)\.so\.\d$|ld-linux-.*|api-ms-win-crt-.*|(kernel32|shell32|ws2_32)\.dll$|"
                         r"/usr/lib/libSystem\.B\.dylib$", re.IGNORECASE)
 
 
 def versions(names):
-    """The highest of GLIBC_2.17 and the like."""
+    """Returns the highest version in names such as GLIBC_2.17."""
     numbers = [tuple(map(int, found[1].split("."))) for found in (re.match(r"GLIBC_([0-9.]+)$", n) for n in names) if found]
     return "glibc " + ".".join(map(str, max(numbers))) if numbers else "no version of glibc"
 
 
 def of_elf(binary):
+    """Returns the processor, the oldest system, the libraries and the exported names of an ELF file; None for the names of a program.
+
+    of_pe() and of_macho() do the same for files of Windows and macOS."""
     needs = [version for requirement in binary.symbols_version_requirement for version in
              (auxiliary.name for auxiliary in requirement.get_auxiliary_symbols())]
     names = {symbol.name for symbol in binary.exported_symbols}
@@ -61,7 +64,7 @@ def of_macho(binary):
 
 
 def describe(path):
-    """A line about it, and whether all is well."""
+    """Returns a line about a file, and whether the file is correct."""
     binary = lief.parse(path)
     if isinstance(binary, lief.ELF.Binary):
         facts = of_elf(binary)

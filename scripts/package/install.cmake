@@ -1,5 +1,5 @@
-# What `cmake --install` brings, once everything is built, and what the Debian packages hold. The program finds its
-# module in ../lib/meniscus and the Blender add-on in ../share/meniscus, so that the whole may stand anywhere.
+# The files that `cmake --install` installs and the Debian packages contain. The program finds its module in
+# ../lib/meniscus and the Blender add-on in ../share/meniscus, so that the prefix can be moved.
 find_program(GZIP gzip REQUIRED)
 file(GLOB msms_pages CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/app/msms/man/*.1)
 set(share ${CMAKE_BINARY_DIR}/share_of_program)

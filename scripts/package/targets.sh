@@ -5,7 +5,7 @@
 #   scripts/package/targets.sh [--build-only] [TARGET...]
 #
 # Targets: x86_64-linux, aarch64-linux (run under qemu), x86_64-windows (run under wine), aarch64-macos and x86_64-macos
-# (compiled and linked only: nobody here has run them). All by default. What is built lies in build/targets; everything but
+# (compiled and linked only: they have not been run). All by default. The results are in build/targets; everything but
 # Meniscus comes from Debian's source packages and PyPI. About ten minutes a target on two cores. Exit code 1 if anything
 # failed or differs.
 set -euo pipefail
@@ -52,7 +52,7 @@ packages=(onetbb freetype zlib libdeflate fmtlib musl openssl)
 for package in "${packages[@]}"; do
   compgen -G "$sources/$package-*" > /dev/null && continue
   compgen -G "$lists/*Sources*" > /dev/null || "${apt[@]}" update > /dev/null
-  # What Debian's security archive had, it may have no longer.
+  # Debian's security archive may not have the file any more.
   (cd "$sources" && { "${apt[@]}" source "$package" || "${apt[@]}" source "$package/bookworm"; } > "$work/$package.log" 2>&1) ||
     { echo "targets.sh: Debian's source of $package cannot be had; see $work/$package.log" >&2; exit 1; }
 done
@@ -124,7 +124,7 @@ build_openssl() {
     no-{shared,dso,module,engine,legacy,tests,ui-console,deprecated,autoload-config,async,sock,ssl,tls,dtls,srtp,srp,ct,ocsp,cms,cmp,ts} \
     no-{aria,bf,blake2,camellia,cast,cmac,des,dh,dsa,ec,gost,idea,md4,mdc2,ocb,poly1305,rc2,rc4,rmd160,scrypt,seed,siphash,siv,sm2,sm3,sm4,whirlpool}
   make -j "$(nproc)" build_generated
-  # Which compiler and when: not by this machine's paths and clock.
+  # Results must not depend on this machine's paths and clock.
   SOURCE_DATE_EPOCH=0 perl "$(source_of openssl)/util/mkbuildinf.pl" "zig cc" "$kind" > crypto/buildinf.h
   make -j "$(nproc)" libcrypto.a
   cp libcrypto.a "$prefix/lib"
@@ -193,7 +193,7 @@ write_table() {
   cd "$root"
 }
 
-# What the programs make of a molecule whose name is not of ASCII: the drop-ins in build/targets/TARGET/made, meniscus in
+# Runs the programs on a molecule with a name outside ASCII: the drop-ins in build/targets/TARGET/made, meniscus in
 # build/targets/TARGET/drawn.
 run_programs() {
   export LC_ALL=C.UTF-8
@@ -217,7 +217,7 @@ run_programs() {
   cd "$root"
 }
 
-# What can be told of the library and the programs without running them.
+# Checks the library and the programs without running them.
 describe() {
   echo "$target:"
   (cd "$target_folder" && "$tools/bin/python" "$root/scripts/package/describe_library.py" \

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs a wheel into fresh environments of several Pythons, with each numpy asked for that PyPI has for them, and runs
-# the package's tests there; says how much CPU time `import meniscus` takes beside numpy's own import.
+# Installs a wheel into fresh environments of several Pythons, with each requested numpy that PyPI has for them, and runs
+# the package's tests there; prints the CPU time of `import meniscus` in addition to numpy's own import.
 #
 #   scripts/package/test_pythons.sh WHEEL [PYTHON...]      python3.9 to python3.14, as far as they are there, by default
 #
@@ -15,7 +15,6 @@ pythons=("$@")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 unset MENISCUS_LIBRARY MENISCUS_PACKAGE
-export MENISCUS_HEADER=$PWD/exporters/bindings/c/include/meniscus/meniscus.h
 
 # CPU time, the least of several runs.
 import_time='import subprocess, sys

@@ -1,11 +1,10 @@
 #!/usr/bin/env bash
-# Builds the wheel, installs it into a fresh virtual environment beside the packages that it goes with, newest of PyPI, and
-# runs its tests there, apart from the tree. The last line says how many cases were tried.
+# Builds the wheel, installs it into a fresh virtual environment together with the packages that it supports, the newest
+# of PyPI, and runs its tests there, outside the tree. The last line has the number of cases.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 export CMAKE_BUILD_PARALLEL_LEVEL=${MENISCUS_JOBS:-$(nproc)}
 tests=$PWD/tests/python
-export MENISCUS_HEADER=$PWD/exporters/bindings/c/include/meniscus/meniscus.h
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the image of a farm node (Dockerfile) on a bare Debian 12, and makes the frames of a film in it as a node does:
-# the bundle is mounted, nobody works on it, software GL draws. As root, with buildah and mmdebstrap; without a registry
+# the bundle is mounted, no user is logged in, and software GL draws. As root, with buildah and mmdebstrap; without a registry
 # of images and without a daemon, and (storage by copies, isolation by chroot) inside of other containers, too.
 #
 #   scripts/package/try_image.sh [FOLDER [BARE.tar]]

@@ -5,7 +5,7 @@
 #
 #   scripts/package/try_package.sh [FOLDER [BARE.tar]]
 #
-# Without a folder of packages those of build/test are made; BARE.tar is a bare system made before (mmdebstrap
+# Without a folder of packages they are made from build/test; BARE.tar is a bare system made before (mmdebstrap
 # --variant=minbase bookworm BARE.tar). The last line says `cases N failures M`.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -35,7 +35,7 @@ mount -t proc proc "$root/proc"
 mount --bind /dev "$root/dev"
 cp /etc/resolv.conf "$root/etc/"
 
-# What is tried, in /root of the bare system.
+# The script that runs in /root of the bare system.
 home=$root/root
 mkdir -p "$home/c" "$home/cpp"
 for package in meniscus libmeniscus0 libmeniscus-dev python3-meniscus; do

@@ -37,7 +37,7 @@ check() {
 }
 
 pip() { wine "$python" -B "$(there "$(ls "$(dirname "$python")"/lib/ensurepip/_bundled/pip-*.whl)")/pip" "$@"; }
-# What pip has put there: Python with the package in its path, and the programs.
+# The files that pip installs: Python with the package in its path, and the programs.
 inside() { PYTHONPATH=$(there "$work/prefix/Lib/site-packages") wine "$python" -B "$@"; }
 program() { wine "$work/prefix/Scripts/meniscus-$1.exe" "${@:2}"; }
 first_area() {

@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks the order of folders: no file includes one of a later folder; headers with their sources make no ring."""
+"""include_graph_test.py [--list | --dot]: the order of folders.
+
+No file includes one of a later folder; headers with their sources make no ring; the drawing of the manual shows the
+folders as they are: `include_graph_test.py --dot | dot -Tsvg > docs/explanation/folders.svg`."""
+
+import html
 
 import pathlib
 import re
@@ -108,7 +113,43 @@ def rings(graph):
     return found
 
 
+def room(path):
+    """The folder that the drawing shows for a file: gpu_shaders is one, core, exporters and app are their folders."""
+    parts = path.split("/")
+    return "/".join(parts[:1] if parts[0] == "gpu_shaders" or len(parts) < 3 else parts[:2])
+
+
+def needs(graph):
+    """The folders that each folder includes, without those that it reaches through another (transitive reduction)."""
+    direct = {room(path): set() for path in graph}
+    for path, included in graph.items():
+        direct[room(path)] |= {room(name) for name in included} - {room(path)}
+
+    def reached(folder):
+        return set().union(*({name} | reached(name) for name in direct[folder]))
+
+    return {folder: names - set().union(*map(reached, names)) for folder, names in direct.items()}
+
+
+def dot(graph):
+    """The drawing as text for Graphviz: an arrow leads from a folder to each that it needs."""
+    lines = ["digraph folders {", '  graph [rankdir=BT, nodesep=0.15, ranksep=0.3, bgcolor="white"]',
+             '  node [shape=box, style="rounded,filled", fontname="sans-serif", fontsize=12, height=0.3, color="#6d88a8"]',
+             '  edge [arrowsize=0.6, color="#555555"]']
+    colors = {"core": "#dfe8f2", "gpu_shaders": "#cfe3cf", "exporters": "#f6dcc0", "app": "#eadff0"}
+    for folder, names in sorted(needs(graph).items()):
+        lines.append(f'  "{folder}" [fillcolor="{colors[folder.split("/")[0]]}"]')
+        lines += [f'  "{folder}" -> "{name}"' for name in sorted(names)]
+    return "\n".join([*lines, "}"])
+
+
 class IncludeGraph(unittest.TestCase):
+    def test_the_drawing_shows_the_folders_as_they_are(self):
+        drawing = html.unescape((ROOT / "docs/explanation/folders.svg").read_text())
+        shown = set(re.findall(r"<title>(\S+)->(\S+)</title>", drawing))
+        self.assertGreater(len(shown), 40)
+        self.assertEqual(shown, {(folder, name) for folder, names in needs(sources()).items() for name in names})
+
     def test_every_file_has_its_place(self):
         graph = sources()
         self.assertGreater(len(graph), 300)
@@ -133,5 +174,7 @@ class IncludeGraph(unittest.TestCase):
 if __name__ == "__main__":
     if sys.argv[1:] == ["--list"]:
         print("\n".join(arrows_back(sources(), ORDER) + rings(units(sources()))))
+    elif sys.argv[1:] == ["--dot"]:
+        print(dot(sources()))
     else:
         unittest.main()

@@ -13,7 +13,7 @@
 
 #include "core/gpu/egl_context.h"
 #include "core/gpu/work_proof.h"
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 #include "core/surface/gpu/gpu_engine.h"
 #include "core/visible_surface/view_pipeline.h"
 #include "tests/gpu/gl_faults.h"
@@ -66,7 +66,7 @@ class FrameCalls : public ::testing::Test {
 
   GlCalls steady_view(const std::string& name, Extent extent) {
     ViewPipeline view;
-    Renderer renderer;
+    GlRenderer renderer;
     view.set_counting(Counting::later);
     renderer.set_counting(Counting::later);
     view.set_atoms(moved(0));
@@ -114,7 +114,7 @@ TEST_F(FrameCalls, TrustChangesNoPicture) {
   settings_.size = {160, 120};
   for (const Extent extent : {Extent::visible, Extent::complete}) {
     ViewPipeline view;
-    Renderer renderer;
+    GlRenderer renderer;
     view.set_counting(Counting::later);
     renderer.set_counting(Counting::later);
     std::uint32_t repeated = 0, dispatches = 0;
@@ -132,7 +132,7 @@ TEST_F(FrameCalls, TrustChangesNoPicture) {
       if (n == 0) dispatches = calls_seen().dispatches;
       repeated += calls_seen().dispatches > 3 * dispatches / 2;
       ViewPipeline fresh;
-      Renderer other;
+      GlRenderer other;
       fresh.set_atoms(balls);
       fresh.set_coloring(coloring_);
       fresh.set_surface(kWater, extent);
@@ -173,7 +173,7 @@ TEST_F(FrameCalls, HostsPartOfAFrame) {
     coloring.atom.assign(crowd.size(), {0.9f, 0.5f, 0.1f});
     camera_ = frame_camera(crowd, 4.0 / 3.0);
     ViewPipeline view;
-    Renderer renderer;
+    GlRenderer renderer;
     view.set_counting(Counting::later);
     renderer.set_counting(Counting::later);
     view.set_atoms(crowd);

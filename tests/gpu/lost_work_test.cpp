@@ -13,7 +13,7 @@
 #include "core/gpu/kernel_records.h"
 #include "core/gpu/program.h"
 #include "core/gpu/work_proof.h"
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 #include "core/queries/compare.h"
 #include "core/surface/gpu/gpu_engine.h"
 #include "core/surface/compute_surface.h"
@@ -32,7 +32,7 @@ constexpr glm::ivec2 kSize{40, 30};
 /// Atoms and what draws them.
 struct View {
   ViewPipeline surface;
-  Renderer renderer;
+  GlRenderer renderer;
 };
 
 /// Some way to a result; empty: it is the one expected.
@@ -100,7 +100,7 @@ class LostWork : public ::testing::Test {
   }
 
   /// The picture of a surface that the host has, with all that is known about its pixels.
-  Job picture_job(Renderer& renderer, const Surface& surface) {
+  Job picture_job(GlRenderer& renderer, const Surface& surface) {
     const auto draw = [this, &renderer, &surface] {
       RenderSettings settings = settings_;
       settings.aovs = true;
@@ -187,7 +187,7 @@ TEST_F(LostWork, ViewOfThePaper) {
 
 TEST_F(LostWork, PictureOfASurface) {
   const Surface surface = surface_by(*make_gpu_engine(context_));
-  Renderer renderer;
+  GlRenderer renderer;
   survives(picture_job(renderer, surface));
 }
 

@@ -162,7 +162,7 @@ TEST(Bands, AreLowerTheWiderThePictureIs) {
   highest = 0;
   const Surface ball = compute_surface_cpu(testing::Balls{{{0, 0, 0}, 1.7}}, 1.4);
   const Coloring gray{.atom = {glm::vec3(0.5f)}};
-  CpuRenderer().render(ball, gray, frame_camera(ball.atoms, 7500.0), subject.settings);
+  CpuRenderer().render(whole_surface(ball, gray), frame_camera(ball.atoms, 7500.0), subject.settings);
   EXPECT_EQ(highest, 16);
 }
 

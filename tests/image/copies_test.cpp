@@ -10,6 +10,7 @@
 #include "core/queries/copies.h"
 #include "core/queries/part.h"
 #include "core/render/cpu/cpu_renderer.h"
+#include "core/render/cpu/interruption.h"
 #include "core/render/cpu/visible_copies.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
@@ -52,7 +53,7 @@ void expect_same_bits(const std::vector<SurfaceObject>& objects, const Camera& c
   settings.size = {230, 170};  // no whole number of tiles
   CpuRenderer whole, together, one_by_one(16, 1);
   const SurfaceObject all = merged(objects);
-  const Framebuffer expected = whole.render(all.surface, all.coloring, camera, settings);
+  const Framebuffer expected = whole.render(whole_surface(all.surface, all.coloring), camera, settings);
   EXPECT_EQ(together.render_copies(objects, camera, settings).color, expected.color) << name;
   EXPECT_EQ(one_by_one.render_copies(objects, camera, settings).color, expected.color) << name;
 }
@@ -130,7 +131,7 @@ TEST(Copies, NameTheAtomsAndComponentsOfTheMergedSurface) {
   for (const int block_edge : {RenderSettings{}.block_edge, 64}) {
     settings.block_edge = block_edge;
     const Camera camera = framed(objects, Projection::perspective);
-    const Framebuffer expected = CpuRenderer().render(all.surface, all.coloring, camera, settings);
+    const Framebuffer expected = CpuRenderer().render(whole_surface(all.surface, all.coloring), camera, settings);
     const Framebuffer found = CpuRenderer(16, 1).render_copies(objects, camera, settings);
     EXPECT_EQ(found.color, expected.color);
     EXPECT_EQ(found.z, expected.z);
@@ -154,7 +155,7 @@ TEST(Copies, AreDrawnAndPickedAsTheMergedSurface) {
   settings.samples = 2;
   settings.look.ambient_occlusion = 0.5f;
   CpuRenderer whole, copies;
-  ASSERT_TRUE(whole.draw(all.surface, all.coloring, camera, settings));
+  ASSERT_TRUE(whole.draw(whole_surface(all.surface, all.coloring), camera, settings));
   ASSERT_TRUE(copies.draw_copies(objects, camera, settings));
   EXPECT_EQ(copies.rgba(), whole.rgba());
   std::size_t picked = 0;
@@ -207,9 +208,12 @@ TEST(Copies, BehindOthersAreLeftWhereTheyAre) {
   for (int n = 1; n < 50; ++n) objects[0].copies.push_back({glm::dmat3(1.0), 60.0 * n * basis.forward});
   const PictureFrame frame = make_picture_frame(placed_balls(objects), camera, {64, 64});
   const ScenePlacement placement = place_atoms(placed_balls(objects), kWater, frame);
-  VisibleCopies copies(objects, frame, placement, widest_kernels(16), 1);
-  HostScene scene;
-  copies.find({{0, 0}, frame.size}, 4, {}, scene);
+  VisibleCopies copies(objects, frame, placement, {}, widest_kernels(16), 1);
+  const std::function<bool()> never;
+  Interruption interruption(never);
+  StageClock clock;
+  copies.begin_block({frame, {{0, 0}, frame.size}, 4}, interruption, clock);
+  const HostScene& scene = copies.scene();
   EXPECT_EQ(copies.moved(), 1u);
   EXPECT_GT(scene.packed.primitives.size(), 0u);
   EXPECT_LT(scene.packed.primitives.size(), 100u);  // of some 4,000

@@ -11,7 +11,7 @@
 
 #include "core/gpu/egl_context.h"
 #include "core/image/color_space.h"
-#include "core/render/surface_renderer.h"
+#include "core/scene/renderers.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "core/camera/camera.h"
@@ -39,7 +39,9 @@ struct Picture {
     camera = frame_camera(surface.atoms, 230.0 / 170.0, projection);
   }
 
-  Framebuffer by(SurfaceRenderer& renderer) const { return renderer.render(surface, coloring, camera, settings); }
+  Framebuffer by(StillRenderer& renderer) const {
+    return renderer.render(whole_surface(surface, coloring), camera, settings);
+  }
 };
 
 Look all_effects() {
@@ -109,7 +111,7 @@ Difference difference(const Framebuffer& a, const Framebuffer& b) {
 
 TEST(CpuPicture, IsThatOfGlButForRounding) {
   const EglContext context;
-  const auto gl = make_gl_renderer(context), cpu = make_cpu_renderer();
+  const auto gl = make_gl_still_renderer(context), cpu = std::make_unique<StillRenderer>();
   for (const Picture& picture : pictures()) {
     const Framebuffer by_gl = picture.by(*gl), by_cpu = picture.by(*cpu);
     const Difference found = difference(by_gl, by_cpu);
@@ -137,16 +139,16 @@ void expect_same_bits(const Framebuffer& a, const Framebuffer& b, const std::str
 
 TEST(CpuPicture, IsTheSameWhateverTheVectorWidth) {
   // Where the machine has no longer vectors the shorter ones are compared with themselves.
-  const auto longest = make_cpu_renderer();
+  const auto longest = std::make_unique<StillRenderer>();
   for (const int lanes : {4, 8}) {
-    const auto other = make_cpu_renderer(lanes);
+    const auto other = std::make_unique<StillRenderer>(lanes);
     for (const Picture& picture : pictures())
       expect_same_bits(picture.by(*longest), picture.by(*other), picture.name + " " + std::to_string(lanes));
   }
 }
 
 TEST(CpuPicture, IsTheSameForAnyThreadsAndBlocks) {
-  const auto renderer = make_cpu_renderer();
+  const auto renderer = std::make_unique<StillRenderer>();
   for (Picture& picture : pictures()) {
     const Framebuffer whole = picture.by(*renderer);
     {
@@ -174,7 +176,7 @@ std::vector<int> shaded_grays(const Framebuffer& picture, int edge) {
 }
 
 TEST(CpuPicture, ShadeIsThatOfTheMoleculeAtAnyResolution) {
-  const auto renderer = make_cpu_renderer();
+  const auto renderer = std::make_unique<StillRenderer>();
   Picture picture("1UBQ", testing::ubiquitin(), 1.4);
   picture.coloring.atom.assign(picture.coloring.atom.size(), glm::vec3(0.7f));
   picture.settings.aovs = false;
@@ -197,7 +199,7 @@ TEST(CpuPicture, ShadeIsThatOfTheMoleculeAtAnyResolution) {
 
 // A ball far in front of a dark seam: at its rim some samples of a pixel see the one, some the other.
 TEST(CpuPicture, ShadeThatSamplesShareIsThatOfWhatTheyMeet) {
-  const auto renderer = make_cpu_renderer();
+  const auto renderer = std::make_unique<StillRenderer>();
   const Balls seam{{{-2.2, 0, 0}, 3.0}, {{2.2, 0, 0}, 3.0}}, ball{{{0, 0, 60}, 1.5}};
   Balls both = seam;
   both.push_back(ball.front());
@@ -225,7 +227,7 @@ TEST(CpuPicture, ShadeThatSamplesShareIsThatOfWhatTheyMeet) {
 
 TEST(CpuPicture, ShadeOfLargePicturesIsTheSameInBlocksAndByGl) {
   const EglContext context;
-  const auto gl = make_gl_renderer(context), cpu = make_cpu_renderer();
+  const auto gl = make_gl_still_renderer(context), cpu = std::make_unique<StillRenderer>();
   Picture picture("a wide one", testing::ubiquitin(), 1.4);
   picture.settings.size = {2208, 96};
   picture.settings.samples = 2;

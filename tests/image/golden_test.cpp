@@ -9,7 +9,7 @@
 #include "core/gpu/egl_context.h"
 #include "core/render/image_output.h"
 #include "core/render/legend.h"
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/run_program.h"
@@ -41,7 +41,7 @@ Framebuffer render(const testing::Balls& balls, bool by_kind, Projection project
   settings.look = look;
   EglContext context;
   const double aspect = static_cast<double>(size.x) / size.y;
-  return Renderer().render(surface, coloring, frame_camera(surface.atoms, aspect, projection), settings);
+  return GlRenderer().render(surface, coloring, frame_camera(surface.atoms, aspect, projection), settings);
 }
 
 void expect_golden(const std::string& name, const Framebuffer& picture) {

@@ -15,7 +15,7 @@
 #include "core/base/error.h"
 #include "core/gpu/egl_context.h"
 #include "core/gpu/context_description.h"
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "core/color/coloring.h"
@@ -96,7 +96,7 @@ class GpuScenes : public ::testing::Test {
   std::mt19937 random_{17};
   EglContext context_;
   RayCaster caster_;
-  Renderer renderer_;
+  GlRenderer renderer_;
 };
 
 TEST_F(GpuScenes, OrderDoesNotShow) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/image/color_space.h"
 #include "core/queries/surface_point.h"
 #include "core/render/cpu/cpu_renderer.h"
 #include "core/scene/cut.h"
@@ -282,6 +283,19 @@ struct ShapeSubject {
     return CpuRenderer().render({&object, 1}, camera, settings);
   }
 };
+
+TEST(Layers, PreviewsHaveTheHighlightsOfFiles) {
+  Subject subject(testing::ubiquitin());
+  subject.cut("depth>0.5");
+  subject.object.material.specular = 0.9f;
+  subject.settings.look.ambient_occlusion = 0.8f;
+  const Framebuffer picture = subject.picture();
+  CpuRenderer renderer;
+  ASSERT_TRUE(renderer.draw({&subject.object, 1}, subject.camera, subject.settings));
+  std::vector<std::uint8_t> expected(4 * picture.color.size());
+  display_bytes(picture.color, subject.settings.look.background, 4, expected.data());
+  EXPECT_TRUE(renderer.rgba() == expected);
+}
 
 TEST(Layers, ASphereIsTheBallThatItIs) {
   Subject ball({{{0.0, 0.0, 0.0}, 2.0}});

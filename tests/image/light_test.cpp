@@ -236,10 +236,10 @@ TEST(Shadows, OfCopiesAreThoseOfOneSurface) {
   RenderSettings settings;
   settings.size = {160, 120};
   settings.look.shadows = 1.0f;
-  const Framebuffer one = CpuRenderer().render(whole.surface, whole.coloring, camera, settings);
+  const Framebuffer one = CpuRenderer().render(whole_surface(whole.surface, whole.coloring), camera, settings);
   const Framebuffer copies = CpuRenderer().render_copies({&object, 1}, camera, settings);
   settings.look.shadows = 0.0f;
-  const Framebuffer without = CpuRenderer().render(whole.surface, whole.coloring, camera, settings);
+  const Framebuffer without = CpuRenderer().render(whole_surface(whole.surface, whole.coloring), camera, settings);
   int different = 0, shadowed = 0;
   for (std::size_t at = 0; at < one.color.size(); ++at) {
     different += glm::length(one.color[at] - copies.color[at]) > 1e-3f;

@@ -15,8 +15,8 @@
 #include "core/gpu/egl_context.h"
 #include "core/image/color_space.h"
 #include "core/render/look_pass.h"
-#include "core/render/renderer.h"
-#include "core/render/surface_renderer.h"
+#include "core/render/gl_renderer.h"
+#include "core/scene/renderers.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "core/color/color_schemes.h"
@@ -48,7 +48,7 @@ class Looks : public ::testing::Test {
   }
 
   EglContext context_;
-  Renderer renderer_;
+  GlRenderer renderer_;
 };
 
 const testing::Balls kOne{{{0, 0, 0}, 2.0}};
@@ -267,11 +267,11 @@ TEST_F(Looks, PatchesAreOutlinedWhereTheAtomsOfPixelsSay) {
   settings.look = patch_lines(1.0f);
   const Camera camera = frame_camera(surface.atoms, 4.0 / 3.0, Projection::orthographic);
   const glm::vec3 forward(view_basis(camera).forward);
-  const auto cpu = make_cpu_renderer();
+  const auto cpu = std::make_unique<StillRenderer>();
   for (const bool on_gpu : {false, true}) {
     SCOPED_TRACE(on_gpu ? "GL" : "CPU");
     const Framebuffer picture = on_gpu ? renderer_.render(surface, with_patches(in_patch), camera, settings)
-                                       : cpu->render(surface, with_patches(in_patch), camera, settings);
+                                       : cpu->render(whole_surface(surface, with_patches(in_patch)), camera, settings);
     std::size_t lines = 0, wanted = 0, doubtful = 0, wrong = 0;
     for (int y = 0; y < 300; ++y)
       for (int x = 0; x < 400; ++x) {

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 #include "core/queries/copies.h"
 #include "core/queries/part.h"
 #include "core/surface/compute_surface.h"
@@ -50,7 +50,7 @@ class Pictures : public ::testing::Test {
   }
 
   EglContext context_;
-  Renderer renderer_;
+  GlRenderer renderer_;
 };
 
 // Pixels whose depth differs: silhouettes may, by the rounding of one ray.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every pixel of the ray caster against exact depths: closed forms, the double twin, and the sphere-tracing oracle.
-#include "core/render/surface_renderer.h"
+#include "core/scene/renderers.h"
 
 #include <algorithm>
 #include <atomic>
@@ -87,7 +87,7 @@ class RayCasting : public ::testing::TestWithParam<const char*> {
     RenderSettings settings;
     settings.size = size;
     settings.aovs = true;
-    return renderer_->render(surface, gray(surface), camera, settings);
+    return renderer_->render(whole_surface(surface, gray(surface)), camera, settings);
   }
 
   /// Both projections against the oracle and, where asked, the twin.
@@ -117,8 +117,8 @@ class RayCasting : public ::testing::TestWithParam<const char*> {
   }
 
   EglContext context_;
-  std::unique_ptr<SurfaceRenderer> renderer_ =
-      std::string_view(GetParam()) == "cpu" ? make_cpu_renderer() : make_gl_renderer(context_);
+  std::unique_ptr<StillRenderer> renderer_ =
+      std::string_view(GetParam()) == "cpu" ? std::make_unique<StillRenderer>() : make_gl_still_renderer(context_);
 };
 
 INSTANTIATE_TEST_SUITE_P(Devices, RayCasting, ::testing::Values("gl", "cpu"),
@@ -276,7 +276,7 @@ TEST_P(RayCasting, RaysGoOnThroughHiddenAtoms) {
   settings.aovs = true;
   for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
     const Camera camera = frame_camera(surface.atoms, 4.0 / 3.0, projection);
-    const Framebuffer picture = renderer_->render(surface, coloring, camera, settings);
+    const Framebuffer picture = renderer_->render(whole_surface(surface, coloring), camera, settings);
     const Agreement agreement = compare(picture, camera, [&](const Ray& ray) -> std::optional<double> {
       const auto hit = twin.trace(ray);
       return hit ? std::optional(hit->t) : std::nullopt;
@@ -297,7 +297,8 @@ TEST_P(RayCasting, RaysGoOnThroughHiddenAtoms) {
     EXPECT_GT(inside, 300);
   }
   coloring.hidden.assign(surface.atoms.size(), true);
-  const Framebuffer empty = renderer_->render(surface, coloring, frame_camera(surface.atoms, 4.0 / 3.0), settings);
+  const Framebuffer empty =
+      renderer_->render(whole_surface(surface, coloring), frame_camera(surface.atoms, 4.0 / 3.0), settings);
   EXPECT_TRUE(std::ranges::all_of(empty.color, [](const glm::vec4& c) { return c == glm::vec4(0.0f); }));
 }
 
@@ -308,14 +309,14 @@ TEST_P(RayCasting, BlocksAndSamplesDoNotChangeThePicture) {
   settings.size = {130, 101};
   settings.samples = 3;
   settings.aovs = true;
-  const Framebuffer whole = renderer_->render(surface, gray(surface), camera, settings);
+  const Framebuffer whole = renderer_->render(whole_surface(surface, gray(surface)), camera, settings);
   settings.block_edge = 33;
-  const Framebuffer blocks = renderer_->render(surface, gray(surface), camera, settings);
+  const Framebuffer blocks = renderer_->render(whole_surface(surface, gray(surface)), camera, settings);
   EXPECT_EQ(whole.z, blocks.z);
   EXPECT_EQ(whole.atom, blocks.atom);
   EXPECT_EQ(whole.color, blocks.color);
   settings.samples = 1;
-  const Framebuffer single = renderer_->render(surface, gray(surface), camera, settings);
+  const Framebuffer single = renderer_->render(whole_surface(surface, gray(surface)), camera, settings);
   EXPECT_EQ(whole.z, single.z);  // always the pixel's centre
   EXPECT_NE(whole.color, single.color);
 }

@@ -23,7 +23,7 @@ TEST(PreviewCommands, MakeAnotherStateAndLeaveTheOneTheyGet) {
   PreviewState state;
   const ShownMolecule molecule(read_structure(folder.file("two.pdb", kTwoModels), reading), {}, {}, state);
   state.camera = molecule.overview(state);
-  ViewCache pictures(make_cpu_view_renderer());
+  ViewCache pictures(make_cpu_preview_renderer());
   pictures.take(state, molecule, Renewal::frame, true);
   Exporter exporter{folder.path(), {}};
   const EditHistory history;

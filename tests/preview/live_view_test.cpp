@@ -18,7 +18,7 @@ namespace {
 
 // A surface takes stages, and none is begun for someone who does not want it any more.
 TEST(LivePictures, SurfacesCanBeGivenUpBetweenStages) {
-  const std::unique_ptr<ViewRenderer> renderer = make_cpu_view_renderer();
+  const std::unique_ptr<PreviewRenderer> renderer = make_cpu_preview_renderer();
   renderer->set_atoms({{{0, 0, 0}, 1.7}, {{3, 0, 0}, 1.5}});
   Coloring coloring;
   coloring.atom.assign(2, glm::vec3(0.5f));
@@ -59,7 +59,7 @@ TEST(LivePictures, ManyAtomsAreBallsUntilTheirSurfaceIsThere) {
     }
     PreviewState view;
     view.size = {160, 120};
-    return std::make_unique<PreviewSession>(make_cpu_view_renderer(), structure, view, std::nullopt, folder.path());
+    return std::make_unique<PreviewSession>(make_cpu_preview_renderer(), structure, view, std::nullopt, folder.path());
   };
   const auto nothing_waits = [] { return Change::none; };
   const std::unique_ptr<PreviewSession> few = begin(3), many = begin(28);
@@ -93,7 +93,7 @@ TEST(LivePictures, FramesPlayInFullSizeWhenThereIsTime) {
   view.size = {80, 60};
   ReadOptions reading;
   reading.model.all = true;
-  PreviewSession session(make_cpu_view_renderer(), read_structure(folder.file("two.pdb", kTwoModels), reading), view,
+  PreviewSession session(make_cpu_preview_renderer(), read_structure(folder.file("two.pdb", kTwoModels), reading), view,
                          std::nullopt, folder.path());
   LiveView live(session);
   const auto nothing_waits = [] { return Change::none; };
@@ -123,7 +123,7 @@ TEST(LivePictures, DraftsAreGivenUpForOtherSurfacesOnly) {
   const TemporaryFolder folder;
   PreviewState view;
   view.size = {80, 60};
-  PreviewSession session(make_cpu_view_renderer(), read_structure(folder.file("one.pdb", kTwoModels)), view,
+  PreviewSession session(make_cpu_preview_renderer(), read_structure(folder.file("one.pdb", kTwoModels)), view,
                          std::nullopt, folder.path());
   LiveView live(session);
   EXPECT_FALSE(live.draw(Quality::plain, [] { return Change::view; }));

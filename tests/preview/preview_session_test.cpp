@@ -36,7 +36,9 @@ class PreviewSessionTest : public ::testing::TestWithParam<const char*> {
         renderer(), read_structure(folder_.file("two.pdb", kTwoModels), reading), view, std::nullopt, folder_.path());
   }
 
-  std::unique_ptr<ViewRenderer> renderer() { return context_ ? make_gl_view_renderer() : make_cpu_view_renderer(); }
+  std::unique_ptr<PreviewRenderer> renderer() {
+    return context_ ? make_gl_preview_renderer() : make_cpu_preview_renderer();
+  }
   Json apply(const std::string& command) { return session_->apply(Json::parse(command)); }
   Json state() { return apply(R"({"command":"state"})"); }
   void expect_ok(const std::string& command) {

@@ -25,7 +25,7 @@ class SessionCase : public ::testing::Test {
   void begin(Structure structure, const SessionContext& context = {}) {
     PreviewState view;
     view.size = {80, 60};
-    session_ = std::make_unique<PreviewSession>(make_cpu_view_renderer(), std::move(structure), view, std::nullopt,
+    session_ = std::make_unique<PreviewSession>(make_cpu_preview_renderer(), std::move(structure), view, std::nullopt,
                                                 folder_.path(), std::nullopt, context);
   }
 

@@ -43,7 +43,7 @@ TEST(PreviewCopies, AreDrawnPickedAndKeptApart) {
   for (const bool placed : {false, true}) {
     SCOPED_TRACE(placed);
     const Structure structure = peptides();
-    PreviewSession session(placed ? make_placed_atoms_renderer(structure.instances, make_cpu_view_renderer())
+    PreviewSession session(placed ? make_placed_atoms_renderer(structure.instances, make_cpu_preview_renderer())
                                   : make_cpu_copies_renderer(structure.instances),
                            structure, view_of_copies(), std::nullopt, folder.path());
     const auto apply = [&](const std::string& command) { return session.apply(Json::parse(command)); };

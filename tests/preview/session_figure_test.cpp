@@ -228,7 +228,7 @@ TEST_F(FigureSession, ACameraThatWasGivenIsWhatResetReturnsTo) {
   given.target = {1, 2, 0};
   PreviewState view;
   view.size = {80, 60};
-  PreviewSession session(make_cpu_view_renderer(), session_->structure(), view, given, folder_.path());
+  PreviewSession session(make_cpu_preview_renderer(), session_->structure(), view, given, folder_.path());
   session.apply({{"command", "orbit"}, {"dx", 0.3}, {"dy", 0.0}});
   session.apply({{"command", "reset_view"}});
   EXPECT_EQ(session.state().camera.position, given.position);
@@ -310,7 +310,7 @@ TEST_F(FigureSession, TheLegendStandsBesideTheMolecule) {
 TEST_F(FigureSession, WithoutItsFileNothingCanBeDrawnBeside) {
   PreviewState view;
   view.size = {80, 60};
-  PreviewSession session(make_cpu_view_renderer(), session_->structure(), view, std::nullopt, folder_.path());
+  PreviewSession session(make_cpu_preview_renderer(), session_->structure(), view, std::nullopt, folder_.path());
   const Json reply = session.apply({{"command", "represent"}, {"as", "sticks"}, {"selection", "all"}});
   EXPECT_FALSE(reply["ok"]);
   EXPECT_NE(reply["error"].get<std::string>().find("cannot be read again"), std::string::npos);
@@ -422,7 +422,7 @@ TEST_F(FigureSession, SchemesThatAreOfferedAreThoseItCanShow) {
   view.size = {80, 60};
   view.color.by = ColorScheme::By::file;
   view.color.file = {.path = "numbers.txt", .numbers = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}};
-  PreviewSession session(make_cpu_view_renderer(), assembly, view, std::nullopt, folder_.path());
+  PreviewSession session(make_cpu_preview_renderer(), assembly, view, std::nullopt, folder_.path());
   const std::set<std::string> more = offered(session);
   EXPECT_TRUE(more.contains("copy"));
   EXPECT_TRUE(more.contains("file"));

@@ -33,7 +33,7 @@ TEST(PreviewFrames, FramesOfATrajectory) {
                               }};
   PreviewState view;
   view.size = {80, 60};
-  PreviewSession session(make_cpu_view_renderer(), structure, view, std::nullopt, folder.path(), moments);
+  PreviewSession session(make_cpu_preview_renderer(), structure, view, std::nullopt, folder.path(), moments);
   const auto apply = [&](const char* command) { return session.apply(Json::parse(command)); };
   EXPECT_EQ(apply(R"({"command":"state"})")["frames"], 4);
   // The first view holds all of the walk: the last place of the atom is in the picture.
@@ -67,7 +67,7 @@ TEST(PreviewFrames, AtomsThatComeAndGo) {
   TrajectoryPositions moments{{0, 1, 2}, {}, at};
   PreviewState view;
   view.size = {80, 60};
-  PreviewSession session(make_cpu_view_renderer(), all, view, std::nullopt, folder.path(), moments);
+  PreviewSession session(make_cpu_preview_renderer(), all, view, std::nullopt, folder.path(), moments);
   const auto apply = [&](const char* command) { return session.apply(Json::parse(command)); };
   ASSERT_TRUE(session.render(Quality::plain));
   const std::vector<std::uint8_t> first = session.rgba();
@@ -89,7 +89,7 @@ TEST(PreviewFrames, KeysOfTheCamera) {
   for (const Atom& atom : structure.atoms) positions.push_back(atom.position);
   PreviewState view;
   view.size = {80, 60};
-  PreviewSession session(make_cpu_view_renderer(), structure, view, std::nullopt, folder.path(),
+  PreviewSession session(make_cpu_preview_renderer(), structure, view, std::nullopt, folder.path(),
                          TrajectoryPositions{{10, 20, 30, 40}, [positions](std::size_t) { return positions; }});
   const auto apply = [&](const char* command) { return session.apply(Json::parse(command)); };
   const char* kExport = R"({"command":"export","format":"camera_path","path":"path.json","force":true})";

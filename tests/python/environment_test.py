@@ -17,7 +17,7 @@ PACKAGE, LIBRARY = pathlib.Path(os.environ["MENISCUS_PACKAGE"]), pathlib.Path(os
 
 sys.path.insert(0, str(PACKAGE))
 
-from meniscus._loading import why_not_loaded
+from meniscus._library import why_not_loaded
 
 
 def run(code, library=LIBRARY, package=PACKAGE, flags=("-B",), **options):

@@ -8,7 +8,6 @@ if "MENISCUS_PACKAGE" in os.environ:
 
 import numpy as np
 
-HEADER = os.environ.get("MENISCUS_HEADER")
 PROGRAM = os.environ.get("MENISCUS_PROGRAM")
 
 

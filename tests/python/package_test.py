@@ -9,7 +9,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 #: The files with the tests.
-PARTS = ["surfaces_test", "inputs_test", "outputs_test", "objects_test", "header_test"]
+PARTS = ["surfaces_test", "inputs_test", "outputs_test", "objects_test"]
 
 if __name__ == "__main__":
     # Blender hands its own arguments on.

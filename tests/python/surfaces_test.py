@@ -11,7 +11,7 @@ import numpy as np
 
 from package_case import PROGRAM, chain, cloud
 import meniscus
-from meniscus import _library
+from meniscus import _header, _library
 
 
 class Numbers(unittest.TestCase):
@@ -132,8 +132,8 @@ class Defaults(unittest.TestCase):
     def test_signatures_have_those_of_the_library(self):
         def usual(function, name):
             return inspect.signature(function).parameters[name].default
-        self.assertEqual(usual(meniscus.Surface.mesh, "tolerance"), _library.default("mesh_options", _library.MeshOptions()).tolerance)
-        pockets = _library.default("pocket_options", _library.PocketOptions())
+        self.assertEqual(usual(meniscus.Surface.mesh, "tolerance"), _library.default("mesh_options", _header.MeshOptions()).tolerance)
+        pockets = _library.default("pocket_options", _header.PocketOptions())
         for name in ("trim", "min_volume", "mouth_tolerance"):
             self.assertEqual(usual(meniscus.Surface.pockets, name), getattr(pockets, name), name)
 

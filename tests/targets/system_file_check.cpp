@@ -60,6 +60,7 @@ int main() {
   EXPECT(!system_file::state_of_entry(other));
   write(path, "kept");
 
-  EXPECT(system_file::program().stem() == "system_file_check" && system_file::state_of(system_file::program()));
+  EXPECT(system_file::program_path().stem() == "system_file_check" &&
+         system_file::state_of(system_file::program_path()));
   return 0;
 }

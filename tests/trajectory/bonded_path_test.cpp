@@ -67,9 +67,9 @@ glm::dvec3 on_circle(double frame, std::size_t) {
 /// Of the run of all frames of a trajectory.
 BetweenFrames between(std::uint64_t from, double share, std::uint64_t frames) {
   BetweenFrames place{{}, from, from + 1, {}, share};
-  for (std::uint64_t k = 1; k <= kPathReach; ++k) {
+  for (std::uint64_t k = 1; k <= kPathNeighbors; ++k) {
     if (k <= from) place.before.push_back(from - k);
-    if (from + 1 + k < frames) place.behind.push_back(from + 1 + k);
+    if (from + 1 + k < frames) place.after.push_back(from + 1 + k);
   }
   return place;
 }

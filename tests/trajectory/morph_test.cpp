@@ -59,7 +59,7 @@ TEST(Morphs, ADomainTurnsAsABody) {
   const Morph morph = morph_of(ends, fitted);
   ASSERT_EQ(morph.atoms().size(), ends.front().atoms.size());
   constexpr std::size_t kSteps = 12;
-  const std::vector<std::vector<glm::dvec3>> way = morph.way(0, kSteps);
+  const std::vector<std::vector<glm::dvec3>> way = morph.models(0, kSteps);
   ASSERT_EQ(way.size(), kSteps);
   EXPECT_EQ(way.front(), morph.at(0));
   const std::vector<double> hand = hands(morph.atoms(), morph.at(0));
@@ -110,7 +110,7 @@ TEST(Morphs, NothingPassesThroughAnything) {
   }
   const Morph morph(common);
   double nearest = 1e9;
-  for (const std::vector<glm::dvec3>& now : morph.way(0, 20))
+  for (const std::vector<glm::dvec3>& now : morph.models(0, 20))
     for (std::size_t a = 0; a < 4; ++a)
       for (std::size_t b = 4; b < 8; ++b) nearest = std::min(nearest, glm::distance(now[a], now[b]));
   EXPECT_GT(nearest, 0.8 * 3.4 - 0.1);
@@ -131,7 +131,7 @@ TEST(Morphs, AtomsThatAllHaveAreMovedWhateverTheirChainsAreCalled) {
   const Morph morph = morph_of(structures);
   EXPECT_EQ(morph.stops(), 3u);
   EXPECT_EQ(morph.atoms().size(), structures[0].atoms.size() - 1);
-  EXPECT_EQ(morph.way(1, 4).front(), morph.at(1));
+  EXPECT_EQ(morph.models(1, 4).front(), morph.at(1));
   structures[1].atoms.resize(2);
   EXPECT_THROW(morph_of(structures), InputError);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures that stay on the GPU against those of the complete surface.
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 
 #include <algorithm>
 
@@ -30,7 +30,7 @@ TEST(Renderer, PicksWhatItDraws) {
   RenderSettings settings;
   settings.size = {64, 64};
   settings.look.background = {0, 1, 0};
-  Renderer renderer;
+  GlRenderer renderer;
   renderer.draw(atoms, camera, settings);
 
   const std::vector<std::uint8_t> rgba = renderer.rgba();
@@ -57,7 +57,7 @@ TEST(Renderer, PicksTheAtomOfEveryPixelOfThePicture) {
   ViewPipeline atoms;
   atoms.set_atoms(balls);
   atoms.set_coloring(coloring);
-  Renderer renderer, other;
+  GlRenderer renderer, other;
   // Wide and high pictures that the molecule overflows, so that all four borders show some of it.
   for (const glm::ivec2 size : {glm::ivec2{61, 34}, glm::ivec2{27, 50}}) {
     Camera camera;

@@ -15,7 +15,7 @@
 
 #include "core/gpu/egl_context.h"
 #include "core/structure/formats/read_structure.h"
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 #include "core/visible_surface/view_pipeline.h"
 #include "tests/view/view_cameras.h"
 #include "core/color/coloring.h"
@@ -33,7 +33,7 @@ struct Options {
 /// Atoms, seen to some extent, and what draws them.
 struct View {
   ViewPipeline surface;
-  Renderer renderer;
+  GlRenderer renderer;
 
   std::vector<glm::vec4> samples(std::size_t count) const { return renderer.samples().download<glm::vec4>(count); }
   std::vector<ray_cast::Hit> hits(std::size_t count) const { return renderer.hits().download<ray_cast::Hit>(count); }

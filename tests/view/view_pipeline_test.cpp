@@ -13,7 +13,7 @@
 
 #include "core/gpu/egl_context.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "tests/view/view_cameras.h"
@@ -65,7 +65,7 @@ class Views : public ::testing::Test {
     const Camera camera = frame_camera(surface.atoms, 4.0 / 3.0);
     RenderSettings settings;
     settings.size = kSize;
-    const Framebuffer expected = Renderer().render(surface, coloring, camera, settings);
+    const Framebuffer expected = GlRenderer().render(surface, coloring, camera, settings);
     const auto found = draw(camera, surface.probe_radius, Extent::complete);
     int count = 0;
     for (std::size_t at = 0; at < found.size(); ++at) {
@@ -77,7 +77,7 @@ class Views : public ::testing::Test {
 
   const EglContext context_;
   ViewPipeline view_;
-  Renderer renderer_;
+  GlRenderer renderer_;
 };
 
 TEST_F(Views, CompleteEqualsTheSurfaceOfTheHost) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lays out the balls around a first one for loops over vectors, and intersects all of them with one circle.
+// Arranges the balls around a first one for vectorized loops, and intersects all of them with one circle.
 #include "core/reduced_surface/contour/blockers.h"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ void Blockers::sort() {
 
 namespace {
 
-// How a ball meets a circle as far as that can be told without a half-plane.
+// How a ball meets a circle, as far as it can be decided without a half-plane.
 constexpr std::int64_t kSurelyMisses = 0, kSurelyCovers = 1, kClose = -2;
 
 MENISCUS_VECTOR_CLONES
@@ -105,7 +105,7 @@ void CircleMeetings::meet_all(const geometry::Circle& circle, double unit, doubl
   }
 }
 
-// Masks instead of choices: compilers would make branches of these.
+// Masks replace choices, because compilers would make branches of these.
 MENISCUS_VECTOR_CLONES
 CircleMeetings::Most CircleMeetings::find_most(const Columns& columns, std::size_t count) {
   const Columns c = columns;

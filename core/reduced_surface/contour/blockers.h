@@ -14,10 +14,10 @@
 
 namespace meniscus {
 
-/// How many doubles the widest vector unit takes at once; lists of numbers are filled up to a multiple of it.
+/// The number of doubles in the widest vector unit; lists of numbers are padded to a multiple of it.
 inline constexpr std::size_t kLanes = 8;
 
-/// That multiple.
+/// Rounds a count up to whole vectors.
 constexpr std::size_t whole_vectors(std::size_t count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
 /// Columns of doubles, all of one length: one number of many balls is contiguous.
@@ -28,7 +28,7 @@ class ColumnTable {
   const double* column(std::size_t c) const { return numbers_.data() + c * room_; }
   std::size_t room() const { return room_; }
 
-  /// Room for `count` rows in whole vectors; the first `kept` rows stay.
+  /// Makes room for `count` rows in whole vectors; the first `kept` rows stay.
   void make_room(std::size_t count, std::size_t kept = 0) {
     if (count <= room_) return;
     const std::size_t room = whole_vectors(std::max(count, 2 * room_));
@@ -48,10 +48,10 @@ class Blockers {
  public:
   /// Starts again for circles of a first ball with this weight.
   void restart(double first_weight);
-  /// center: relative to the first ball's.
+  /// Adds a ball. center: relative to the first ball's.
   void add(const glm::dvec3& center, double weight, std::uint32_t label);
 
-  /// Starts again with `count` balls: write(n, x, y, z, weight, label) fills in one.
+  /// Starts again with `count` balls: write(n, x, y, z, weight, label) writes one.
   template <typename Write>
   void assign(double first_weight, std::size_t count, const Write& write) {
     first_weight_ = first_weight;
@@ -62,7 +62,7 @@ class Blockers {
     measure(count);
   }
 
-  /// Nearest first: near balls cover most, and a covered circle is done with.
+  /// Sorts the nearest balls first: near balls cover most, and a covered circle needs no more tests.
   void sort();
 
   struct Ball : geometry::Blocker {
@@ -73,7 +73,7 @@ class Blockers {
   std::uint32_t label(std::size_t n) const { return labels_[n]; }
   double first_weight() const { return first_weight_; }
 
-  /// The same number of ball after ball, up to whole vectors: beyond size() anything may be.
+  /// Columns with one number of all balls, padded to whole vectors: entries beyond size() are undefined.
   struct Columns {
     const double *x, *y, *z, *weight, *square, *distance, *half_power;
   };
@@ -97,51 +97,52 @@ class Blockers {
   std::vector<std::uint32_t> labels_;
 };
 
-/// How balls meet one circle, all at once, by the same arithmetic as one ball after the other (contour.glsl, block()).
-/// Most surely miss it, and are not listed. Reused from circle to circle to save allocations.
+/// How balls meet one circle, computed for all at once by the same arithmetic as for one ball after another
+/// (contour.glsl, block()). Most balls surely miss it, and are not listed. Reused from circle to circle to save
+/// allocations.
 class CircleMeetings {
  public:
-  /// The blocker at index `skip` is ignored. unit: by which numbers are taken to be off, relative.
+  /// Tests all blockers but the one at index `skip`. unit: the relative error to assume for numbers.
   void find(const geometry::Circle& circle, double unit, const Blockers& blockers, std::size_t skip);
 
-  /// Some ball surely covers all of the circle.
+  /// True if some ball surely covers all of the circle.
   bool covered() const { return most_.meeting > kInDoubt; }
-  /// Rounding may hide how some ball meets the circle that is not covered().
+  /// True if rounding may hide how some ball meets a circle that is not covered().
   bool any_doubtful() const { return most_.meeting > geometry::kCuts; }
-  /// All balls miss the circle.
+  /// True if all balls miss the circle.
   bool none() const { return most_.meeting < geometry::kCuts; }
 
-  /// How many balls are listed, in the order of the blockers and up to whole vectors: those behind them miss the
-  /// circle.
+  /// Returns the number of listed balls, in the order of the blockers and padded to whole vectors: the last ones may
+  /// miss the circle.
   std::size_t count() const { return count_; }
-  /// Which blocker the n-th is.
+  /// Returns the index of the n-th listed ball among the blockers.
   std::size_t blocker(std::size_t n) const { return ball_[n]; }
-  /// It cuts the circle, or may do so.
+  /// True if the ball cuts the circle, or may do so.
   bool meets(std::size_t n) const { return table_.column(kMeeting)[n] > geometry::kMisses; }
-  /// Rounding may hide how it meets the circle.
+  /// True if rounding may hide how the ball meets the circle.
   bool doubtful(std::size_t n) const { return table_.column(kMeeting)[n] > geometry::kCuts; }
   geometry::CoveredArc arc(std::size_t n) const {
     return {table_.column(kBegin)[n], table_.column(kEnd)[n], table_.column(kError)[n]};
   }
 
-  /// The numbers of ball after ball: kCuts where it surely cuts the circle, and its arc then.
+  /// Columns of the listed balls: `meeting` is kCuts where the ball surely cuts the circle, and then the arc is valid.
   struct ArcColumns {
     const double *meeting, *begin, *end;
   };
   ArcColumns arcs() const { return {table_.column(kMeeting), table_.column(kBegin), table_.column(kEnd)}; }
-  /// Bound on the error of all ends of arcs of balls that surely cut the circle.
+  /// Returns a bound on the error of all ends of arcs of balls that surely cut the circle.
   double error() const { return most_.error; }
-  /// The place of that which covers most of the circle; some ball surely cuts it.
+  /// Returns the place of the arc that covers most of the circle; some ball must surely cut it.
   std::size_t widest() const;
 
  private:
-  // How a ball meets a circle is a number among numbers, too: kMisses, kCuts, kCovers, or
+  // How a ball meets a circle is stored as a number like the others: kMisses, kCuts, kCovers, or this value for doubt.
   static constexpr double kInDoubt = 1.5;
   static_assert(geometry::kMisses < geometry::kCuts && geometry::kCuts < kInDoubt && kInDoubt < geometry::kCovers);
 
   enum Column : std::size_t { kX, kY, kZ, kWeight, kDistance, kMeeting, kBegin, kEnd, kError, kSweep, kColumnCount };
 
-  // The largest of each number. Arcs count whose balls surely cut the circle.
+  // The largest value of each number. Only arcs of balls that surely cut the circle count.
   struct Most {
     double meeting, error, sweep;
   };
@@ -158,7 +159,7 @@ class CircleMeetings {
 
   std::size_t count_ = 0;
   std::vector<std::int64_t> near_;   // per blocker
-  std::vector<std::uint32_t> ball_;  // which blocker is the n-th in the table
+  std::vector<std::uint32_t> ball_;  // the blocker at each place of the table
   ColumnTable<kColumnCount> table_;
   Most most_{};
 };

@@ -11,15 +11,15 @@
 namespace meniscus {
 namespace {
 
-// Beyond all differences of pseudo-angles: there begin and end the arcs of balls that miss the circle.
+// A value beyond all differences of pseudo-angles: the begin and end of the arcs of balls that miss the circle.
 constexpr double kBeyond = 9;
 
-// What the widest arc leaves, [0, length] from its end on, and what those leave of it that cover one of these two ends:
-// [low, high].
+// The part that the widest arc leaves, [0, length] from its end on, and the part [low, high] of it that remains after
+// arcs that cover one of these two ends.
 struct Rest {
   double low;
   double high;
-  double margin;  // how near any other end is to the two
+  double margin;  // the distance of any other end to these two
 };
 
 MENISCUS_VECTOR_CLONES
@@ -30,7 +30,7 @@ Rest turn_to_widest(const CircleMeetings::ArcColumns& arcs, std::size_t count, s
   std::int64_t low = 0, high = ordered_bits(length), margin = ordered_bits(4.0);
   MENISCUS_INDEPENDENT_STEPS
   for (std::size_t n = 0; n < count; ++n) {
-    // Masks instead of choices: compilers would make branches of these.
+    // Masks replace choices, because compilers would make branches of these.
     const std::int64_t cuts = a.meeting[n] == geometry::kCuts ? -1 : 0, beyond = ordered_bits(kBeyond) & ~cuts;
     const std::int64_t from_begin_bits = ordered_bits(geometry::pseudo_sweep(origin, a.begin[n]));
     const std::int64_t from_end_bits = ordered_bits(geometry::pseudo_sweep(origin, a.end[n]));
@@ -49,13 +49,14 @@ Rest turn_to_widest(const CircleMeetings::ArcColumns& arcs, std::size_t count, s
   return {from_ordered_bits(low), from_ordered_bits(high), from_ordered_bits(margin)};
 }
 
-// The ends [low, high] of what is left, pushed together by arcs that begin before one of them and end between them.
+// The ends [low, high] of the remainder, pushed together by arcs that begin before one of them and end between them.
 struct Push {
   double low;
   double high;
-  std::int64_t inside;               // how many arcs there are that begin or end between them
-  std::int64_t near_low, near_high;  // how many ends of arcs are there, but for rounding
-  std::int64_t low_arc, high_arc;    // sum of the numbers of the arcs that end at `low`, of those that begin at `high`
+  std::int64_t inside;               // number of arcs that begin or end between them
+  std::int64_t near_low, near_high;  // numbers of arc ends that coincide with low and high up to rounding
+  std::int64_t low_arc,
+      high_arc;  // sums of the numbers of the arcs that end at `low`, and of those that begin at `high`
 };
 
 MENISCUS_VECTOR_CLONES

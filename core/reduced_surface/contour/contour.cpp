@@ -12,7 +12,7 @@ namespace meniscus {
 
 namespace quad_geometry {
 
-// What balls leave of one circle, in quadruple precision.
+// The part of one circle that balls leave, in quadruple precision.
 struct Remainder {
   std::vector<ExposedArc> exposed_arcs;
   const ExposedArc& get_arc(uint n) const { return exposed_arcs[n]; }
@@ -39,13 +39,13 @@ void Contour::expose(const glm::dvec3& d, double w1, const Blockers& blockers, s
   expose_in_quad(d, w1, blockers, skip, halves);
 }
 
-// Begins with the whole circle. False if what is left is known already, or doubtful: sure_ says which.
+// Begins with the whole circle. False if the remainder is known already, or in doubt: sure_ is true if it is known.
 bool Contour::begin_surely(const glm::dvec3& d, double w0, double w1) {
   left_.begin_contour(geometry::circle_of_two_spheres(d, w0, w1), w0, unit_);
   const double barely = 1024 * unit_ * w0;
   const bool apart = circle().radius_squared < -barely;
   if (apart) left_.cover_everything();
-  // Where the spheres barely meet, if they do, the sign itself needs the better arithmetic.
+  // Where the spheres barely meet, the sign itself needs higher precision.
   sure_ = apart || circle().radius_squared > barely;
   return sure_ && !apart;
 }
@@ -102,12 +102,12 @@ void Contour::expose_in_quad(const glm::dvec3& d, double w1, const Blockers& blo
   if (!(circle.radius_squared > 0)) return;
   q::Remainder left;
   left.begin_contour(circle, w0, q::kUnitRoundoff);
-  // The frame is the one in double but for rounding, so that the half-planes given by the caller mean the same.
+  // The frame equals the one in double up to rounding, so that the half-planes given by the caller mean the same.
   for (std::size_t n = 0; n < halves.size() && !left.contour_is_covered(); ++n) {
     const geometry::HalfPlane& h = halves[n].half_plane;
     left.cover(q::HalfPlane{{h.normal.x, h.normal.y}, h.offset, h.length_squared, h.length_bound, 0}, halves[n].label);
   }
-  // No doubt is left here that weights would not decide: what is decided first stays (reduced_surface.h).
+  // Doubt that remains here is decided by the weights: the first decision stays (reduced_surface.h).
   for (std::size_t n = 0; n < blockers.size() && !left.contour_is_covered(); ++n)
     if (n != skip) left.block(q::blocking_ball(quad(blockers[n].center), blockers[n].weight, w0), blockers[n].label);
   left_.exposed_whole = left.exposed_whole;

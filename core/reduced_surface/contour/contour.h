@@ -21,9 +21,9 @@ namespace meniscus {
 
 namespace geometry {
 
-/// What balls leave of one circle, in double precision.
+/// The part of one circle that balls leave, in double precision.
 struct Remainder {
-  std::vector<ExposedArc> exposed_arcs;  ///< the first exposed_count count
+  std::vector<ExposedArc> exposed_arcs;  ///< only the first exposed_count are valid
   const ExposedArc& get_arc(uint n) const { return exposed_arcs[n]; }
   bool set_arc(uint n, const ExposedArc& arc) {
     if (exposed_arcs.size() <= n) exposed_arcs.resize(n + 1);
@@ -37,31 +37,32 @@ struct Remainder {
 
 using geometry::ExposedArc;
 
-/// A part of the circle that is covered whatever the balls say: dot(normal, (x, y)) > offset in the circle's frame.
+/// A part of the circle that is covered independently of the balls: dot(normal, (x, y)) > offset in the circle's frame.
 struct BlockedHalf {
   geometry::HalfPlane half_plane;
   std::uint32_t label = 0;
 };
 
-/// What is left of one circle. Reused from circle to circle to save allocations.
+/// The exposed part of one circle. Reused from circle to circle to save allocations.
 class Contour {
  public:
-  /// unit: by which numbers are taken to be off in double precision, relative: what is decided by less is in doubt.
+  /// unit: the relative error to assume for numbers in double precision; smaller differences are in doubt.
   explicit Contour(double unit = geometry::kUnitRoundoff) : unit_(unit) {}
 
-  /// The circle of the blockers' first ball and the ball (d, w1) among them; the blocker at index `skip` is ignored.
-  /// Afterwards: whole() = nothing covers any of it; else arcs() (possibly none).
+  /// Finds the exposed part of the circle of the blockers' first ball and the ball (d, w1), which is among the
+  /// blockers; the blocker at index `skip` is ignored. Afterwards whole() is true if nothing covers any of it; else
+  /// arcs() has the exposed arcs, possibly none.
   void expose(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
               std::span<const BlockedHalf> halves = {});
 
-  /// The same in double precision only. False if that leaves doubt: then nothing is known of the circle.
+  /// Finds the exposed part in double precision only. False if doubt remains: then nothing is known of the circle.
   bool expose_surely(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
                      std::span<const BlockedHalf> halves = {});
 
-  /// The same, more quickly where nothing is left or one arc.
+  /// Does the same as expose(), faster where nothing or one arc is left.
   bool expose_at_once(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip);
 
-  /// What another ball leaves of the circle that expose() was last asked for. blockers: as then, and one more.
+  /// Applies one more ball to the circle of the last expose(). blockers: the same ones and one more.
   void expose_further(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip);
 
   bool whole() const { return left_.exposed_whole; }
@@ -69,13 +70,13 @@ class Contour {
   const geometry::Circle& circle() const { return left_.contour_circle; }
   std::size_t doubtful_count() const { return doubtful_count_; }  ///< circles redone in quadruple precision so far
 
-  /// Unit vector from the circle's centre at a pseudo-angle.
+  /// Returns the unit vector from the circle's centre at a pseudo-angle.
   glm::dvec3 direction(double pseudo) const {
     const glm::dvec2 e = geometry::direction_at(pseudo);
     return e.x * circle().u + e.y * circle().v;
   }
 
-  /// The point of the circle at a pseudo-angle, relative to the first ball's centre.
+  /// Returns the point of the circle at a pseudo-angle, relative to the first ball's centre.
   glm::dvec3 point(double pseudo) const {
     return circle().height * circle().axis + circle().radius * direction(pseudo);
   }
@@ -91,16 +92,17 @@ class Contour {
   geometry::Remainder left_;
   CircleMeetings meetings_;
   CircleSweep sweep_;
-  bool sure_ = true;  // the last circle was decided in double precision
+  bool sure_ = true;  // true if the last circle was decided in double precision
   std::size_t doubtful_count_ = 0;
 };
 
-/// Decides circles once more, for radii shrunk by as much as decisions grow them. A sign that is the same for both is
-/// the same for the radii as given: within 1e-9 Å all that decides is as good as linear. Reused from circle to circle.
+/// Decides circles a second time, for radii shrunk by as much as decisions grow them. A sign that is the same for both
+/// is the same for the given radii, because within 1e-9 Å all deciding expressions are practically linear. Reused from
+/// circle to circle.
 class TieWatch {
  public:
-  /// What expose() left of a circle in doubt. blockers, skip: as then; first: index of the atom whose blockers these
-  /// are; index_of(label): the index of another.
+  /// Compares the second decision with the result of expose() for a circle in doubt. blockers, skip: as in expose();
+  /// first: index of the atom that the blockers surround; index_of(label): the index of another atom.
   template <typename IndexOf>
   void look(const Contour& decided, const Blockers& blockers, std::size_t skip, std::uint32_t first,
             const IndexOf& index_of) {

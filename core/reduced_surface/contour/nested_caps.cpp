@@ -12,9 +12,10 @@ namespace meniscus {
 namespace {
 
 constexpr std::size_t kMostCompared = 64;
-/// Å that radii may differ by from those of the weights: more than weights grow or shrink by, and than rounding.
+/// Å: the allowed difference of radii from the radii of the weights: more than weights grow or shrink by, and than
+/// rounding.
 constexpr double kRadiusBlur = 1e-8;
-/// Borders of smaller caps, and of those that leave less, are where rounding wants.
+/// Borders of smaller caps, and of those that leave less, are dominated by rounding.
 constexpr double kLeastSine = 1e-3;
 
 }  // namespace
@@ -35,7 +36,7 @@ const std::vector<std::uint8_t>& NestedCaps::find(const Blockers& blockers) {
   for (const Cap& cap : caps_) {
     const bool is_nested = std::ranges::any_of(widest_, [&](const Cap& wide) {
       const double blur = cap.blur + wide.blur;
-      const double sine = wide.sine * cap.cosine - wide.cosine * cap.sine;  // of the difference of their angles
+      const double sine = wide.sine * cap.cosine - wide.cosine * cap.sine;  // sine of the difference of their angles
       const double cosine = wide.cosine * cap.cosine + wide.sine * cap.sine;
       return sine > blur && glm::dot(wide.axis, cap.axis) > cosine + blur * (sine + blur);
     });

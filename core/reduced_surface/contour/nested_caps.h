@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of many balls can be left out around a first one, because others cover all that they cover of its sphere.
+// Finds balls around a first ball that can be left out, because others cover everything that they cover of its sphere.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace meniscus {
 /// covered, and it ends no arc of another circle. Reused from sphere to sphere to save allocations.
 class NestedCaps {
  public:
-  /// Per blocker, 1 if it can be left out. Each is compared with the widest caps only, so that the time is nearly in
-  /// proportion to the number of balls, and 0 means nothing.
+  /// Returns, per blocker, 1 if it can be left out. Each is compared only with the widest caps, so that the time is
+  /// nearly proportional to the number of balls, and 0 proves nothing.
   const std::vector<std::uint8_t>& find(const Blockers& blockers);
 
  private:
@@ -24,7 +24,7 @@ class NestedCaps {
     std::uint32_t ball;
     glm::dvec3 axis;
     double cosine, sine;
-    double blur;  ///< radian, that its border may be off
+    double blur;  ///< radians: the possible error of its border
   };
 
   std::vector<Cap> caps_, widest_;

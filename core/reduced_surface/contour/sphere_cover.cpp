@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Watches the vertices of a twice subdivided icosahedron, and tests sums of angles by products of cosines.
+// Samples a sphere at the vertices of a twice subdivided icosahedron, and tests sums of angles by products of cosines.
 #include "core/reduced_surface/contour/sphere_cover.h"
 
 #include <algorithm>
@@ -19,18 +19,18 @@ namespace meniscus {
 namespace {
 
 constexpr std::size_t kDirections = 162;
-constexpr std::size_t kBlock = 16;    // directions that are looked at together
+constexpr std::size_t kBlock = 16;    // directions that are tested together
 constexpr std::size_t kPadded = 176;  // whole blocks
 static_assert(kPadded % kBlock == 0);
-constexpr double kRoom = 1e-4;  // radian, for single precision
+constexpr double kRoom = 1e-4;  // radians, for single precision
 
-// Directions, and the largest angle from any point of the sphere to the nearest of them: the largest circumradius of a
-// triangle of the subdivision.
+// The directions, and the largest angle from any point of the sphere to the nearest of them: the largest circumradius
+// of a triangle of the subdivision.
 struct WatchedDirections {
   alignas(64) std::array<float, kPadded> x{}, y{}, z{};
   double cos_angle = 1;
   double sin_angle = 0;
-  double cos_near = 1;  // of an angle in the middle of the room for rounding
+  double cos_near = 1;  // cosine of an angle in the middle of the allowance for rounding
 
   WatchedDirections() {
     const double g = (1 + std::sqrt(5.0)) / 2;
@@ -68,7 +68,7 @@ struct WatchedDirections {
     }
   }
 
-  // So orders directions that those of a block are neighbours, and covered by the same few balls.
+  // Orders directions so that the directions of a block are neighbours, and covered by the same few balls.
   static void cluster(std::vector<glm::dvec3>& points) {
     for (std::size_t first = 0; first < points.size(); first += kBlock) {
       const auto begin = points.begin() + static_cast<std::ptrdiff_t>(first);
@@ -100,10 +100,10 @@ const WatchedDirections& watched() {
   return directions;
 }
 
-constexpr float kNowhere = 4;  // no cosine is as large: an empty cap
-constexpr float kWide = 0.6f;  // caps of smaller cosine, some ten around an atom of a protein, cover most
+constexpr float kNowhere = 4;  // larger than any cosine: an empty cap
+constexpr float kWide = 0.6f;  // caps of smaller cosine, about ten around an atom of a protein, cover most
 
-// How many caps, or directions, one step looks at. Lists end in as many that change nothing.
+// The number of caps, or directions, in one step. Lists are padded with entries that change nothing.
 constexpr std::size_t kStep = 4;
 constexpr std::size_t whole_steps(std::size_t count) { return (count + kStep - 1) / kStep * kStep; }
 
@@ -117,8 +117,8 @@ struct CircleColumns {
   float *x, *y, *z, *cosine, *low, *high;
 };
 
-// A ball covers the cap of angle a, cos a = c; narrowed by the watched angle: cos(a - angle). Directions within the
-// watched angle of its rim have cos(a + angle) <= dot(axis, direction) <= cos(a - angle).
+// Narrows caps. A ball covers the cap of angle a, cos a = c; narrowed by the sampling angle it is cos(a - angle).
+// Directions within the sampling angle of its rim have cos(a + angle) <= dot(axis, direction) <= cos(a - angle).
 MENISCUS_VECTOR_CLONES
 void narrow_caps(const Blockers::Columns& balls, std::size_t count, double inverse_radius, double cos_angle,
                  double sin_angle, const CircleColumns& out) {
@@ -143,8 +143,9 @@ void narrow_caps(const Blockers::Columns& balls, std::size_t count, double inver
 
 std::int32_t sign_bits(float number) { return std::bit_cast<std::int32_t>(number); }
 
-// Of each direction, in whole blocks, a number that is negative if no cap holds it: the sign bits of
-// dot(axis, direction) - cosine, all in one. Several caps a step, for what is known of a block goes through memory.
+// Computes, for each direction, in whole blocks, a number that is negative if no cap contains it: the sign bits of
+// dot(axis, direction) - cosine, combined. Each step takes several caps, because the results of a block go through
+// memory.
 MENISCUS_VECTOR_CLONES
 void sign_outside(const Points& directions, std::size_t count, const CapColumns& caps, std::size_t cap_count,
                   std::int32_t* sign) {
@@ -173,7 +174,7 @@ void sign_outside(const Points& directions, std::size_t count, const CapColumns&
   }
 }
 
-// Of each circle, in whole blocks, a number that is negative if no direction is near it.
+// Computes, for each circle, in whole blocks, a number that is negative if no direction is near it.
 MENISCUS_VECTOR_CLONES
 void sign_far(const CircleColumns& circles, std::size_t count, const Points& directions, std::size_t direction_count,
               std::int32_t* sign) {
@@ -213,7 +214,7 @@ void SphereCover::Rows<kColumns>::make_room(std::size_t count) {
   for (std::vector<float>& column : columns) column.resize(2 * count);
 }
 
-// Those that cover something, the wide ones first: nothing need be known of the others where they cover all.
+// Lists the caps that cover something, the wide ones first: the others do not matter where these cover all.
 void SphereCover::list_caps(std::size_t count) {
   caps_.make_room(count + kStep);
   const float *x = circles_.column(0), *y = circles_.column(1), *z = circles_.column(2), *cosine = circles_.column(3);
@@ -238,7 +239,7 @@ void SphereCover::list_caps(std::size_t count) {
   wide_count_ = std::min(whole_steps(wide_count_), cap_count_);
 }
 
-// Keeps the directions of negative sign. They may be in the list already: none moves behind its place.
+// Keeps the directions with a negative sign. They may be in the list already, because none moves to a later place.
 void SphereCover::list_uncovered(const float* x, const float* y, const float* z, std::size_t count) {
   float *to_x = uncovered_.column(0), *to_y = uncovered_.column(1), *to_z = uncovered_.column(2);
   const std::uint32_t* past = list_negative(signs_.data(), count, 0, listed_.data());

@@ -19,37 +19,40 @@
 namespace meniscus {
 namespace {
 
-// Atoms are named by their places in NeighborSearch, and go through the stages in groups of this size.
+// The number of atoms in a group. Atoms are named by their places in NeighborSearch, and pass through the stages in
+// groups.
 constexpr std::size_t kGroup = 64;
-// From so many open circles on it pays to look for those that lie within the caps of others: on a line of N atoms all
-// N² / 2 are open. Molecules have fewer.
+// The number of open circles from which it pays to search for circles within the caps of others: on a line of N atoms
+// all N² / 2 are open. Molecules have fewer.
 constexpr std::uint32_t kCrowd = 192;
 
-// What is known of the atoms of one group.
+// The intermediate results of the atoms of one group.
 struct Group {
-  std::vector<std::uint32_t> neighbors;  // atom after atom, those of open circles first; none of buried atoms
-  std::vector<std::uint32_t> first;      // per atom, into neighbors; one past the last closes the list
-  std::vector<std::uint32_t> open;       // per atom: how many of its circles are open
-  std::vector<std::uint8_t> uncovered;   // atom after atom: directions near which it may be exposed (sphere_cover.h)
-  std::vector<std::uint32_t> first_uncovered;  // per atom, and one past the last
-  std::vector<RsArc> arcs;                     // atom after atom, those of each sorted
+  std::vector<std::uint32_t>
+      neighbors;  // neighbours of atom after atom, neighbours with open circles first; none for buried atoms
+  std::vector<std::uint32_t> first;  // per atom, into neighbors; one past the last closes the list
+  std::vector<std::uint32_t> open;   // per atom: the number of its open circles
+  std::vector<std::uint8_t>
+      uncovered;  // atom after atom: directions near which the atom may be exposed (sphere_cover.h)
+  std::vector<std::uint32_t> first_uncovered;  // per atom; one past the last closes the list
+  std::vector<RsArc> arcs;                     // arcs of atom after atom, sorted within each
   std::size_t pairs = 0;
 };
 
-// A pseudo-angle inside an arc.
+// Returns a pseudo-angle inside an arc.
 double middle_of(const ExposedArc& arc) {
   const double middle = arc.begin + 0.5 * geometry::pseudo_sweep(arc.begin, arc.end);
   return middle < 4 ? middle : middle - 4;
 }
 
-// One worker's reusable lists.
+// The reusable lists of one worker.
 struct Worker {
   explicit Worker(double roundoff) : contour(roundoff) {}
 
   NeighborSearch::Rows rows;
   Blockers blockers;
   Blockers open_blockers;
-  Blockers nearest_first;  // sorted, of the atom nearest_of
+  Blockers nearest_first;  // blockers sorted around the atom nearest_of
   std::size_t nearest_of = kNone;
   SphereCover cover;
   NestedCaps caps;
@@ -68,7 +71,7 @@ class Enumeration {
         workers_([roundoff] { return Worker(std::max(roundoff, geometry::kUnitRoundoff)); }) {}
 
   std::vector<RsArc> run(CircleStats& stats) {
-    // Nearly half of all atoms are buried, which is quickly told; their circles need no look.
+    // Nearly half of all atoms are buried, which is found quickly; their circles need no test.
     for_each_group([&](std::size_t group, Worker& worker) { look_around(group, worker); });
     for_each_group([&](std::size_t group, Worker& worker) { list_arcs(group, worker); });
     for (const Group& group : groups_) stats.pairs += group.pairs / 2;
@@ -93,7 +96,8 @@ class Enumeration {
     return {group.neighbors.data() + first[0], group.neighbors.data() + first[1]};
   }
 
-  // The neighbours with which an atom has open circles: seen from it, they are not surely covered.
+  // Returns the neighbours with which an atom has open circles: circles that are not surely covered, seen from this
+  // atom.
   std::span<const std::uint32_t> open_neighbors_of(std::size_t place) const {
     return neighbors_of(place).first(groups_[place / kGroup].open[place % kGroup]);
   }
@@ -127,8 +131,8 @@ class Enumeration {
     group.uncovered.shrink_to_fit();
   }
 
-  // Looks at the sphere of an atom, whose neighbours are the last ones of the list from `first` on. Where they crowd,
-  // those that cover nothing which others do not cover are removed.
+  // Tests the sphere of an atom, whose neighbours are the last ones of the list from `first` on. Where they crowd,
+  // neighbours that cover nothing that others do not cover are removed.
   bool look(std::size_t place, std::size_t first, std::vector<std::uint32_t>& neighbors, Worker& w) {
     const std::size_t count = neighbors.size() - first;
     search_.list_blockers(place, std::span(neighbors).subspan(first), w.blockers);
@@ -146,8 +150,8 @@ class Enumeration {
     return w.cover.look(w.blockers);
   }
 
-  // Puts the neighbours first with which there are open circles; returns how many. Each is exchanged with the first of
-  // the others in any case: a branch would not be foreseen.
+  // Moves the neighbours with open circles to the front; returns their number. Each is exchanged with the first of the
+  // others in any case, because a branch would be mispredicted.
   static std::uint32_t open_first(std::span<std::uint32_t> neighbors, const SphereCover& cover) {
     std::uint32_t open = 0;
     for (std::size_t n = 0; n < neighbors.size(); ++n) {
@@ -167,7 +171,7 @@ class Enumeration {
     }
   }
 
-  // The circles of an atom and those with a higher index.
+  // Lists the arcs on the circles of an atom with atoms of higher index.
   void list_arcs_of(std::size_t place, std::span<const std::uint32_t> neighbors, Worker& w, std::vector<RsArc>& arcs) {
     const std::uint32_t i = search_.atom(place);
     const std::size_t open = open_neighbors_of(place).size();
@@ -177,7 +181,7 @@ class Enumeration {
       const std::uint32_t j = search_.atom(neighbors[n]);
       if (j < i || !is_open(neighbors[n], place)) continue;
       const Blockers::Ball b = w.open_blockers[n];
-      // Only what they leave near uncovered directions is exposed.
+      // Only the part near uncovered directions is exposed.
       const bool by_open = w.contour.expose_at_once(b.center, b.weight, w.open_blockers, n);
       if (!by_open) {
         if (!all_listed) search_.list_blockers(place, neighbors, w.blockers);
@@ -199,7 +203,7 @@ class Enumeration {
     return std::find(open.begin(), open.end(), neighbor) != open.end();
   }
 
-  // A circle that double leaves in doubt: nearest balls first, whatever order the grid gave.
+  // Decides a circle that double leaves in doubt: nearest balls first, in an order independent of the grid.
   void expose_nearest_first(std::size_t place, const Blockers::Ball& b, std::span<const std::uint32_t> neighbors,
                             Worker& w) const {
     if (w.nearest_of != place) {
@@ -222,7 +226,7 @@ class Enumeration {
                   [&](std::uint32_t label) { return number_at(label); });
   }
 
-  // By atoms: those of each are together and are sorted already.
+  // Sorts arcs by atoms: the arcs of each atom are adjacent and already sorted.
   std::vector<RsArc> sorted_arcs() {
     std::vector<std::uint32_t> first(atom_count_ + 1, 0);
     for (const Group& group : groups_)

@@ -15,7 +15,7 @@
 namespace meniscus {
 namespace {
 
-constexpr double kGrowth = 2e-9;  // Å: not below what decisions grow two radii by, reduced_surface.h
+constexpr double kGrowth = 2e-9;  // Å: at least what decisions add to two radii (reduced_surface.h)
 
 double largest_radius(std::span<const Ball> atoms, double probe_radius) {
   double largest = 0;
@@ -31,7 +31,7 @@ std::vector<std::uint32_t> all_but(std::size_t count, const std::vector<bool>& l
   return kept;
 }
 
-// For work so small that many steps make one task.
+// Runs a parallel loop with small steps, many per task.
 template <typename Visit>
 void for_each(std::size_t count, const Visit& visit) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const auto& range) {
@@ -49,13 +49,13 @@ struct BallColumns {
   const double *x, *y, *z, *radius;
 };
 
-// Lists the balls of some rows that overlap a ball around (x, y, z) of this (SAS) radius, but not `self`; returns the
-// end of the list.
+// Lists the balls of some rows that overlap a ball around (x, y, z) of this SAS radius, without `self`; returns the end
+// of the list.
 MENISCUS_VECTOR_CLONES
 std::uint32_t* list_overlapping(const BallColumns& balls, const NeighborSearch::Rows& rows, std::uint32_t self,
                                 double x, double y, double z, double radius, double probe_radius, std::uint32_t* list) {
-  constexpr std::uint32_t kMost = 64;  // of a row at once, up to whole vectors
-  std::int64_t overlaps[kMost];        // negative: it does
+  constexpr std::uint32_t kMost = 64;  // balls of a row at once, in whole vectors
+  std::int64_t overlaps[kMost];        // negative if the ball overlaps
   for (const auto& [row_first, last] : rows)
     for (std::uint32_t first = row_first; first < last; first += kMost) {
       const double *bx = balls.x + first, *by = balls.y + first, *bz = balls.z + first, *br = balls.radius + first;
@@ -81,7 +81,7 @@ NeighborSearch::NeighborSearch(std::span<const Ball> atoms, double probe_radius,
       grid_(centers_of(atoms, atom_), largest_radius_) {
   const std::vector<std::uint32_t> kept = std::move(atom_);
   atom_.resize(kept.size());
-  table_.make_room(atom_.size() + kLanes);  // whole vectors from any place on
+  table_.make_room(atom_.size() + kLanes);  // room for whole vectors from any place on
   double *x = table_.column(kX), *y = table_.column(kY), *z = table_.column(kZ);
   double *radius = table_.column(kRadius), *weight = table_.column(kWeight);
   for_each(atom_.size(), [&](std::size_t place) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the balls that overlap a ball: tests those of the grid's cells around it, many at once.
+// Finds the balls that overlap a ball: tests the balls in the grid's cells around it, many at once.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@
 
 namespace meniscus {
 
-/// The SAS balls of atoms in the order of a grid's cells, where neighbours are near each other in the cache, too. Their
-/// places in this order name them here.
+/// The SAS balls of atoms in the order of a grid's cells, so that neighbours are near each other in the cache. A place
+/// is an index in this order.
 class NeighborSearch {
  public:
-  /// atoms: van der Waals balls; weights: decision weights; those left out are not neighbours, and have none.
+  /// atoms: van der Waals balls; weights: decision weights; atoms left out are not neighbours and have none.
   NeighborSearch(std::span<const Ball> atoms, double probe_radius, std::span<const double> weights,
                  const std::vector<bool>& left_out);
 
@@ -25,13 +25,14 @@ class NeighborSearch {
   std::uint32_t atom(std::size_t place) const { return atom_[place]; }
   double weight(std::size_t place) const { return table_.column(kWeight)[place]; }
 
-  /// Of cells: places from the first to before the last.
+  /// Ranges of places, one per row of cells: the first, and one past the last.
   using Rows = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-  /// Appends the places of all balls that overlap that at `place`, or come within rounding of it; `rows` is scratch.
+  /// Appends the places of all balls that overlap the ball at `place`, or come within rounding of it; `rows` is scratch
+  /// memory.
   void append_neighbors(std::size_t place, Rows& rows, std::vector<std::uint32_t>& neighbors) const;
 
-  /// Lists these balls as blockers around the one at `place`; their labels are their places.
+  /// Lists these balls as blockers around the ball at `place`; their labels are their places.
   void list_blockers(std::size_t place, std::span<const std::uint32_t> neighbors, Blockers& blockers) const;
 
  private:
@@ -42,7 +43,7 @@ class NeighborSearch {
   }
 
   double probe_radius_;
-  double largest_radius_;  // SAS
+  double largest_radius_;  // of the SAS balls
   std::vector<std::uint32_t> atom_;
   BallGrid grid_;
   ColumnTable<kColumnCount> table_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the kernels that find exposed arcs, batch by batch of atoms, and decides on the host what they leave in doubt.
+// Runs the kernels that find exposed arcs, batch by batch of atoms, and decides doubtful circles on the host.
 #include "core/reduced_surface/gpu/gpu_arcs.h"
 
 #include <algorithm>
@@ -115,7 +115,7 @@ void GpuCircles::start(const BallBatch& batch, bool in_double, std::uint32_t cir
   program.dispatch(group_count(circle_count));
 }
 
-// Double left these in doubt (ties): Contour decides them in quadruple precision.
+// Decides the circles that double leaves in doubt (ties), in quadruple precision by Contour.
 void GpuCircles::decide_on_host(const BallBatch& batch, std::vector<glm::uvec2> circles) {
   std::ranges::sort(circles, {}, [](const glm::uvec2& circle) { return std::pair(circle.x, circle.y); });
   std::vector<RsArc> found;

@@ -21,30 +21,31 @@ namespace meniscus {
 
 class StageClock;
 
-/// Kernel "circles" and its buffers. Needs a current GL context.
+/// The kernel "circles" and its buffers. A GL context must be current.
 class GpuCircles {
  public:
   GpuCircles(ProgramCache& programs, GpuNeighbors& neighbors) : programs_(programs), neighbors_(neighbors) {}
 
-  /// New atoms or a new probe; weights: decision weights. Both must stay until the last expose(). roundoff: what double
-  /// precision decides by less is decided on the host, where ties are counted; 0: by less than rounding.
+  /// Uploads new atoms or a new probe. weights: decision weights. Both must stay valid until the last expose().
+  /// roundoff: decisions of double precision with a smaller relative margin are made on the host, where ties are
+  /// counted; 0: only those within rounding.
   void upload(std::span<const Ball> atoms, std::span<const double> weights, double roundoff);
 
-  /// Forgets all arcs and figures.
+  /// Clears all arcs and statistics.
   void restart();
 
-  /// Appends the arcs of the batch's circles, in any order. Its pairs must have been listed. Times go to `clock`.
+  /// Appends the arcs of the batch's circles, in any order. Its pairs must have been listed. Adds times to `clock`.
   void expose(const BallBatch& batch, StageClock& clock);
 
-  /// The same for the only batch, without asking how many arcs there are: none may be left to the host, and lists must
-  /// have had room. The counts come back with the frame; settle() returns whether both held.
+  /// Appends the arcs of a single batch without reading back their number: no circle may be left to the host, and lists
+  /// must have had room. The counts come back with the frame; settle() returns true if both held.
   void expose_later(const BallBatch& batch, StageClock& clock);
   void ask(Readback& readback);
   bool settle(const BallBatch& batch);
-  /// Puts the number of arcs that the host knows where kernels find it.
+  /// Writes the number of arcs that the host knows to the buffer that kernels read.
   void tell_count();
 
-  /// For kernels: word 0 is the number of arcs, which may be more than have room.
+  /// Returns the counters for kernels: word 0 is the number of arcs, which may exceed the room.
   const Buffer& counters() const { return counters_; }
 
   Buffer atoms;  ///< dvec4 per atom: centre in Å, decision weight
@@ -61,33 +62,33 @@ class GpuCircles {
   std::span<const Ball> host_atoms_;
   std::span<const double> weights_;
   double roundoff_ = 0;
-  std::vector<glm::dvec4> exact_;                    // of upload(), kept for its memory
-  TexelBuffer relative_texels_{TexelFormat::uint4};  // of the neighbours, which circles fetch most
+  std::vector<glm::dvec4> exact_;                    // memory of upload(), reused
+  TexelBuffer relative_texels_{TexelFormat::uint4};  // the neighbours, which circles fetch most
   AppendList doubtful_{sizeof(glm::uvec2), 1 << 12}, still_doubtful_{sizeof(glm::uvec2), 1 << 12};
   Buffer counters_;
-  std::array<std::uint32_t, 3> counts_{};  // arcs, doubtful circles in single precision and in double
+  std::array<std::uint32_t, 3> counts_{};  // numbers of arcs, and of doubtful circles in single precision and in double
   CircleStats stats_;
 };
 
-/// Grid, neighbours, circles and arcs, batch by batch. Keeps kernels and buffers from frame to frame. Needs a current
-/// GL context.
+/// Runs grid, neighbours, circles and arcs, batch by batch. Kernels and buffers are reused from frame to frame. A GL
+/// context must be current.
 class GpuArcs {
  public:
   explicit GpuArcs(ProgramCache& programs) : neighbors(programs), circles(programs, neighbors) {}
 
-  /// Van der Waals balls, Å, which must stay until the last find(); `swallowed` says who has no patch and blocks
-  /// nothing. From now on all of them are listed. watch_ties: circles.stats() counts ties, which costs a little.
+  /// Uploads van der Waals balls, Å, which must stay valid until the last find(). Swallowed atoms have no patch and
+  /// block nothing. From now on all atoms are listed. watch_ties: circles.stats() counts ties, at a small cost.
   void upload(std::span<const Ball> atoms, const std::vector<bool>& swallowed, double probe_radius,
               bool watch_ties = false);
 
-  /// Decision weights of the atoms.
+  /// Returns the decision weights of the atoms.
   std::span<const double> weights() const { return weights_; }
 
-  /// Fills `circles.arcs`, in any order: the arcs of all circles of two atoms that are listed (neighbors.list_only()).
-  /// All atoms block. Throws GpuError, CapacityError.
+  /// Computes `circles.arcs`, in any order: the arcs of all circles of two atoms that are listed
+  /// (neighbors.list_only()). All atoms block. Throws GpuError, CapacityError.
   void find(StageClock& clock);
 
-  /// The same without asking for any count, where neighbors.can_trust(): see GpuCircles::expose_later().
+  /// Computes the arcs without reading back any count, where neighbors.can_trust(): see GpuCircles::expose_later().
   void find_later(StageClock& clock);
   void ask(Readback& readback);
   bool settle();

@@ -19,7 +19,7 @@ namespace {}  // namespace
 
 BallExtent extent_of(std::span<const Ball> balls) {
   if (balls.empty()) return {};
-  // Least and largest are the same in any order.
+  // Minimum and maximum do not depend on the order.
   return tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, balls.size(), 4096), BallExtent{balls[0].center, balls[0].center, 0.0},
       [&](const auto& range, BallExtent extent) {
@@ -171,7 +171,7 @@ bool GpuNeighbors::count_neighbors(BallBatch& batch) {
   return false;
 }
 
-// Places stop at the room that there is where the host does not ask before it hands them out.
+// Where the host does not read the counts first, places end at the available room.
 void GpuNeighbors::scan_counts(BallBatch& batch) {
   if (counting_ == Counting::now) {
     scan_(first, batch.count);

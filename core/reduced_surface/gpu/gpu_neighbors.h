@@ -30,65 +30,66 @@ struct BallBatch {
 
 /// The neighbours of one ball, on the host.
 struct NeighborList {
-  std::uint32_t entry = 0;            ///< of the lists
-  std::uint32_t ball = 0;             ///< that the entry stands for
+  std::uint32_t entry = 0;            ///< entry of the lists
+  std::uint32_t ball = 0;             ///< ball of the entry
   std::uint32_t first = 0;            ///< place of its first neighbour in the lists
   std::vector<std::uint32_t> labels;  ///< indices of its neighbours
 };
 
-/// Where balls are and how large they get: a box around their centres, in the coordinates of the buffer `balls`, Å.
+/// The box around the centres of balls, in the coordinates of the buffer `balls`, Å, and the largest radius.
 struct BallExtent {
   glm::dvec3 low{0.0}, high{0.0};
   double largest_radius = 0.0;
 };
 
-/// That of balls as they are; nothing but zeros for none.
+/// Returns the extent of balls in their own coordinates; zeros if there are none.
 BallExtent extent_of(std::span<const Ball> balls);
 
-/// Kernels "grid", "neighbors", "pairs" and their buffers. Needs a current GL context.
+/// The kernels "grid", "neighbors", "pairs" and their buffers. A GL context must be current.
 class GpuNeighbors {
  public:
   explicit GpuNeighbors(ProgramCache& programs) : programs_(programs), scan_(programs) {}
 
-  /// Puts balls into a grid: centres and radii in Å; `left_out` may be empty or say who neither has nor is a neighbour.
+  /// Sorts balls into a grid: centres and radii in Å. `left_out` may be empty; balls left out neither have nor are
+  /// neighbours.
   void upload(std::span<const glm::dvec3> centers, std::span<const double> radii, const std::vector<bool>& left_out);
-  /// The same for a box around the centres, as they are, that is known already; the centre and the radius of ball n are
-  /// made by ball_at(n).
+  /// Sorts balls into a grid with a known box around their centres; ball_at(n) returns the centre and the radius of
+  /// ball n.
   template <typename BallAt>
   void upload(std::uint32_t count, const BallExtent& box, const std::vector<bool>& left_out, const BallAt& ball_at);
 
   /// Takes balls that a kernel has written to `balls` and `balls_low`.
   void adopt(std::uint32_t count, const BallExtent& extent);
-  /// The same for no more than `most` balls, whose number is a word of `counts`.
+  /// Takes at most `most` such balls, with their number in a word of `counts`.
   void adopt(std::uint32_t most, const BallExtent& extent, const Buffer& counts, std::size_t byte_offset);
 
-  /// From now on lists are made for these balls only, and pairs of two of them; all are still listed as neighbours.
-  /// listed: `count` ascending indices; before: per ball and one more, how many listed ones come before it. Batches
-  /// count entries of `listed`. Both buffers must stay. upload() and adopt() list all again. The count may be larger
-  /// than it is: after the last one lists are empty.
+  /// Restricts lists to these balls, and pairs to two of them; all balls are still listed as neighbours. listed:
+  /// `count` ascending indices; before: per ball and one more, the number of listed balls before it. Batches count
+  /// entries of `listed`. Both buffers must stay valid. upload() and adopt() list all balls again. `count` may be too
+  /// large: lists after the last one are empty.
   void list_only(const Buffer& listed, const Buffer& before, std::uint32_t count);
 
-  /// Of the lists; with list_only() perhaps more than there are.
+  /// Returns the number of entries of the lists; with list_only() it may be too large.
   std::uint32_t entry_count() const { return entry_count_; }
 
-  /// With Counting::later lists get the room that they needed last time and some more, in one batch, which must suffice
-  /// for all: can_trust(). Holds until it is called again.
+  /// Sets how lists are counted. With Counting::later lists get the room that they needed last time and some more, in
+  /// one batch, which must suffice for all: can_trust(). Valid until the next call.
   void count_lists(Counting counting) { counting_ = counting; }
-  /// Whether so many balls fit into one batch, and the sizes of such a batch are known.
+  /// True if this many balls fit into one batch, and the sizes of such a batch are known.
   bool can_trust(std::uint32_t entry_count) const { return entry_count <= kLargestBatch && known_.count > 0; }
-  /// For Counting::later: what the host has to know, and, once that has been read back, whether there was room.
+  /// For Counting::later: requests the counts that the host needs, which also show whether there was room.
   void ask(Readback& readback);
   bool settle();
-  /// For kernels: lists that have come so far had no room for all.
+  /// Returns the size for kernels beyond which a list has no room.
   std::uint32_t list_limit() const { return counting_ == Counting::later ? trusted_.neighbor_count : ~0u; }
-  /// Sizes of the lists as they were counted last.
+  /// Returns the sizes of the lists as they were counted last.
   const BallBatch& known() const { return known_; }
 
-  /// What kernels that include listed_balls.glsl need: their define, and their two textures bound to units 2 and 3.
+  /// Returns the defines of kernels that include listed_balls.glsl, and binds their two textures to units 2 and 3.
   ShaderDefines list_defines() const;
   void bind_listed() const;
 
-  /// Reads one entry of the batch at hand, and nothing else, back from the GPU.
+  /// Reads a single entry of the current batch back from the GPU.
   NeighborList list_of(const BallBatch& batch, std::uint32_t entry) const;
 
   /// Calls work(batch) for consecutive batches with their lists in the buffers below; lists that are still there from
@@ -126,7 +127,7 @@ class GpuNeighbors {
 
  private:
   static constexpr std::size_t kClasses = 6;               // distance classes of the kernel
-  static constexpr std::uint32_t kLargestBatch = 1 << 16;  // lists of some 50 MB: within limits and not far from caches
+  static constexpr std::uint32_t kLargestBatch = 1 << 16;  // 50 MB of lists: within limits and near caches
 
   bool count_neighbors(BallBatch& batch);
   void scan_counts(BallBatch& batch);
@@ -139,26 +140,27 @@ class GpuNeighbors {
 
   ProgramCache& programs_;
   PrefixSum scan_;
-  TexelBuffer ball_texels_{TexelFormat::uint4}, cell_texels_{TexelFormat::uint1};  // of balls and cell_atoms_
+  TexelBuffer ball_texels_{TexelFormat::uint4}, cell_texels_{TexelFormat::uint1};  // texels of balls and cell_atoms_
   TexelBuffer listed_texels_{TexelFormat::uint1}, before_texels_{TexelFormat::uint1};
   Buffer cell_first_, rank_, cell_atoms_, class_counts_;
-  Buffer ball_count_;   // uint, whether loops were cut short; uint, how many balls there are
-  BallBatch resident_;  // whose lists the buffers hold; count 0: none
+  Buffer ball_count_;   // uint: true if loops were cut short; uint: number of balls
+  BallBatch resident_;  // the batch whose lists the buffers hold; count 0: none
   Counting counting_ = Counting::now;
-  BallBatch known_, trusted_;  // of one batch: as last counted, with room
+  BallBatch known_, trusted_;  // sizes of one batch: as last counted, with room
   struct Counted {
     std::uint32_t cut_short = 0, neighbors = 0, pairs = 0;
   } counted_;
   std::uint32_t count_ = 0;
-  std::uint32_t entry_count_ = 0;  // of the lists: count_, or that of list_only()
+  std::uint32_t entry_count_ = 0;  // number of entries: count_, or that of list_only()
   const Buffer* listed_ = nullptr;
   std::uint32_t cell_count_ = 0;
   float largest_radius_ = 0;
   kernel::CellGrid grid_{};
-  std::vector<glm::vec4> coarse_, fine_;  // of upload(), kept for their memory
+  std::vector<glm::vec4> coarse_, fine_;  // memory of upload(), reused
 };
 
-// A centre goes up as two floats each from the middle of all; their difference is good to single precision anywhere.
+// A centre is uploaded as two floats each, relative to the middle of all; their difference is good to single precision
+// anywhere.
 template <typename BallAt>
 void GpuNeighbors::upload(std::uint32_t count, const BallExtent& box, const std::vector<bool>& left_out,
                           const BallAt& ball_at) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists, on the CPU, the primitives that may show in each tile of a picture, and reads colours of points from volume
-// maps.
+// Packs an object for rays on the CPU, lists the primitives that may show in each tile of a picture, and reads colours
+// of points from volume maps.
 #include "core/render/cpu/host_scene.h"
 
 #include <algorithm>
@@ -16,6 +16,7 @@
 
 #include "core/color/color_maps.h"
 #include "core/image/color_space.h"
+#include "core/render/picture_object.h"
 
 namespace meniscus {
 namespace {
@@ -45,6 +46,34 @@ std::uint32_t ordered_bits(float value) {
 }
 
 }  // namespace
+
+void HostScene::pack(const PictureObject& object, const PictureFrame& frame, const Look& look) {
+  const Coloring& coloring = *object.coloring;
+  const bool cut = !object.clip.empty();
+  const Coloring shows_all;
+  if (object.surface) {
+    placement.probe_radius = object.surface->probe_radius;
+    pack_scene(*object.surface, cut ? shows_all : coloring, frame, packed);
+  } else {
+    pack_shapes(*object.shapes, coloring, frame, placement.slack, packed);
+  }
+  const bool by_kind = object.surface && coloring.kind;
+  colors = linear_colors(coloring);
+  if (!by_kind) colors.resize(coloring.atom.size());
+  const std::vector<std::uint32_t> line_marks = coloring.line_marks();
+  marks.assign(line_marks.begin(), line_marks.end());
+  lanes.paint = {};
+  keeps_color.clear();
+  if (object.surface) add_paint(coloring, frame.pivot);
+  connect(look, by_kind, !cut && coloring.hides_some());
+}
+
+std::vector<vec4> planes_around(const glm::dvec3& pivot, std::span<const ClipPlane> planes) {
+  std::vector<vec4> around;
+  for (const ClipPlane& plane : planes)
+    around.emplace_back(vec3(plane.normal), static_cast<float>(plane.offset - glm::dot(plane.normal, pivot)));
+  return around;
+}
 
 glm::ivec4 TileFootprints::of(const glm::vec4& bound) const { return Footprints{params_}.bound_footprint(bound); }
 

@@ -17,6 +17,9 @@
 
 namespace meniscus {
 
+struct ClipPlane;
+struct PictureObject;
+
 /// A picture's scene on the host.
 struct HostScene {
   RayCastScene packed;
@@ -25,6 +28,10 @@ struct HostScene {
   std::vector<float> marks;               ///< Coloring::line_marks(): whole numbers that a float holds exactly
   std::vector<std::uint8_t> keeps_color;  ///< of atoms, if there is a volume map
   LaneScene lanes;                        ///< all of this as the kernels read it, but for its view
+
+  /// Packs a surface or shapes, with `placement` but for its probe, and connects them. What a plane cuts is packed as a
+  /// whole, hidden atoms too.
+  void pack(const PictureObject& object, const PictureFrame& frame, const Look& look);
 
   /// What a volume map colours of atoms that follow those of before. For connect().
   void add_paint(const Coloring& coloring, const glm::dvec3& pivot) {
@@ -46,6 +53,9 @@ struct HostScene {
     lanes.params = cast_parameters(placement, look, atom_count, color_by_kind);
   }
 };
+
+/// Returns planes relative to a pivot: kept is where dot(xyz, x) < w.
+std::vector<glm::vec4> planes_around(const glm::dvec3& pivot, std::span<const ClipPlane> planes);
 
 /// Tiles that a bound may touch: columns from x to before y, rows from z to before w.
 class TileFootprints {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Casts opaque layers first, which limit how far rays see the others; then sorts and composites all layers. Then sorts
-// and puts together.
+// Casts opaque layers first, which limit how far rays see the others; then sorts and composites all layers.
 #include "core/render/cpu/layered_scene.h"
 
 #include <algorithm>
@@ -12,10 +11,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/base/stage_clock.h"
 #include "core/color/color_maps.h"
 #include "core/image/color_space.h"
-#include "core/render/linear_colors.h"
-#include "core/render/shape_packing.h"
 
 namespace meniscus {
 namespace {
@@ -100,50 +98,35 @@ float hatched(const glm::dvec3& point, const glm::dvec3& normal, double distance
 
 LayeredScene::LayeredScene(std::span<const PictureObject> objects, const PictureFrame& frame,
                            const ScenePlacement& placement, const Look& look)
-    : frame_(frame),
-      casts_highlights_(
-          std::ranges::any_of(objects, [](const PictureObject& object) { return !object.material.empty(); })) {
+    : frame_(frame) {
   layers_.reserve(objects.size());
+  content_.several_objects = objects.size() > 1;
+  // The finish knows one material alone.
+  content_.highlights = std::ranges::any_of(objects, [](const PictureObject& o) { return !o.material.empty(); });
   for (const bool translucent : {false, true})
     for (const PictureObject& object : objects)
       if (is_translucent(object) == translucent) {
         Layer& layer = layers_.emplace_back();
         layer.object = &object;
+        layer.surface = object.surface;
         layer.number = static_cast<std::uint32_t>(&object - objects.data());
         layer.translucent = translucent;
         pack(layer, placement, look);
-        has_marks_ = has_marks_ || !layer.scene.marks.empty();
+        content_.marks = content_.marks || !layer.scene.marks.empty();
+        content_.shows_through = translucent;
       }
 }
 
 void LayeredScene::pack(Layer& layer, const ScenePlacement& placement, const Look& look) const {
   const PictureObject& object = *layer.object;
-  const Coloring& coloring = *object.coloring;
-  const bool cut = !object.clip.empty();
-  layer.scene.placement = placement;
-  const Coloring shows_all;
-  if (object.surface) {
-    layer.scene.placement.probe_radius = object.surface->probe_radius;
-    pack_scene(*object.surface, cut ? shows_all : coloring, frame_, layer.scene.packed);
-    layer.scene.packed.slack = placement.slack;
-  } else {
-    pack_shapes(*object.shapes, coloring, frame_, placement.slack, layer.scene.packed);
-  }
-  layer.scene.colors = linear_colors(coloring);
-  const std::vector<std::uint32_t> marks = coloring.line_marks();
-  layer.scene.marks.assign(marks.begin(), marks.end());
-  if (object.surface) layer.scene.add_paint(coloring, frame_.pivot);
-  const bool by_kind = object.surface && coloring.kind;
-  if (!by_kind) layer.scene.colors.resize(coloring.atom.size());
   Look own = look;
   own.material = object.material.over(look.material);
-  layer.scene.connect(own, by_kind, !cut && coloring.hides_some());
+  layer.scene.placement = placement;
+  layer.scene.pack(object, frame_, own);
   // What is seen through is not finished.
-  if (layer.translucent || casts_highlights_) layer.scene.lanes.params.specular = own.material.specular;
-  for (const ClipPlane& plane : object.clip)
-    layer.planes.emplace_back(glm::vec3(plane.normal),
-                              static_cast<float>(plane.offset - glm::dot(plane.normal, frame_.pivot)));
-  if (!object.surface || !cut) return;
+  if (layer.translucent || content_.highlights) layer.scene.lanes.params.specular = own.material.specular;
+  layer.planes = planes_around(frame_.pivot, object.clip);
+  if (!object.surface || object.clip.empty()) return;
   // A point of the solid lies in the ball of some atom, grown by the probe.
   double largest = 0.0;
   for (const Ball& ball : object.surface->atoms) largest = std::max(largest, ball.radius);
@@ -151,18 +134,34 @@ void LayeredScene::pack(Layer& layer, const ScenePlacement& placement, const Loo
   layer.atoms.emplace(object.surface->atoms, layer.farthest_atom);
 }
 
-HitSource LayeredScene::source(std::size_t object) const {
-  const auto layer = std::ranges::find(layers_, object, &Layer::number);
-  return {layer->object->surface, layer->scene.packed.primitives};
+HitSource LayeredScene::source_of(const ray_cast::Hit& hit) const {
+  const auto layer = std::ranges::find(layers_, hit.object, &Layer::number);
+  return {layer->surface, layer->scene.packed.primitives};
 }
 
-void LayeredScene::begin_block(const PictureFrame& frame, const PictureBlock& block) {
-  frame_ = frame;
-  block_ = block;
+HitNames LayeredScene::names_of(const ray_cast::Hit& hit, const glm::dvec3& point) const {
+  return meniscus::names_of(source_of(hit), hit, point);
+}
+
+PickedPoint LayeredScene::picked(const ray_cast::Hit& hit) const {
+  PickedPoint point;
+  point.atom = hit.atom;
+  point.object = hit.object;
+  const HitSource source = source_of(hit);
+  if (hit.primitive != kOnPlane && source.surface)
+    point.kind = static_cast<PatchKind>(source.primitives[hit.primitive].kind);
+  return point;
+}
+
+void LayeredScene::begin_block(const SceneBlock& block, Interruption&, StageClock& clock) {
+  const auto stage = clock.stage("tile lists");
+  frame_ = block.frame;
+  block_ = block.block;
   for (Layer& layer : layers_) {
-    layer.lists.build(layer.scene.packed.primitives, frame_, block,
+    layer.lists.build(layer.scene.packed.primitives, frame_, block_,
                       entered_planes(layer.planes, layer.scene.placement.slack, frame_, block_));
-    layer.scene.lanes.view = block_view(frame_, block, glm::vec2(0.0f));
+    layer.scene.lanes.view = block_view(frame_, block_, glm::vec2(0.0f));
+    layer.scene.lanes.light = block.light;
   }
 }
 
@@ -171,8 +170,6 @@ void LayeredScene::cast_tile(std::size_t tile, LaneTile task, const LaneKernels&
   const bool is_empty = std::ranges::all_of(layers_, [&](Layer& layer) { return layer.lists.entries(tile).empty(); });
   if (is_empty && !task.front.color) return;
   Workplace& place = workplaces_.local();
-  const int number = static_cast<int>(tile), columns = tile_counts(block_).x;
-  task.origin = kTileEdge * glm::ivec2(number % columns, number / columns);
   place.hits.clear();
   place.farthest.assign(ray_count(task), kFar);
   place.clipped.resize(ray_count(task));

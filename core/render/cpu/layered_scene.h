@@ -16,41 +16,29 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include "core/math/ball_grid.h"
-#include "core/render/cpu/host_scene.h"
-#include "core/render/picture_block.h"
+#include "core/render/cpu/picture_scene.h"
 #include "core/render/picture_object.h"
 
 namespace meniscus {
 
 /// The objects of one picture, packed.
-class LayeredScene {
+class LayeredScene final : public PictureScene {
  public:
   /// placement: of all objects. What the objects point to must stay.
   LayeredScene(std::span<const PictureObject> objects, const PictureFrame& frame, const ScenePlacement& placement,
                const Look& look);
 
-  /// A block of a picture that is seen as that of the constructor, but may have other pixels.
-  void begin_block(const PictureFrame& frame, const PictureBlock& block);
-  /// light: of LaneScene::light, for every object.
-  void set_light(const LaneLight* light) {
-    for (Layer& layer : layers_) layer.scene.lanes.light = light;
-  }
-  bool has_marks() const { return has_marks_; }
-  /// Whether something may be seen through.
-  bool shows_through() const { return !layers_.empty() && layers_.back().translucent; }
-  /// Whether highlights are cast with everything else, for the finish knows one material alone.
-  bool casts_highlights() const { return casts_highlights_; }
+  void begin_block(const SceneBlock& block, Interruption& interruption, StageClock& clock) override;
+  void cast_tile(std::size_t tile, LaneTile task, const LaneKernels& kernels) override;
 
-  /// Casts a tile of the block: adds to task.sums, or writes task.samples and task.front, and task.hits. On several
-  /// threads at once.
-  void cast_tile(std::size_t tile, LaneTile task, const LaneKernels& kernels);
-
-  /// What the hits of an object mean.
-  HitSource source(std::size_t object) const;
+  SceneContent content() const override { return content_; }
+  HitNames names_of(const ray_cast::Hit& hit, const glm::dvec3& point) const override;
+  PickedPoint picked(const ray_cast::Hit& hit) const override;
 
  private:
   struct Layer {
     const PictureObject* object = nullptr;
+    const Surface* surface = nullptr;
     std::uint32_t number = 0;  // of the object
     bool translucent = false;
     HostScene scene;
@@ -88,6 +76,7 @@ class LayeredScene {
     Workplace& place;
   };
 
+  HitSource source_of(const ray_cast::Hit& hit) const;
   void pack(Layer& layer, const ScenePlacement& placement, const Look& look) const;
   void cast_layer(std::uint32_t number, std::size_t tile, const TileWork& work);
   void cut(std::uint32_t number, std::size_t first_hit, const TileWork& work) const;
@@ -114,7 +103,7 @@ class LayeredScene {
   PictureFrame frame_;
   PictureBlock block_;
   std::vector<Layer> layers_;  // opaque ones first
-  bool has_marks_ = false, casts_highlights_ = false;
+  SceneContent content_{.layers = true};
   tbb::enumerable_thread_specific<Workplace> workplaces_;
 };
 

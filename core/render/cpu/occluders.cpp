@@ -12,8 +12,6 @@
 #include <tbb/parallel_invoke.h>
 
 #include "core/queries/surface_object.h"
-#include "core/render/linear_colors.h"
-#include "core/render/shape_packing.h"
 
 namespace meniscus {
 namespace {
@@ -111,26 +109,14 @@ std::vector<glm::vec3> sky_directions(std::size_t first, std::size_t count) {
 LaneOccluder Occluders::pack(const PictureObject& object) {
   const Coloring& coloring = *object.coloring;
   const bool cut = !object.clip.empty();
-  const PictureFrame frame = seen_from_afar(pivot_);
   Packed& packed = packed_.emplace_back();
   HostScene& scene = packed.scene;
   scene.placement.slack = slack_;
-  const Coloring shows_all;
-  if (object.surface) {
-    scene.placement.probe_radius = object.surface->probe_radius;
-    pack_scene(*object.surface, cut ? shows_all : coloring, frame, scene.packed);
-  } else {
-    pack_shapes(*object.shapes, coloring, frame, slack_, scene.packed);
-  }
-  scene.colors = linear_colors(coloring);
-  const bool by_kind = object.surface && coloring.kind;
-  scene.connect(Look{}, by_kind, !cut && coloring.hides_some());
+  scene.pack(object, seen_from_afar(pivot_), Look{});
   scene.lanes.view.orthographic = 1;
   scene.lanes.view.eye_distance = 1e30f;  // rays begin anywhere
   TreeBuilder(scene.packed.primitives, 1e-3f + 4.0f * slack_, packed.boxes, packed.order);
-  for (const ClipPlane& plane : object.clip)
-    packed.planes.emplace_back(glm::vec3(plane.normal),
-                               static_cast<float>(plane.offset - glm::dot(plane.normal, pivot_)));
+  packed.planes = planes_around(pivot_, object.clip);
   return {.scene = scene.lanes,
           .boxes = packed.boxes.empty() ? nullptr : packed.boxes.data(),
           .order = packed.order.data(),
@@ -143,10 +129,7 @@ LaneOccluder Occluders::pack(const PictureObject& object) {
 void Occluders::add(const PictureObject& object) { occluders_.push_back(pack(object)); }
 
 void Occluders::add(const SurfaceObject& object) {
-  PictureObject whole;
-  whole.surface = &object.surface;
-  whole.coloring = &object.coloring;
-  LaneOccluder occluder = pack(whole);
+  LaneOccluder occluder = pack(whole_surface(object.surface, object.coloring)[0]);
   for (const RigidMotion& motion : object.copies) {
     // A point x of the picture, relative to the pivot, is rotation^T (x + pivot - translation) at home.
     const glm::dmat3 back = glm::transpose(motion.rotation);

@@ -18,6 +18,7 @@ namespace meniscus {
 /// from its plane). At first all are infinite.
 class RayDepths {
  public:
+  /// frame: as it is when a block begins; it must stay as long.
   explicit RayDepths(const PictureFrame& frame) : frame_(frame) {}
 
   void begin(const PictureBlock& block, int samples);

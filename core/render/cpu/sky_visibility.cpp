@@ -21,11 +21,8 @@ std::vector<float> sky_visibility(const Surface& surface, const SkyPoints& point
   for (const Ball& ball : surface.atoms) frame.pivot += ball.center / static_cast<double>(surface.atoms.size());
   Coloring grey;
   grey.atom.assign(surface.atoms.size(), glm::vec3(1.0f));
-  PictureObject whole;
-  whole.surface = &surface;
-  whole.coloring = &grey;
   Occluders occluders(frame.pivot, patch_slack(surface.atoms, surface.probe_radius, frame));
-  occluders.add(whole);
+  occluders.add(whole_surface(surface, grey)[0]);
   const std::vector<glm::vec3> usual = directions.empty() ? sky_directions(0, 2 * kSkyRays) : std::vector<glm::vec3>();
   if (directions.empty()) directions = usual;
   const LaneLight light = occluders.towards(directions);

@@ -16,12 +16,12 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
+#include "core/base/stage_clock.h"
 #include "core/math/box.h"
 #include "core/queries/copies.h"
+#include "core/render/cpu/interruption.h"
 #include "core/render/hit_point.h"
-#include "core/render/linear_colors.h"
 #include "core/render/ray_geometry.h"
-#include "core/render/shape_packing.h"
 
 namespace meniscus {
 namespace {
@@ -88,13 +88,15 @@ std::vector<BallGroup> ball_groups(std::span<const SurfaceObject> objects) {
 }
 
 VisibleCopies::VisibleCopies(std::span<const SurfaceObject> objects, const PictureFrame& frame,
-                             const ScenePlacement& placement, const LaneKernels& kernels, std::size_t patches_together)
+                             const ScenePlacement& placement, const Look& look, const LaneKernels& kernels,
+                             std::size_t patches_together)
     : objects_(objects),
-      frame_(frame),
       placement_(placement),
+      look_(look),
       kernels_(kernels),
       patches_together_(patches_together),
-      depths_(frame) {
+      frame_(frame),
+      depths_(frame_) {
   Copy next;
   for (std::uint32_t n = 0; n < objects.size(); ++n) add_copies(n, next);
   std::ranges::stable_sort(copies_, {}, &Copy::nearest);
@@ -173,10 +175,10 @@ bool VisibleCopies::hides_others(const Copy& copy) const {
   return homes_[copy.object].opaque && copy.nearest > 0.0f && depths_.may_show(copy.bound, copy.nearest);
 }
 
-void VisibleCopies::draw_atoms(const std::function<bool()>& stop) {
+void VisibleCopies::draw_atoms(Interruption& interruption) {
   constexpr std::size_t kTogether = 64;
   for (std::size_t first = 0; first < copies_.size(); first += kTogether) {
-    if (stop && stop()) return;
+    if (interruption.came()) return;
     std::vector<const Copy*> drawn;
     for (std::size_t n = first; n < std::min(first + kTogether, copies_.size()); ++n)
       if (hides_others(copies_[n])) drawn.push_back(&copies_[n]);
@@ -216,52 +218,67 @@ RayCastScene VisibleCopies::seen_part(const Copy& copy) const {
                       seen, frame_);
 }
 
-void VisibleCopies::add(const Copy& copy, RayCastScene part, HostScene& scene) {
+void VisibleCopies::add(const Copy& copy, RayCastScene part) {
   if (part.primitives.empty()) return;
   const Coloring& coloring = objects_[copy.object].coloring;
   const std::vector<glm::vec4>& colors = colors_[copy.object];
-  if (coloring.kind && !scene.colors.empty()) scene.colors.resize(scene.colors.size() - coloring.kind->size());
-  places_.push_back({copy.object, copy.copy, static_cast<std::uint32_t>(scene.colors.size())});
+  if (coloring.kind && !scene_.colors.empty()) scene_.colors.resize(scene_.colors.size() - coloring.kind->size());
+  places_.push_back({copy.object, copy.copy, static_cast<std::uint32_t>(scene_.colors.size())});
   placed_.push_back(&copy);
   shift_atoms(part, places_.back().first_atom);
-  scene.add_paint(coloring, frame_.pivot);
-  scene.colors.insert(scene.colors.end(), colors.begin(), colors.end());
+  scene_.add_paint(coloring, frame_.pivot);
+  scene_.colors.insert(scene_.colors.end(), colors.begin(), colors.end());
   for (const std::uint32_t mark : coloring.line_marks())
-    scene.marks.push_back(static_cast<float>(Coloring::kMarksOfPart * copy.first_part + mark));
+    scene_.marks.push_back(static_cast<float>(Coloring::kMarksOfPart * copy.first_part + mark));
   append_kept(
-      part, [](std::size_t) { return true; }, scene.packed);
+      part, [](std::size_t) { return true; }, scene_.packed);
 }
 
-void VisibleCopies::find(const PictureBlock& block, int samples, const Look& look, HostScene& scene,
-                         const std::function<bool()>& stop) {
-  block_ = block;
+void VisibleCopies::begin_block(const SceneBlock& block, Interruption& interruption, StageClock& clock) {
+  {
+    const auto stage = clock.stage("visible copies");
+    frame_ = block.frame;
+    block_ = block.block;
+    samples_ = block.samples;
+    find(interruption);
+  }
+  if (interruption.came()) return;
+  const auto stage = clock.stage("tile lists");
+  list_tiles(frame_, block_);
+  scene_.lanes.light = block.light;
+}
+
+void VisibleCopies::connect() {
+  scene_.connect(look_, !objects_.empty() && objects_.front().coloring.kind, some_hidden_);
+}
+
+/// Leaves the scene incomplete if the interruption comes.
+void VisibleCopies::find(Interruption& interruption) {
   moved_ = 0;
   places_.clear();
   placed_.clear();
-  depths_.begin(block, samples);
-  hits_.resize(static_cast<std::size_t>(block.size.x) * block.size.y);
-  scene = {};
-  scene.placement = placement_;
-  scene.packed.slack = placement_.slack;
-  const bool by_kind = !objects_.empty() && objects_.front().coloring.kind;
-  draw_atoms(stop);
+  depths_.begin(block_, samples_);
+  hits_.resize(static_cast<std::size_t>(block_.size.x) * block_.size.y);
+  scene_ = {};
+  scene_.placement = placement_;
+  scene_.packed.slack = placement_.slack;
+  draw_atoms(interruption);
   std::size_t first_new = 0;
   for (std::size_t next = 0; next < copies_.size();) {
     const std::vector<const Copy*> batch = next_batch(next);
     std::vector<RayCastScene> parts(batch.size());
     tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t n) {
-      if (!stop || !stop()) parts[n] = seen_part(*batch[n]);
+      if (!interruption.came()) parts[n] = seen_part(*batch[n]);
     });
-    if (stop && stop()) return;
-    for (std::size_t n = 0; n < batch.size(); ++n) add(*batch[n], std::exchange(parts[n], {}), scene);
+    if (interruption.came()) return;
+    for (std::size_t n = 0; n < batch.size(); ++n) add(*batch[n], std::exchange(parts[n], {}));
     moved_ += batch.size();
-    if (scene.packed.primitives.size() - first_new <= patches_together_ / 8) continue;
-    scene.connect(look, by_kind, some_hidden_);
-    scene.lanes.view = block_view(frame_, block, glm::vec2(0.0f));
-    cast_from(first_new, samples, scene);
-    first_new = scene.packed.primitives.size();
+    if (scene_.packed.primitives.size() - first_new <= patches_together_ / 8) continue;
+    connect();
+    cast_from(first_new);
+    first_new = scene_.packed.primitives.size();
   }
-  scene.connect(look, by_kind, some_hidden_);
+  connect();
 }
 
 std::uint32_t VisibleCopies::atom_of(const ray_cast::Hit& hit) const {
@@ -269,50 +286,55 @@ std::uint32_t VisibleCopies::atom_of(const ray_cast::Hit& hit) const {
   return placed_[n]->first_atom + (hit.atom - places_[n].first_atom);
 }
 
-HitNames VisibleCopies::names_of(const ray_cast::Hit& hit, const ray_cast::Primitive& primitive,
-                                 const glm::dvec3& point) const {
+HitNames VisibleCopies::names_of(const ray_cast::Hit& hit, const glm::dvec3& point) const {
   const std::size_t n = place_of(places_, hit.atom);
   const Copy& copy = *placed_[n];
   const SurfaceObject& object = objects_[copy.object];
   const RigidMotion& motion = object.copies[copy.copy];
   const glm::dvec3 at_home = glm::transpose(motion.rotation) * (point - motion.translation);
+  const ray_cast::Primitive& primitive = scene_.packed.primitives[hit.primitive];
   const std::uint32_t component =
       ComponentLookup(object.surface).at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, at_home);
   return {atom_of(hit), component == kNone ? kNone : copy.first_component + component, primitive.kind};
 }
 
+PickedPoint VisibleCopies::picked(const ray_cast::Hit& hit) const {
+  const CopyPlace& place = places_[place_of(places_, hit.atom)];
+  return {.atom = hit.atom - place.first_atom, .kind = kind_of(hit), .object = place.object, .copy = place.copy};
+}
+
 /// Casts tiles that list one of the new primitives, and leaves of the scene what rays may show.
-void VisibleCopies::cast_from(std::size_t first_new, int samples, HostScene& scene) {
-  lists_.build(scene.packed.primitives, frame_, block_);
-  shown_ = std::vector<std::atomic<std::uint8_t>>(scene.packed.primitives.size());
+void VisibleCopies::cast_from(std::size_t first_new) {
+  list_tiles(frame_, block_);
+  shown_ = std::vector<std::atomic<std::uint8_t>>(scene_.packed.primitives.size());
   const glm::ivec2 tiles = tile_counts(block_);
   tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(tiles.x) * tiles.y, [&](std::size_t tile) {
     const std::span<const std::uint32_t> entries = lists_.entries(tile);
     if (std::ranges::any_of(entries, [&](std::uint32_t entry) { return entry >= first_new; })) {
-      cast_tile(tile, samples, scene);
+      note_tile(tile);
     } else {  // nothing has changed here, and what was shown elsewhere may be shown here, too
       for (const std::uint32_t entry : entries) shown_[entry].store(1, std::memory_order_relaxed);
     }
   });
   depths_.gather();
   RayCastScene kept;
-  kept.slack = scene.packed.slack;
+  kept.slack = scene_.packed.slack;
   append_kept(
-      scene.packed, [&](std::size_t n) { return shown_[n].load(std::memory_order_relaxed) != 0; }, kept);
-  scene.packed = std::move(kept);
+      scene_.packed, [&](std::size_t n) { return shown_[n].load(std::memory_order_relaxed) != 0; }, kept);
+  scene_.packed = std::move(kept);
 }
 
-void VisibleCopies::cast_tile(std::size_t tile, int samples, const HostScene& scene) {
+/// Casts a tile, notes what its rays show, and limits how far they see.
+void VisibleCopies::note_tile(std::size_t tile) {
   LaneTile task;
-  const int number = static_cast<int>(tile);
-  task.origin = kTileEdge * glm::ivec2(number % lists_.tiles().x, number / lists_.tiles().x);
-  task.list = sorted_.local().sort(lists_.entries(tile), scene.packed.primitives);
+  task.origin = tile_origin(block_, tile);
+  task.list = list_of(tile);
   task.hits = hits_.data();
   std::array<double, kTileEdge * kTileEdge> farthest{};
-  for (int n = 0; n < samples; ++n) {
+  for (int n = 0; n < samples_; ++n) {
     task.offset[0] = sample_offset(n);
-    kernels_.cast_tile(scene.lanes, task);
-    note_hits(task, scene.lanes.view, farthest);
+    kernels_.cast_tile(scene_.lanes, task);
+    note_hits(task, scene_.lanes.view, farthest);
   }
   for (int y = 0; y < kTileEdge; ++y)
     for (int x = 0; x < kTileEdge; ++x) {

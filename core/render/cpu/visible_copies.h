@@ -10,18 +10,15 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include <glm/vec4.hpp>
-#include <tbb/enumerable_thread_specific.h>
 
 #include "core/math/geometry.h"
 #include "core/queries/surface_object.h"
-#include "core/render/cpu/host_scene.h"
+#include "core/render/cpu/picture_scene.h"
 #include "core/render/cpu/ray_depths.h"
-#include "core/render/picture_block.h"
 
 namespace meniscus {
 
@@ -38,32 +35,25 @@ struct CopyPlace {
 /// Which of them has the atom of a scene; they are by first_atom, and the first has 0.
 std::size_t place_of(std::span<const CopyPlace> places, std::uint32_t atom);
 
-class VisibleCopies {
+/// A scene of copies that holds what a block shows of them, and perhaps a little more.
+class VisibleCopies final : public OpaqueScene {
  public:
   /// Patches of the copies that are looked at together, unless one has more. An eighth of that is packed before it is
   /// cast.
   static constexpr std::size_t kPatchesTogether = std::size_t{1} << 21;
 
-  /// objects: of one probe radius, all coloured by kind, alike, or none; they and the kernels must live as long.
+  /// objects: of one probe radius, all coloured by kind, alike, or none; they must stay while the scene is cast.
   /// placement: of all copies.
   VisibleCopies(std::span<const SurfaceObject> objects, const PictureFrame& frame, const ScenePlacement& placement,
-                const LaneKernels& kernels, std::size_t patches_together = kPatchesTogether);
+                const Look& look, const LaneKernels& kernels, std::size_t patches_together = kPatchesTogether);
 
-  /// Puts into `scene` what the first `samples` samples of the block's pixels show, and perhaps a little more, and
-  /// connects it. stop: asked now and then, on all threads; if true, the scene is of no use.
-  void find(const PictureBlock& block, int samples, const Look& look, HostScene& scene,
-            const std::function<bool()>& stop = {});
+  void begin_block(const SceneBlock& block, Interruption& interruption, StageClock& clock) override;
+  /// Returns the names that the hit has in the tables of merged().
+  HitNames names_of(const ray_cast::Hit& hit, const glm::dvec3& point) const override;
+  std::uint32_t atom_of(const ray_cast::Hit& hit) const override;
+  PickedPoint picked(const ray_cast::Hit& hit) const override;
 
-  /// What a hit in the scene that the last find() made stands for, in the tables of merged(). point: Å.
-  HitNames names_of(const ray_cast::Hit& hit, const ray_cast::Primitive& primitive, const glm::dvec3& point) const;
-
-  /// Returns the atom of a hit.
-  std::uint32_t atom_of(const ray_cast::Hit& hit) const;
-
-  /// The copies in that scene, in its order.
-  const std::vector<CopyPlace>& places() const { return places_; }
-
-  /// Copies that the last find() looked at patch by patch.
+  /// Returns how many copies of the block were looked at patch by patch.
   std::size_t moved() const { return moved_; }
 
  private:
@@ -93,19 +83,21 @@ class VisibleCopies {
   geometry::SeenBound see(const Copy& copy, const geometry::PatchBound& at_home) const;
   bool may_show(const geometry::SeenBound& seen) const;
   bool hides_others(const Copy& copy) const;
-  void draw_atoms(const std::function<bool()>& stop);
+  void draw_atoms(Interruption& interruption);
   void add_copies(std::uint32_t object, Copy& next);
   std::size_t patch_count(const Copy& copy) const;
   std::vector<const Copy*> next_batch(std::size_t& next) const;
   RayCastScene seen_part(const Copy& copy) const;
-  void add(const Copy& copy, RayCastScene part, HostScene& scene);
-  void cast_from(std::size_t first_new, int samples, HostScene& scene);
-  void cast_tile(std::size_t tile, int samples, const HostScene& scene);
+  void add(const Copy& copy, RayCastScene part);
+  void find(Interruption& interruption);
+  void connect();
+  void cast_from(std::size_t first_new);
+  void note_tile(std::size_t tile);
   void note_hits(const LaneTile& tile, const kernel::BlockView& view, std::span<double> farthest);
 
   std::span<const SurfaceObject> objects_;
-  const PictureFrame& frame_;
   const ScenePlacement placement_;
+  const Look look_;
   const LaneKernels& kernels_;
   const std::size_t patches_together_;
   std::vector<std::vector<glm::vec4>> colors_;  // of objects
@@ -115,9 +107,9 @@ class VisibleCopies {
   std::size_t moved_ = 0;
 
   // Of the block at work.
+  PictureFrame frame_;  // of the picture or of its shade map
   PictureBlock block_;
-  CpuTileLists lists_;
-  tbb::enumerable_thread_specific<SortedList> sorted_;
+  int samples_ = 0;
   std::vector<ray_cast::Hit> hits_;  // of one sample
   RayDepths depths_;
   std::vector<std::atomic<std::uint8_t>> shown_;  // primitives that stay

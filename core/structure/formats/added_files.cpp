@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads added files, numbers their models, residues and atoms on, and superposes them.
+// Reads added files, continues the numbers of models, residues and atoms, and superposes the files.
 #include "core/structure/formats/added_files.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace meniscus {
 namespace {
 
-/// Of the first file, before it or another is added.
+/// The numbers of atoms, residues and models before a file is added.
 struct Ends {
   std::uint32_t atoms = 0, residues = 0;
   std::int32_t models = 0;
@@ -57,7 +57,7 @@ AddedFiles::AddedFiles(const std::string& path, std::span<const std::string> fil
     FileContents more = read(file, models, contents.radii, path);
     Part& part = parts_.emplace_back();
     const Ends ends(contents.atoms);
-    if (more.radii != contents.radii) contents.radii = FileRadii::none;  // not all have those of a force field
+    if (more.radii != contents.radii) contents.radii = FileRadii::none;  // not all files have radii of a force field
     part.begin = contents.atoms.size();
     part.end = part.begin + more.atoms.size();
     if (superpose_on) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Molecule files that are added to another, each as a further model of it, where they are or superposed on it.
+// Molecule files that are added to another file as further models, at their positions or superposed on it.
 #pragma once
 
 #include <cstddef>
@@ -15,26 +15,26 @@
 
 namespace meniscus {
 
-/// The atoms of further files, which come after those of the first one.
+/// The atoms of added files, which follow those of the first file.
 class AddedFiles {
  public:
-  /// Reads the files and appends their atoms and bonds to `contents`: the first model of each, or all of them if those
-  /// of the first file are, numbered on after the models that are there. superpose_on: atoms by which each file is
-  /// superposed on the first, with atoms of it that the same expression selects (corresponding_atoms); nothing: it
-  /// stays where it is. path: of the first file. Throws InputError: what the readers throw, files without positions,
-  /// files of which one has radii and the other has none, files without a chain that corresponds.
+  /// Reads the files and appends their atoms and bonds to `contents`. Of each file the first model is used, or all of
+  /// them if models.all is set. Their numbers continue those of the models before. superpose_on: the atoms by which
+  /// each file is superposed on the first, selected by this expression in both files (corresponding_atoms); none: the
+  /// file keeps its positions. path: the first file, for messages. Throws InputError as the readers do, and for files
+  /// without positions, files of which only some have radii, and files with no corresponding chain.
   AddedFiles(const std::string& path, std::span<const std::string> files, const ModelChoice& models,
              const std::optional<Selection>& superpose_on, FileContents& contents);
 
-  /// Superposes the files again, where those of the first have moved. atoms: as the constructor has left them, with
-  /// other positions. One each: what was added, with its fit.
+  /// Superposes the files again after atoms of the first file have moved. atoms: the atoms after the constructor, with
+  /// other positions. Returns one entry for each file, with its superposition.
   std::vector<AddedFile> place(std::vector<Atom>& atoms) const;
 
  private:
   struct Part {
     AddedFile file;
-    std::size_t begin = 0, end = 0;  ///< of its atoms
-    std::vector<AtomPair> pairs;     ///< empty: it stays where it is
+    std::size_t begin = 0, end = 0;  ///< range of its atoms
+    std::vector<AtomPair> pairs;     ///< pairs for the superposition; empty if the file keeps its positions
   };
 
   std::vector<Part> parts_;

@@ -26,15 +26,15 @@ namespace {
 
 using nlohmann::json;
 
-/// What the reader of mmCIF looks for.
+/// The categories that the reader of mmCIF needs.
 constexpr std::string_view kCategories =
     " _atom_site _chem_comp_atom _chem_comp_bond _exptl _ma_qa_metric _ma_qa_metric_local _entity _entity_poly "
     "_struct_conf _struct_sheet_range _pdbx_struct_assembly _pdbx_struct_oper_list _pdbx_struct_assembly_gen ";
 
-/// Molecules have at most four values and forty letters for a byte of their file.
+/// Limits of the unpacked size. Molecules have at most four values and forty letters per byte of their file.
 constexpr std::size_t kMostValuesPerByte = 64, kMostLettersPerByte = 256;
 
-/// nlohmann's parser calls itself for each level.
+/// Detects data that is nested too deep, because nlohmann's parser calls itself for each level.
 class DepthGuard final : public nlohmann::json_sax<json> {
  public:
   bool too_deep = false;
@@ -64,7 +64,7 @@ using Integers = std::vector<std::int64_t>;
 using Numbers = std::variant<Integers, std::vector<float>, std::vector<double>>;
 using Bytes = std::vector<std::uint8_t>;
 
-/// What is wrong with one column; the file's name is put before it.
+/// An error in one column. The name of the file is put before it.
 struct BadColumn {
   std::string what;
 };
@@ -74,7 +74,7 @@ template <typename... Arguments>
   throw BadColumn{fmt::format(words, std::forward<Arguments>(arguments)...)};
 }
 
-/// Hostile sums may leave 64 bits.
+/// Returns the sum of two integers. It wraps, because sums in a hostile file may overflow.
 std::int64_t sum(std::int64_t a, std::int64_t b) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
 }
@@ -121,7 +121,8 @@ Integers& integers_of(Numbers& numbers, std::string_view encoding) {
   refuse("has {} of numbers that are not whole", encoding);
 }
 
-/// Values below the largest of their bytes end a sum: 127, 127, 3 is 257.
+/// Decodes IntegerPacking. Values are sums that end with the first part that is not the limit of its bytes: 127, 127, 3
+/// is 257.
 Integers unpacked(const Integers& packed, const json& encoding) {
   const auto width = encoding.at("byteCount").get<int>();
   if (width != 1 && width != 2) refuse("is packed in {} bytes, not in 1 or 2", width);
@@ -139,7 +140,7 @@ Integers unpacked(const Integers& packed, const json& encoding) {
   return values;
 }
 
-/// Pairs of a value and how often it comes.
+/// Decodes RunLength: pairs of a value and the number of its repetitions. most: greatest number of values.
 Integers repeated(const Integers& pairs, std::size_t most) {
   Integers values;
   for (std::size_t n = 0; n + 1 < pairs.size(); n += 2) {
@@ -159,7 +160,7 @@ std::vector<double> doubles_of(const Integers& integers, Function&& value_of) {
   return values;
 }
 
-/// most: how many values there may be at any step.
+/// Decodes the bytes of a column. most: greatest number of values after any step.
 Numbers decoded(const Bytes& bytes, const json& encodings, std::size_t most) {
   Numbers numbers;
   bool begun = false;
@@ -280,7 +281,8 @@ class Decoder {
     return texts;
   }
 
-  /// Places in a list of distinct texts, which are one after the other in one text; below 0: none.
+  /// Decodes a column of texts. It consists of places in a list of distinct texts, which are joined into one text. A
+  /// place below 0 means that there is no text.
   std::vector<std::string> read_strings(const Bytes& bytes, const json& encoding, std::size_t rows) {
     Numbers decoded_places = decoded(bytes, encoding.at("dataEncoding"), rows);
     const Integers& places = integers_of(decoded_places, "places");
@@ -308,7 +310,7 @@ class Decoder {
   }
 
   const TextFile& file_;
-  std::size_t values_ = 0, letters_ = 0;  ///< of all tables
+  std::size_t values_ = 0, letters_ = 0;  ///< of all tables together
 };
 
 }  // namespace
@@ -317,7 +319,7 @@ gemmi::cif::Document read_binary_cif(const TextFile& file) {
   try {
     return Decoder(file).run();
   } catch (const json::exception& error) {
-    // "[json.exception.parse_error.110] parse error at byte 7: ..."
+    // The text of the exception is "[json.exception.parse_error.110] parse error at byte 7: ...".
     std::string what = error.what();
     what.erase(0, what.starts_with('[') ? std::min(what.size(), what.find("] ") + 2) : 0);
     throw InputError(file.path, 0,

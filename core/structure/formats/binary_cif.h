@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// BinaryCIF: the columns of a CIF file as arrays of bytes, in MessagePack.
+// BinaryCIF: a CIF file whose columns are stored as arrays of bytes in MessagePack.
 #pragma once
 
 #include <gemmi/cifdoc.hpp>
@@ -8,9 +8,9 @@
 
 namespace meniscus {
 
-/// The tables of atoms, entities, secondary structure and assemblies, as parse_cif gives them. Throws InputError where
-/// the bytes (TextFile::text) are no BinaryCIF or unpack to far more than a molecule of their size, or where this build
-/// reads none.
+/// Returns the tables of atoms, entities, secondary structure and assemblies, in the form of parse_cif. Throws
+/// InputError if the bytes (TextFile::text) are not BinaryCIF, if they unpack to far more than a molecule of their
+/// size, or if this build cannot read BinaryCIF.
 gemmi::cif::Document read_binary_cif(const TextFile& file);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parses CIF; the only file that includes gemmi's grammar, which takes long to compile.
+// Parses CIF. This is the only file that includes gemmi's grammar, which takes long to compile.
 #include "core/structure/formats/cif_document.h"
 
 #include <algorithm>
@@ -18,7 +18,8 @@
 namespace meniscus {
 namespace {
 
-/// gemmi's parser says "name:line:column(byte): what"; we pass "cif" as the name.
+/// Throws InputError for an error of gemmi's parser, whose text is "name:line:column(byte): what". The name passed to
+/// it is "cif".
 [[noreturn]] void rethrow_parse_error(const TextFile& file, const std::string& message) {
   std::size_t line = 0;
   std::string what = message;
@@ -31,14 +32,15 @@ namespace {
 
 constexpr std::size_t kRowsAtOnce = 4096;
 
+// A document whose rows of _atom_site are passed on while they are parsed.
 struct StreamedDocument : gemmi::cif::Document {
   const TakeAtomRows* take = nullptr;
-  bool in_atoms = false;      // of the loop that is read
-  std::size_t row_count = 0;  // of it, handed over
+  bool in_atoms = false;      // true while the loop of atoms is read
+  std::size_t row_count = 0;  // rows of this loop that were passed on
 
   gemmi::cif::Loop& loop() { return items_->back().loop; }
 
-  // The table may also be in a save frame, where nobody looks for atoms.
+  // The table may also be in a save frame, in which atoms are ignored.
   void begin_values() { in_atoms = items_ == &blocks.back().items && loop().tags.front().starts_with("_atom_site."); }
 
   void hand_over() {
@@ -50,7 +52,7 @@ struct StreamedDocument : gemmi::cif::Document {
   }
 };
 
-// gemmi's actions, and what is done besides.
+// The actions of gemmi's grammar, with those of two rules extended.
 template <typename Rule>
 struct StreamAction : gemmi::cif::Action<Rule> {};
 
@@ -85,7 +87,8 @@ gemmi::cif::Document stream(const TextFile& file, const TakeAtomRows& take) {
   return document;
 }
 
-// What was not handed over while it was read: of BinaryCIF, and of tables with a single atom, without a loop.
+// Passes on the rows that were not passed on while parsing: those of BinaryCIF, and a table with a single atom, which
+// is not a loop.
 gemmi::cif::Document hand_over_rest(gemmi::cif::Document document, const TakeAtomRows& take) {
   for (gemmi::cif::Block& block : document.blocks)
     if (block.find("_atom_site.", {"Cartn_x"}).length() > 0) take(block, 0);
@@ -96,7 +99,7 @@ gemmi::cif::Document hand_over_rest(gemmi::cif::Document document, const TakeAto
 
 bool is_binary_cif(std::string_view bytes) {
   const auto byte = [&](std::size_t n) { return n < bytes.size() ? static_cast<unsigned char>(bytes[n]) : 0u; };
-  // A map of up to 15, 2^16 or 2^32 keys, then the length of the first one.
+  // The file begins with a map of up to 15, 2^16 or 2^32 keys, and the length of the first key follows.
   const std::size_t key = (byte(0) & 0xf0u) == 0x80u ? 1 : byte(0) == 0xdeu ? 3 : byte(0) == 0xdfu ? 5 : 0;
   if (key == 0 || bytes.size() < key) return false;
   const std::string_view rest = bytes.substr(key, 16);
@@ -112,7 +115,7 @@ gemmi::cif::Document parse_cif(const TextFile& file, const TakeAtomRows& take) {
   try {
     return hand_over_rest(stream(file, take), take);
   } catch (const std::bad_alloc&) {
-    throw;  // the machine's fault, not the file's
+    throw;  // running out of memory is no error of the file
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parses CIF with gemmi, or decodes BinaryCIF, at this one place.
+// Parses CIF with gemmi, or decodes BinaryCIF.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@
 
 namespace meniscus {
 
-/// By the first bytes: a map of MessagePack whose first key is one of BinaryCIF's.
+/// True if the first bytes are a map of MessagePack whose first key is one of BinaryCIF.
 bool is_binary_cif(std::string_view bytes);
 
-/// Takes some thousand rows of _atom_site, which the block has at that moment; `first`: how many of the table came
-/// before. What follows the table in the file is not known yet.
+/// A function that receives some thousand rows of _atom_site, which the block has during the call. first: number of
+/// rows before these. Tables that follow in the file are not in the block yet.
 using TakeAtomRows = std::function<void(gemmi::cif::Block& block, std::size_t first)>;
 
-/// Parses the whole file once; of BinaryCIF, what readers look for (binary_cif.h). Rows of _atom_site are handed over
-/// as they are read and not kept, for all of them as text take three times the memory of all atoms; the table without
-/// rows stays. Throws InputError with the line where it is not CIF, and what `take` throws.
+/// Parses the whole file once. Of BinaryCIF only the tables of binary_cif.h are read. Rows of _atom_site are passed to
+/// `take` while they are read and are not kept, because all rows as text take three times the memory of all atoms. The
+/// table without rows stays in the document. Throws InputError with the line of a syntax error, and what `take` throws.
 gemmi::cif::Document parse_cif(const TextFile& file, const TakeAtomRows& take);
 
 }  // namespace meniscus

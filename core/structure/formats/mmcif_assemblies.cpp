@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the assemblies of an mmCIF file: which chains (label_asym_id) are under which products of operators.
+// Reads the assemblies of an mmCIF file, which apply products of operators to chains (label_asym_id).
 #include <cmath>
 #include <map>
 
@@ -54,7 +54,8 @@ const RigidMotion& operator_named(const std::string& name, const std::map<std::s
       fmt::format("an assembly asks for operator {}, which _pdbx_struct_oper_list does not hold", in_quotes(name)));
 }
 
-/// All products of an expression, those of the last factor side by side. They share what they have in common.
+/// Returns all products of an expression. Products that differ only in the last factor follow each other. Common
+/// factors are multiplied once.
 std::vector<RigidMotion> products_of(std::string_view expression, const std::map<std::string, RigidMotion>& operators,
                                      const std::string& file) {
   std::vector<RigidMotion> products(1);

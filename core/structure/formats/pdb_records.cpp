@@ -26,7 +26,7 @@
 namespace meniscus {
 namespace {
 
-/// Columns from..to, counted from 1 as the format's description does.
+/// Returns the columns from..to, counted from 1 as in the description of the format.
 std::string_view columns(std::string_view line, std::size_t from, std::size_t to) {
   return line.size() < from ? std::string_view() : line.substr(from - 1, to + 1 - from);
 }
@@ -47,7 +47,7 @@ std::optional<std::int64_t> in_base(std::string_view text, int base) {
   return number;
 }
 
-/// Four characters: A000 to ZZZZ follow 9999, then a000 to zzzz.
+/// Parses a hybrid-36 number of four characters: A000 to ZZZZ follow 9999, then a000 to zzzz.
 std::optional<std::int64_t> hybrid_36(std::string_view field) {
   constexpr std::int64_t kCube = 36 * 36 * 36;
   if (field.size() != 4) return std::nullopt;
@@ -61,7 +61,7 @@ std::optional<std::int64_t> hybrid_36(std::string_view field) {
   return *number - 10 * kCube + 10000 + (lower ? 26 * kCube : 0);
 }
 
-/// Residue names of four letters (TIP3, POPC) reach into column 21, the first one of chain names of two letters.
+/// True if column 21 belongs to a residue name of four letters (TIP3, POPC) and not to a chain name of two letters.
 bool has_name_of_four(std::string_view line, char column_21, char column_22, const std::string& segment) {
   if (column_21 == ' ') return false;
   if (column_22 == ' ' || !segment.empty()) return true;
@@ -238,7 +238,7 @@ class Remark350 {
       first_line_ = lines_.number();
       serial_ = trimmed(line.substr(std::min<std::size_t>(line.size(), 19), 4));
     }
-    // Columns 24-33, 34-43, 44-53 and 54-68 hold the row.
+    // The row is in columns 24-33, 34-43, 44-53 and 54-68.
     constexpr std::size_t kBegin[] = {23, 33, 43, 53}, kLength[] = {10, 10, 10, 15};
     for (std::size_t n = 0; n < 4; ++n) {
       const std::string_view field = line.size() > kBegin[n] ? line.substr(kBegin[n], kLength[n]) : std::string_view();

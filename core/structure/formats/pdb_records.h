@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The records of PDB files: fixed columns of atoms, which PQR and PDBQT share, CONECT bonds, and assemblies of REMARK
-// 350.
+// The records of PDB files: fixed columns of atoms, which PQR and PDBQT share, and CONECT bonds.
 #pragma once
 
 #include <array>
@@ -15,48 +14,50 @@ namespace meniscus {
 
 struct Atom;
 
-/// True if the line is this record; letters of either case. Names shorter than six letters must be followed by a blank.
+/// True if the line is this record, in upper or lower case. Names of records with fewer than six letters must be
+/// followed by a blank.
 bool is_pdb_record(std::string_view line, std::string_view record);
 
-/// True for ATOM and HETATM.
+/// True if the line is ATOM or HETATM.
 bool is_pdb_atom(std::string_view line);
 
-/// Reads name, alternate location, residue name, chain (two letters too), segment and insertion code; the chain is the
-/// segment where it is blank. Columns missing at the end are blank.
+/// Reads name, alternate location, residue name, chain (of one or two letters), segment and insertion code. A blank
+/// chain is replaced by the segment. Columns missing at the end of the line are blank.
 void read_pdb_names(std::string_view line, Atom& atom);
 
-/// Reads "52" or, with an insertion code, "52A"; false for other texts.
+/// Parses "52" or, with an insertion code, "52A". False for any other text.
 bool parse_residue_number(std::string_view field, std::int32_t& number, char& insertion_code);
 
-/// Residue numbers in the four columns 23 to 26 (five, if a digit is in the place of the insertion code): decimal;
-/// hybrid-36 (A000 is 10,000; R. W. Grosse-Kunstleve); hexadecimal as VMD writes it above 9,999, which is distinguished
-/// from the others by continuing the count; stars, counted on from the residue before by names that come again.
+/// Reads residue numbers from the columns 23 to 26, or to 27 if the column of the insertion code has a digit. Numbers
+/// are decimal; hybrid-36 (A000 is 10,000; R. W. Grosse-Kunstleve); or hexadecimal as VMD writes them above 9,999,
+/// which are recognized because they continue the count. Instead of a number there may be asterisks. Residues with
+/// asterisks are counted, and a new residue begins where names of atoms repeat.
 class PdbResidueNumbers {
  public:
-  /// Sets residue_number of an atom whose names are read; false if the columns hold no number.
+  /// Sets residue_number of an atom whose names were read. False if the columns have no number.
   bool read(std::string_view line, Atom& atom);
 
  private:
   std::int64_t count_on(const Atom& atom);
 
   std::int64_t last_ = 0;
-  std::vector<std::string> counted_names_;  ///< of the residue under stars
+  std::vector<std::string> counted_names_;  ///< names of atoms in the current residue with asterisks
   std::string counted_residue_;
 };
 
-/// Gathers serial numbers and records while a file is read; the text must outlive it. Serial numbers are compared as
-/// text, so every way of numbering beyond 99,999 works that gives each atom its own.
+/// Collects serial numbers and bond records while a file is read. The text of the file must outlive this object. Serial
+/// numbers are compared as text, so that every numbering beyond 99,999 with distinct numbers works.
 class PdbBonds {
  public:
-  /// The atom record of the next atom, in the order of Atom::index.
+  /// Adds the record of the next atom, in the order of Atom::index.
   void add_atom(std::string_view line);
-  /// A CONECT record.
+  /// Adds a CONECT record.
   void add_record(std::string_view line) { records_.push_back(line); }
-  /// Two serial numbers.
+  /// Adds a bond between two serial numbers.
   void add_pair(std::string_view first, std::string_view second) { pairs_.push_back({first, second}); }
 
-  /// Each bond once, lower atom first, ascending. Records that name no atom, or a number that several atoms bear, are
-  /// passed over.
+  /// Returns each bond once, the lower atom first, in ascending order. Records with the number of no atom or of several
+  /// atoms are ignored.
   std::vector<Bond> bonds() const;
 
  private:

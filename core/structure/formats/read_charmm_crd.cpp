@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads coordinate files of CHARMM (CARD), whose rows have fixed columns of two widths.
+// Reads coordinate files of CHARMM (CARD), which have fixed columns of two widths.
 #include <fmt/format.h>
 
 #include "core/base/error.h"
@@ -14,7 +14,7 @@
 namespace meniscus {
 namespace {
 
-/// Where the columns of a row begin, and how wide they are.
+/// The begins and widths of the columns of a row.
 struct CardColumns {
   std::size_t running, residue_name, name, name_width, x, width, segment, residue;
 
@@ -28,14 +28,14 @@ struct CardColumns {
 };
 constexpr CardColumns kStandard{6, 11, 16, 4, 20, 10, 51, 56}, kExtended{12, 22, 32, 8, 40, 20, 102, 112};
 
-constexpr double kNotPlaced = 9999.0;  // each coordinate of an atom that CHARMM does not know where to put
+constexpr double kNotPlaced = 9999.0;  // each coordinate of an atom that CHARMM could not place
 
-/// Standard rows end in column 70, before the coordinates of extended ones do.
+/// Returns the columns of a line. Standard rows end in column 70, which is before the coordinates of extended rows end.
 const CardColumns& columns_of(std::string_view line) {
   return line.size() < kExtended.x + 3 * kExtended.width ? kStandard : kExtended;
 }
 
-/// Goes to the line behind the titles, which begin with stars, and reads the number of atoms; "EXT" may follow it.
+/// Skips the titles, which begin with asterisks, and reads the number of atoms, which "EXT" may follow.
 bool read_count(LineReader& lines, std::int64_t& count) {
   bool titled = false;
   for (std::string_view line; lines.next(line); titled = true) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads GRO of GROMACS: fixed columns, nanometres, frames one after the other.
+// Reads GRO of GROMACS: fixed columns in nanometres, and one frame after another.
 #include <algorithm>
 #include <array>
 
@@ -17,9 +17,10 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kNamesEnd = 20;  // residue number and name, atom name and number: five columns each
+constexpr std::size_t kNamesEnd = 20;  // five columns each: residue number and name, atom name and number
 
-/// The columns of a coordinate: the distance of the first two points, whatever the number of decimals. 0: no such line.
+/// Returns the number of columns of a coordinate. It is the distance between the first two decimal points, whatever the
+/// number of decimals. Returns 0 if the line has no coordinates.
 std::size_t coordinate_width(std::string_view line) {
   const std::size_t first = line.find('.', std::min(line.size(), kNamesEnd));
   const std::size_t second = first == std::string_view::npos ? first : line.find('.', first + 1);
@@ -56,7 +57,8 @@ class GroReader {
 
  private:
   std::size_t read_title_and_count() {
-    // Names and numbers in 20 columns, three coordinates of at least two, the end of the line.
+    // The shortest line of an atom has names and numbers in 20 columns, three coordinates of two columns, and a line
+    // end.
     constexpr std::size_t kShortestLine = 27;
     std::string_view line;
     std::int64_t count = 0;
@@ -96,7 +98,7 @@ class GroReader {
     read_box(count);
   }
 
-  /// A surface needs no box, but without it the count is wrong, and then atoms would be missing.
+  /// Reads the box. A surface does not need it, but without a box the count is wrong, so that atoms would be missing.
   void read_box(std::size_t count) {
     std::string_view line;
     if (!lines_.next(line)) {
@@ -170,7 +172,7 @@ bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
     if (width == 0 || !parse_whole_number(line.substr(0, 5), residue)) return false;
     glm::dvec3& position = positions.emplace_back();
     for (int axis = 0; axis < 3; ++axis)
-      if (!parse_quickly(coordinate(line, width, axis), kAngstromPerNanometre, position[axis])) return false;
+      if (!try_parse_coordinate(coordinate(line, width, axis), kAngstromPerNanometre, position[axis])) return false;
   }
   return lines.next(line) && is_box_line(line);
 }

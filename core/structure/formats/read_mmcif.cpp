@@ -32,7 +32,7 @@ namespace {
 
 namespace cif = gemmi::cif;
 
-/// Columns of _atom_site, in the order AtomTable asks for them; '?' marks what may be missing.
+/// The columns of _atom_site in the order of kColumns, where '?' marks columns that may be missing.
 enum Column {
   kX,
   kY,
@@ -64,7 +64,8 @@ const std::vector<std::string> kColumns = column_names(
     "?label_asym_id ?auth_seq_id ?label_seq_id ?pdbx_PDB_ins_code ?label_alt_id ?occupancy ?B_iso_or_equiv "
     "?pdbx_PDB_model_num ?label_entity_id ?group_PDB");
 
-/// The line of a row of _atom_site; rows are one line each in all but hand-made files, otherwise the loop's first line.
+/// Returns the line of a row of _atom_site. In nearly all files a row is one line; otherwise the first line of the loop
+/// is returned.
 std::size_t line_of_row(const TextFile& file, const cif::Table& table, std::size_t row, const std::string& value) {
   if (!table.loop_item || table.loop_item->line_number < 0) return 0;  // BinaryCIF has no lines
   const auto loop_line = static_cast<std::size_t>(table.loop_item->line_number);
@@ -83,12 +84,12 @@ std::size_t line_of_row(const TextFile& file, const cif::Table& table, std::size
   return loop_line;
 }
 
-/// Strips the standard uncertainty of "1.234(5)".
+/// Returns a number such as "1.234(5)" without its standard uncertainty.
 std::string_view without_uncertainty(const std::string& value) {
   return std::string_view(value).substr(0, value.find('('));
 }
 
-/// Says why a file has no atoms.
+/// Throws InputError with the reason why a file has no atoms.
 [[noreturn]] void refuse_without_atoms(const TextFile& file, const cif::Document& document) {
   for (const cif::Block& block : document.blocks) {
     for (const char* tag : {"_atom_site_fract_x", "_atom_site.fract_x"}) {
@@ -102,13 +103,14 @@ std::string_view without_uncertainty(const std::string& value) {
   throw InputError(file.path, 0, "has no table _atom_site with Cartn_x, Cartn_y, Cartn_z: no atoms");
 }
 
-/// gemmi's as_char() throws a bare runtime_error for longer texts, which the dictionary allows.
+/// Returns the first letter of a value. gemmi's as_char() is not used, because it throws a bare runtime_error for
+/// longer texts, which the dictionary allows.
 char first_letter(const std::string& value) {
   const std::string text = cif::as_string(value);
   return text.empty() ? ' ' : text.front();
 }
 
-/// The number that the text begins with; 0 where it begins with none.
+/// Returns the number at the beginning of the text; 0 if there is none.
 std::int32_t residue_number(const TextFile& file, const cif::Table& table, std::size_t number_of_row,
                             const cif::Table::Row& row) {
   const std::string& value = row.one_of(kAuthSeq, kLabelSeq);
@@ -123,7 +125,7 @@ std::int32_t residue_number(const TextFile& file, const cif::Table& table, std::
   return number;
 }
 
-/// In single precision; missing where the text is not a number or beyond its range.
+/// Returns a number in single precision; NaN if the text is not a number or beyond the range.
 float kept_number(const std::string& value) {
   const double number = cif::as_number(value);
   const bool fits = std::abs(number) <= std::numeric_limits<float>::max();
@@ -156,7 +158,7 @@ Atom read_row(const TextFile& file, const cif::Table& table, std::size_t number_
   return atom;
 }
 
-/// What _entity says of each entity, or, where that is missing, _entity_poly of polymers.
+/// Returns the type of each entity from _entity or, if it is missing there, from _entity_poly.
 std::map<std::string, ResidueStatement> entities_of(cif::Document& document) {
   std::map<std::string, ResidueStatement> entities;
   for (cif::Block& block : document.blocks) {
@@ -169,7 +171,7 @@ std::map<std::string, ResidueStatement> entities_of(cif::Document& document) {
   return entities;
 }
 
-/// Helices of _struct_conf and strands of _struct_sheet_range, by the author's names.
+/// Returns the helices of _struct_conf and the strands of _struct_sheet_range, by the author's names.
 std::vector<SecondaryRange> secondary_ranges(cif::Document& document) {
   std::vector<SecondaryRange> ranges;
   const std::vector<std::string> columns{"beg_auth_asym_id",       "beg_auth_seq_id",        "end_auth_seq_id",
@@ -195,10 +197,10 @@ std::vector<SecondaryRange> secondary_ranges(cif::Document& document) {
   return ranges;
 }
 
-/// A residue of _ma_qa_metric_local: model, label_asym_id, label_seq_id.
+/// A residue of _ma_qa_metric_local by model, label_asym_id and label_seq_id.
 using LabelledResidue = std::array<std::string, 3>;
 
-/// pLDDT from 0 to 100 of ModelCIF, of the first metric of that type; empty where there is none.
+/// Returns pLDDT from 0 to 100 of ModelCIF, from the first metric of that type. The result is empty if there is none.
 std::map<LabelledResidue, float> confidences_of(cif::Document& document) {
   std::map<LabelledResidue, float> confidences;
   for (cif::Block& block : document.blocks) {
@@ -220,7 +222,7 @@ std::map<LabelledResidue, float> confidences_of(cif::Document& document) {
   return confidences;
 }
 
-/// As _exptl says; a predicted model is none.
+/// Returns the experimental method of _exptl. The result is empty for a predicted model.
 std::string experiment_of(cif::Document& document) {
   for (cif::Block& block : document.blocks)
     for (const auto row : block.find("_exptl.", {"method"}))
@@ -228,7 +230,7 @@ std::string experiment_of(cif::Document& document) {
   return {};
 }
 
-/// Numbers texts of which few differ, those of neighbouring rows as a rule not at all.
+/// Numbers texts, of which only a few are distinct and most are equal to the previous one.
 class TextNumbers {
  public:
   std::uint32_t number(const std::string& text) {
@@ -249,7 +251,8 @@ class TextNumbers {
   std::size_t last_ = 0;
 };
 
-/// The first of the three columns of coordinates that all rows of a component have, the model's if they are whole.
+/// Returns the first of the three sets of columns with coordinates that is complete for all atoms of a component. The
+/// coordinates of the model come first.
 std::size_t whole_coordinates(const TextFile& file, cif::Table& table, std::size_t begin, std::size_t end,
                               std::vector<Warning>& warnings) {
   const std::string name = in_quotes(table[begin].str(0));
@@ -268,7 +271,8 @@ std::size_t whole_coordinates(const TextFile& file, cif::Table& table, std::size
       fmt::format("component {} has neither model nor ideal coordinates of all of its {} atoms", name, end - begin));
 }
 
-/// The atoms of chemical components (_chem_comp_atom) as a table _atom_site, in which each is a model.
+/// Returns the atoms of chemical components (_chem_comp_atom) as a table _atom_site, in which each component is a
+/// model.
 cif::Block component_sites(const TextFile& file, const ModelChoice& choice, cif::Document& document,
                            std::vector<Warning>& warnings) {
   cif::Block sites("components");
@@ -294,12 +298,13 @@ cif::Block component_sites(const TextFile& file, const ModelChoice& choice, cif:
   return sites;
 }
 
-/// The atoms of a file. What other tables say of them may come later in the file, so it is added at the end.
+/// Collects the atoms of a file. Information in other tables may come later in the file, so that it is added at the
+/// end.
 class AtomRows {
  public:
   AtomRows(const TextFile& file, const ModelChoice& choice) : file_(file), choice_(choice) {}
 
-  /// Of the first block with atoms; others are counted.
+  /// Takes rows of the first block with atoms. Further blocks with atoms are only counted.
   void take(cif::Block& block, std::size_t first) {
     cif::Table table = block.find("_atom_site.", kColumns);
     if (!table.ok()) return;
@@ -343,10 +348,10 @@ class AtomRows {
     }
   }
 
-  /// What an atom is called in other tables.
+  /// The identifiers of an atom in other tables.
   struct Names {
     std::uint32_t entity, residue;
-    bool heteroatom, site;
+    bool is_heteroatom, is_site;
   };
 
   void take(const cif::Table& table, std::size_t number, const cif::Table::Row& row) {
@@ -382,8 +387,8 @@ class AtomRows {
     for (const Names& names : names_) {
       const auto statement = entities.find(texts_.text(names.entity));
       hints.push_back({.residue = statement == entities.end() ? ResidueStatement::none : statement->second,
-                       .heteroatom = names.heteroatom,
-                       .site = names.site});
+                       .is_heteroatom = names.is_heteroatom,
+                       .is_site = names.is_site});
     }
     return hints;
   }
@@ -393,7 +398,7 @@ class AtomRows {
   FileContents contents_;
   ResidueCounter residues_{contents_.atoms};
   TextNumbers models_, texts_, labels_;
-  std::vector<Names> names_;  // one an atom
+  std::vector<Names> names_;  // one for each atom
   WarningCollector without_symbol_;
   std::size_t blocks_ = 0;
   bool is_first_ = false;

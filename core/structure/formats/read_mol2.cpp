@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads MOL2 of Tripos (SYBYL): molecules with bonds, partial charges, and substructures, which are residues.
+// Reads MOL2 of Tripos (SYBYL): molecules with bonds, partial charges, and substructures, which become residues.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -31,22 +31,23 @@ constexpr std::string_view kMolecule = "@<TRIPOS>MOLECULE", kAtoms = "@<TRIPOS>A
 
 bool is_lower(char c) { return std::islower(static_cast<unsigned char>(c)) != 0; }
 
-/// Types of GAFF 1.81 and 2.2.20 and of Lipid21, whose first letter is the element but for cl and br, between blanks
-/// (docs/reference/input.md).
+/// Types of GAFF 1.81 and 2.2.20 and of Lipid21, separated by blanks. The first letter is the element, except in cl and
+/// br (docs/reference/input.md).
 constexpr std::string_view kSmallTypes =
     " c c1 c2 c3 c5 c6 ca cc cd ce cf cg ch cp cq cs cu cv cx cy cz h1 h2 h3 h4 h5 ha hc hn ho hp hs hw hx f cl br i n "
     "n+ n1 n2 n3 n4 n5 n6 n7 n8 n9 na nb nc nd ne nf nh ni nj nk nl nm nn no np nq ns nt nu nv nx ny nz o oh op oq os "
     "ow p2 p3 p4 p5 pb pc pd pe pf px py s s2 s4 s6 sh sp sq ss sx sy cA cB cC cD hA hB hE hL hN hO hX nA nN oC oH oO "
     "oP oS oT pA ";
-/// Types of GLYCAM06 that look like symbols of other elements; the first letter is the element.
+/// Types of GLYCAM06 that look like symbols of other elements. The first letter is the element.
 constexpr std::string_view kGlycamTypes = " Ck Cj Cp Cy Ha Hc Ho Hp Ng Oh Os Oy Sm ", kGlycamCarbon = "Cg";
 
 bool is_in(std::string_view types, std::string_view type) {
   return types.find(fmt::format(" {} ", type)) != std::string_view::npos;
 }
 
-/// SYBYL's types are the symbol, or begin with it: C.ar, N.am, Cl, Zn, Co.oh. 0: dummies (Du, LP, Any, Hal, Het, Hev),
-/// and types of other force fields (CT, HW, CA, opls_135), which do not say. glycam: the molecule has types of GLYCAM.
+/// Returns the element of a type. SYBYL's types are the symbol or begin with it: C.ar, N.am, Cl, Zn, Co.oh. Returns 0
+/// for dummies (Du, LP, Any, Hal, Het, Hev) and for types of other force fields (CT, HW, CA, opls_135), which do not
+/// give the element. glycam: true if the molecule has types of GLYCAM.
 std::uint8_t element_of_type(std::string_view type, bool glycam) {
   if (type == "cl" || type == "br") return element_of_symbol(type);
   if (is_in(kSmallTypes, type) || (glycam && (is_in(kGlycamTypes, type) || type == kGlycamCarbon)))
@@ -56,7 +57,7 @@ std::uint8_t element_of_type(std::string_view type, bool glycam) {
   return stem.size() == 1 || (stem.size() == 2 && is_lower(stem[1])) ? element_of_symbol(stem) : std::uint8_t{0};
 }
 
-/// What is used of an atom when its molecule is complete.
+/// Data of an atom that is needed when its molecule is complete.
 struct Row {
   std::size_t line = 0;
   std::int64_t substructure = 1;
@@ -67,14 +68,14 @@ struct Substructure {
   std::string kind, chain;  ///< sub_type ("ALA") and chain
 };
 
-/// Blank fields are stars.
+/// Returns a field, or an empty text if it is missing or consists of asterisks, which mean a blank field.
 std::string text_of(const std::vector<std::string_view>& fields, std::size_t n) {
   return n < fields.size() && fields[n].find_first_not_of('*') != std::string_view::npos ? std::string(fields[n])
                                                                                          : std::string();
 }
 
-/// "ALA12" is residue 12, an ALA, where the substructure is known as an ALA or as the twelfth, or the name has three
-/// letters of no digit; but "G39" is a ligand of this name.
+/// Sets the residue's name and number. "ALA12" is residue 12, an ALA, if the substructure is known to be an ALA or
+/// number 12, or if the name begins with three letters. But "G39" is a ligand of this name.
 void name_residue(Atom& atom, const std::string& name, std::int64_t substructure, const std::string& kind) {
   const std::size_t digits = name.find_last_not_of("0123456789") + 1;
   const std::string stem = name.substr(0, digits);
@@ -84,7 +85,7 @@ void name_residue(Atom& atom, const std::string& name, std::int64_t substructure
       stem.size() >= 3 && std::ranges::all_of(stem, [](unsigned char c) { return std::isalpha(c) != 0; });
   const bool divided = ends_in_number && !stem.empty() && (stem == kind || three_letters || number == substructure);
   atom.residue_name = divided ? stem : name;
-  // SYBYL's name for a substructure without one.
+  // Names beginning with '<' are written by SYBYL for substructures without a name.
   if (atom.residue_name.empty() || atom.residue_name.starts_with('<')) atom.residue_name = "UNL";
   atom.residue_number = static_cast<std::int32_t>(divided ? number : substructure);
 }
@@ -122,7 +123,7 @@ class Mol2Reader {
   }
 
  private:
-  /// The fields of the next line of this section; false at its end. Comments and blank lines are passed over.
+  /// Reads the fields of the next line of this section; false at its end. Comments and blank lines are skipped.
   bool next(std::vector<std::string_view>& fields) {
     const LineReader before = lines_;
     std::string_view line;
@@ -144,11 +145,11 @@ class Mol2Reader {
     return false;
   }
 
-  /// Name, counts, kind and charges, a line each.
+  /// Reads the header of a molecule, with one line each for name, counts, kind and charges.
   void begin_molecule() {
     std::string_view line;
     ++contents_.models;
-    wanted_ = choice_.takes(static_cast<std::int32_t>(contents_.models));
+    is_wanted_ = choice_.takes(static_cast<std::int32_t>(contents_.models));
     first_ = contents_.atoms.size();
     seen_ = counted_ = 0;
     places_.clear();
@@ -161,7 +162,7 @@ class Mol2Reader {
     counted_bonds_ = -1;
     if (fields.size() > 1) parse_whole_number(fields[1], counted_bonds_);
     const bool kind = next(fields);
-    no_charges_ = kind && next(fields) && fields[0] == "NO_CHARGES";
+    has_no_charges_ = kind && next(fields) && fields[0] == "NO_CHARGES";
   }
 
   void read_atoms() {
@@ -172,7 +173,7 @@ class Mol2Reader {
         throw InputError(file_.path, lines_.number(),
                          fmt::format("{} is one atom more than line {} says; correct the count", in_quotes(line_),
                                      molecule_line_ + 2));
-      if (!wanted_) {
+      if (!is_wanted_) {
         ++contents_.other_model_atoms;
       } else {
         take_atom(fields);
@@ -180,7 +181,7 @@ class Mol2Reader {
     }
   }
 
-  /// id name x y z type [substructure its_name charge status]
+  /// Reads "id name x y z type [substructure its_name charge status]".
   void take_atom(const std::vector<std::string_view>& fields) {
     std::int64_t id = 0, substructure = 1;
     if (fields.size() < 6 || !parse_whole_number(fields[0], id))
@@ -211,11 +212,11 @@ class Mol2Reader {
     rows_.push_back({lines_.number(), substructure, text_of(fields, 7), std::string(fields[5])});
   }
 
-  /// id from to kind; "nc": not connected.
+  /// Reads lines of "id from to kind". The kind "nc" means that the atoms are not connected.
   void read_bonds() {
     std::int64_t bonds = 0;
     for (std::vector<std::string_view> fields; next(fields); ++bonds) {
-      if (!wanted_) continue;
+      if (!is_wanted_) continue;
       if (fields.size() < 4)
         throw InputError(file_.path, lines_.number(),
                          fmt::format("{} is not a bond: id, two atoms and a kind", in_quotes(line_)));
@@ -231,13 +232,13 @@ class Mol2Reader {
       }
       if (fields[3] != "nc") contents_.bonds.push_back({std::min(bond[0], bond[1]), std::max(bond[0], bond[1])});
     }
-    if (wanted_ && counted_bonds_ >= 0 && bonds < counted_bonds_)
+    if (is_wanted_ && counted_bonds_ >= 0 && bonds < counted_bonds_)
       throw InputError(
           file_.path, molecule_line_ + 2,
           fmt::format("the count says {} bonds, but {} follow; is the file cut short?", counted_bonds_, bonds));
   }
 
-  /// id name root [kind dictionary chain sub_type ...]
+  /// Reads lines of "id name root [kind dictionary chain sub_type ...]".
   void read_substructures() {
     for (std::vector<std::string_view> fields; next(fields);) {
       std::int64_t id = 0;
@@ -254,7 +255,8 @@ class Mol2Reader {
                             std::make_move_iterator(contents_.atoms.end()));
     contents_.atoms.resize(first_);
     residues_.end_piece();
-    const bool uncharged = no_charges_ && std::ranges::all_of(atoms, [](const Atom& a) { return !(a.charge != 0.0F); });
+    const bool uncharged =
+        has_no_charges_ && std::ranges::all_of(atoms, [](const Atom& a) { return !(a.charge != 0.0F); });
     const bool glycam = std::ranges::any_of(rows_, [](const Row& row) { return row.type == kGlycamCarbon; });
     for (std::size_t n = 0; n < atoms.size(); ++n) {
       const auto& [line, id, name, type] = rows_[n];
@@ -262,9 +264,10 @@ class Mol2Reader {
       name_residue(atoms[n], name, id, substructure.kind);
       atoms[n].element = element_of_type(type, glycam);
       if (atoms[n].element == 0 && type != "LP") force_field_.add(line, type);
-      // UNK is a molecule that nobody named, more often than an amino acid.
+      // UNK is more often a molecule without a name than an unknown amino acid.
       const bool unnamed = atoms[n].residue_name == "UNK";
-      hints_.push_back({.residue = unnamed ? ResidueStatement::other : ResidueStatement::none, .site = type == "LP"});
+      hints_.push_back(
+          {.residue = unnamed ? ResidueStatement::other : ResidueStatement::none, .is_site = type == "LP"});
       atoms[n].chain = atoms[n].subchain = substructure.chain;
       if (uncharged) atoms[n].charge = std::numeric_limits<float>::quiet_NaN();
       residues_.number(atoms[n]);
@@ -281,14 +284,14 @@ class Mol2Reader {
   LineReader lines_;
   FileContents contents_;
   ResidueCounter residues_{contents_.atoms};
-  std::string line_;  ///< what the fields are of
-  bool wanted_ = false, no_charges_ = false;
-  std::size_t first_ = 0, seen_ = 0,
-              molecule_line_ = 0;                  ///< atom of this molecule in the contents, its atoms, its line
-  std::int64_t counted_ = 0, counted_bonds_ = -1;  ///< what it says; -1: nothing
-  std::unordered_map<std::int64_t, std::uint32_t> places_;  ///< of its ids, in the contents
+  std::string line_;  ///< the line whose fields next() returned
+  bool is_wanted_ = false, has_no_charges_ = false;
+  /// First atom of this molecule in the contents, number of its atoms, its line.
+  std::size_t first_ = 0, seen_ = 0, molecule_line_ = 0;
+  std::int64_t counted_ = 0, counted_bonds_ = -1;           ///< numbers in its header; -1: none
+  std::unordered_map<std::int64_t, std::uint32_t> places_;  ///< by the id of an atom its place in the contents
   std::map<std::int64_t, Substructure> substructures_;
-  std::vector<Row> rows_;  ///< of the atoms of this molecule
+  std::vector<Row> rows_;  ///< one for each atom of this molecule
   std::vector<AtomHints> hints_;
   WarningCollector force_field_, columns_;
 };

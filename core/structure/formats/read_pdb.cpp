@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads PDB: its columns strictly where a surface needs them, leniently elsewhere. No library does both and keeps the
+// Reads PDB: strictly in the columns that a surface needs, leniently elsewhere. No library does both and keeps the
 // order of the file and residues whose numbers wrap.
 #include "core/structure/formats/read_pdb.h"
 
@@ -30,13 +30,14 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kCoordinatesEnd = 54, kBehind = 66;  // the columns end
+constexpr std::size_t kCoordinatesEnd = 54, kTrailingColumns = 66;  // ends of columns
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-/// What the place of the name in its columns 13 to 16 suggests: elements of one letter begin in column 14 (gemmi skips
-/// the blank), but hydrogens of long names (HG11, 1HB) in 13. A small letter ("Cl1") is the second of the symbol.
+/// Returns the element by the position of the name in columns 13 to 16. Elements of one letter begin in column 14
+/// (gemmi ignores the blank), but hydrogens with long names (HG11, 1HB) in column 13. A lower-case letter ("Cl1") is
+/// the second letter of the symbol.
 gemmi::Element element_by_place(std::string_view name) {
   const char letters[3] = {name[0], name[1], '\0'};
   const char first[2] = {name[0], '\0'};
@@ -48,8 +49,8 @@ gemmi::Element element_by_place(std::string_view name) {
 
 class PdbReader {
  public:
-  PdbReader(const TextFile& file, const ModelChoice& models, ColumnsBehind behind)
-      : file_(file), choice_(models), behind_(behind) {}
+  PdbReader(const TextFile& file, const ModelChoice& models, TrailingColumns read_trailing)
+      : file_(file), choice_(models), read_trailing_(read_trailing) {}
 
   FileContents run() {
     LineReader lines(file_.text);
@@ -81,22 +82,22 @@ class PdbReader {
     if (is_pdb_atom(line)) {
       take_atom(line, number);
     } else if (is_pdb_record(line, "TER")) {
-      if (open_ && wanted() && !contents_.atoms.empty()) ended_chains_.insert(contents_.atoms.back().chain);
+      if (is_open_ && wanted() && !contents_.atoms.empty()) ended_chains_.insert(contents_.atoms.back().chain);
       residues_.end_piece();
     } else if (is_pdb_record(line, "MODEL")) {
-      if (open_) ++unmarked_models_;
+      if (is_open_) ++unmarked_models_;
       close_model();
       in_model_record_ = true;
     } else if (is_pdb_record(line, "ENDMDL")) {
       close_model();
       in_model_record_ = false;
     } else if (is_pdb_record(line, "END")) {
-      ended_ = true;
+      has_ended_ = true;
     } else if (is_pdb_record(line, "CONECT")) {
       bonds_.add_record(line);
     } else if (is_pdb_record(line, "EXPDTA")) {
       take_experiment(line);
-    } else if (behind_ && is_pdb_record(line, "BRANCH")) {
+    } else if (read_trailing_ && is_pdb_record(line, "BRANCH")) {
       take_branch(line);
     } else if (is_pdb_record(line, "HELIX")) {
       take_range(line, SecondaryStructure::helix, 19, 31);
@@ -105,14 +106,15 @@ class PdbReader {
     }
   }
 
-  /// From column 11 on; a predicted model is none.
+  /// Reads the experimental method from column 11 on. Predicted models have none.
   void take_experiment(std::string_view line) {
     if (line.size() <= 10 || line.find("MODEL") != std::string_view::npos || !contents_.experiment.empty()) return;
     contents_.experiment = std::string(trimmed(line.substr(10)));
   }
 
-  /// chain, number and insertion code of the first residue and of the last are in columns from these on, but for a
-  /// blank between chain and number in HELIX. Records that cannot be read are passed over: they colour nothing.
+  /// Reads a helix or strand. Chain, number and insertion code of the first and last residue begin at these columns. In
+  /// HELIX a blank separates chain and number. Records that cannot be read are ignored, because nothing but colours
+  /// depends on them.
   void take_range(std::string_view line, SecondaryStructure kind, std::size_t first, std::size_t last) {
     const std::size_t gap = kind == SecondaryStructure::helix ? 2 : 1;
     if (line.size() < last + gap + 4) return;
@@ -126,20 +128,20 @@ class PdbReader {
     if (residue(first, range.first) && residue(last, range.last)) secondary_.push_back(std::move(range));
   }
 
-  /// Atoms after END belong to a further model, as molecular dynamics programs write them.
+  /// Begins a model if none is open. Atoms after END belong to a new model, as molecular dynamics programs write them.
   void open_model() {
-    if (open_ && ended_ && !in_model_record_) {
+    if (is_open_ && has_ended_ && !in_model_record_) {
       ++unmarked_models_;
       close_model();
     }
-    ended_ = false;
-    if (open_) return;
+    has_ended_ = false;
+    if (is_open_) return;
     ++contents_.models;
-    open_ = true;
+    is_open_ = true;
   }
 
   void close_model() {
-    open_ = ended_ = false;
+    is_open_ = has_ended_ = false;
     ended_chains_.clear();
     residues_.end_piece();
   }
@@ -169,7 +171,7 @@ class PdbReader {
       refuse_shifted(line, number);
       throw;
     }
-    read_pdb_names(behind_ ? line.substr(0, kBehind) : line, atom);
+    read_pdb_names(read_trailing_ ? line.substr(0, kTrailingColumns) : line, atom);
     if (!residue_numbers_.read(line, atom)) number_.add(number, line.substr(22, 4));
     atom.occupancy = optional_number(line, 54, occupancy_, number);
     atom.b_factor = optional_number(line, 60, b_factor_, number);
@@ -179,7 +181,8 @@ class PdbReader {
     if (contents_.atoms.front().model == model()) bonds_.add_atom(line);
   }
 
-  /// Behind a number of more digits than its columns the points of all coordinates are further to the right.
+  /// Throws InputError if the decimal points of all coordinates are too far to the right, as after a number with more
+  /// digits than columns.
   void refuse_shifted(std::string_view line, std::size_t number) const {
     for (const std::size_t shift : {1, 2, 3})
       if (line.size() > 50 + shift && line[34 + shift] == '.' && line[42 + shift] == '.' && line[50 + shift] == '.')
@@ -198,25 +201,26 @@ class PdbReader {
     return std::numeric_limits<float>::quiet_NaN();
   }
 
-  /// TER marks what precedes it as polymer, yet some programs write one TER at the very end; so only HETATM behind a
-  /// TER of its chain is a statement, and where chains have no names, a TER may have ended another.
+  /// Takes the element. TER marks the residues before it as polymer, but some programs write a single TER at the very
+  /// end. Therefore only HETATM after a TER of the same chain is a statement. If chains have no names, that TER may
+  /// belong to another chain.
   void take_element(std::string_view line, std::size_t number, Atom& atom) {
     AtomHints& hints = hints_.emplace_back();
-    hints.heteroatom = is_pdb_record(line, "HETATM");
-    if (hints.heteroatom && !atom.chain.empty() && ended_chains_.contains(atom.chain))
+    hints.is_heteroatom = is_pdb_record(line, "HETATM");
+    if (hints.is_heteroatom && !atom.chain.empty() && ended_chains_.contains(atom.chain))
       hints.residue = ResidueStatement::other;
-    if (behind_) {
-      if (!behind_(file_, number, line, atom))
-        symbol_.add(number, line.substr(kBehind));
+    if (read_trailing_) {
+      if (!read_trailing_(file_, number, line, atom))
+        symbol_.add(number, line.substr(kTrailingColumns));
       else
-        hints.site = atom.element == 0;
+        hints.is_site = atom.element == 0;
       return;
     }
     const std::string symbol(line.substr(std::min<std::size_t>(line.size(), 76), 2));
     if (std::any_of(symbol.begin(), symbol.end(), is_letter)) {
       atom.element = static_cast<std::uint8_t>(gemmi::Element(symbol).atomic_number());
-      hints.site = is_site_symbol(trimmed(symbol));
-      if (atom.element == 0 && !hints.site) symbol_.add(number, symbol);
+      hints.is_site = is_site_symbol(trimmed(symbol));
+      if (atom.element == 0 && !hints.is_site) symbol_.add(number, symbol);
     } else {
       element_.add(number, line.substr(12, 14));
       hints.element = static_cast<std::uint8_t>(element_by_place(line.substr(12, 4)).atomic_number());
@@ -224,7 +228,7 @@ class PdbReader {
     }
   }
 
-  /// Counts names that begin in column 14, and short ones of elements of one letter that do not (C1, OAB, CAB), for
+  /// Counts names that begin in column 14, and short names of one-letter elements that do not (C1, OAB, CAB), because
   /// some programs begin all names in column 13.
   void count_place(std::string_view name) {
     if (name[0] == ' ' && is_letter(name[1])) ++right_;
@@ -233,7 +237,7 @@ class PdbReader {
     if (of_one || (name.starts_with("CA") && name[2] != ' ')) ++left_;
   }
 
-  /// Two serial numbers: a bond that turns in docking.
+  /// Reads two serial numbers, which are the atoms of a rotatable bond in docking.
   void take_branch(std::string_view line) {
     const std::vector<std::string_view> fields = fields_of(line, 3);
     const bool of_first = contents_.atoms.empty() || contents_.atoms.front().model == model();
@@ -242,7 +246,7 @@ class PdbReader {
 
   const TextFile& file_;
   const ModelChoice& choice_;
-  ColumnsBehind behind_;
+  TrailingColumns read_trailing_;
   FileContents contents_;
   std::vector<AtomHints> hints_;
   ResidueCounter residues_{contents_.atoms};
@@ -250,14 +254,14 @@ class PdbReader {
   std::vector<SecondaryRange> secondary_;
   PdbResidueNumbers residue_numbers_;
   std::set<std::string> ended_chains_;
-  bool open_ = false, ended_ = false, in_model_record_ = false;
+  bool is_open_ = false, has_ended_ = false, in_model_record_ = false;
   std::size_t unmarked_models_ = 0, left_ = 0, right_ = 0;
   WarningCollector number_, occupancy_, b_factor_, element_, symbol_;
 };
 
 bool recognizes(std::string_view text) {
   const AtomRecordStyle style = style_of_atom_records(text);
-  if (style.any) return style.pdb;
+  if (style.has_records) return style.is_pdb;
   constexpr std::array<std::string_view, 14> kOtherRecords{"HEADER", "TITLE ", "COMPND", "SOURCE", "REMARK",
                                                            "CRYST1", "MODEL ", "SEQRES", "EXPDTA", "AUTHOR",
                                                            "KEYWDS", "CONECT", "ENDMDL", "DBREF "};
@@ -278,8 +282,9 @@ bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
   for (std::string_view line; lines.next(line);) {
     if (!is_pdb_atom(line)) continue;
     glm::dvec3& position = positions.emplace_back();
-    if (line.size() < kCoordinatesEnd || !parse_quickly(line.substr(30, 8), 1.0, position.x) ||
-        !parse_quickly(line.substr(38, 8), 1.0, position.y) || !parse_quickly(line.substr(46, 8), 1.0, position.z))
+    if (line.size() < kCoordinatesEnd || !try_parse_coordinate(line.substr(30, 8), 1.0, position.x) ||
+        !try_parse_coordinate(line.substr(38, 8), 1.0, position.y) ||
+        !try_parse_coordinate(line.substr(46, 8), 1.0, position.z))
       return false;
   }
   return true;
@@ -287,8 +292,8 @@ bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
 
 }  // namespace
 
-FileContents read_pdb(const TextFile& file, const ModelChoice& models, ColumnsBehind behind) {
-  return PdbReader(file, models, behind).run();
+FileContents read_pdb(const TextFile& file, const ModelChoice& models, TrailingColumns read_trailing) {
+  return PdbReader(file, models, read_trailing).run();
 }
 
 const Reader kPdbReader{

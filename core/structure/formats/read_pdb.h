@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads PDB and what has its records with other columns behind the B-factor.
+// Reads PDB, and formats that have the same records with other columns after the B-factor.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace meniscus {
 
-/// Takes charge and element of an atom of a format from the columns behind the B-factor; false where they name an
-/// element that nobody knows. Throws InputError.
-using ColumnsBehind = bool (*)(const TextFile& file, std::size_t line_number, std::string_view line, Atom& atom);
+/// A function that takes charge and element of an atom from the columns after the B-factor. False if the element is
+/// unknown. Throws InputError.
+using TrailingColumns = bool (*)(const TextFile& file, std::size_t line_number, std::string_view line, Atom& atom);
 
-/// behind: null for PDB, which has segment and element there.
-FileContents read_pdb(const TextFile& file, const ModelChoice& models, ColumnsBehind behind);
+/// Reads a file. read_trailing: null for PDB, which has segment and element in these columns.
+FileContents read_pdb(const TextFile& file, const ModelChoice& models, TrailingColumns read_trailing);
 
 }  // namespace meniscus

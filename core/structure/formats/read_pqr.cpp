@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads PQR files: PDB records whose fields are separated by blanks, with charge and radius.
+// Reads PQR files: records of PDB with charge and radius, whose fields are separated by blanks.
 #include "core/structure/formats/read_pqr.h"
 
 #include <algorithm>
@@ -22,15 +22,15 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kNumbersStart = 30, kChargeStart = 54;  // PDB's columns 31 and 55
+constexpr std::size_t kNumbersStart = 30, kChargeStart = 54;  // columns 31 and 55 of PDB
 
 bool is_number(std::string_view field) {
   double ignored = 0.0;
   return parse_number(field, ignored);
 }
 
-/// Blank-separated: serial, name, residue, chain if there is one, number, insertion code if it is alone; then five
-/// numbers.
+/// Splits a record at blanks. It has serial number, name, residue, an optional chain, number, an optional separate
+/// insertion code, and five numbers.
 std::optional<PqrRecord> by_blanks(std::string_view line) {
   std::vector<std::string_view> fields = fields_of(line.substr(line[0] == 'A' || line[0] == 'a' ? 4 : 6), 13);
   if (fields.size() < 9 || fields.size() > 11) return std::nullopt;
@@ -51,11 +51,12 @@ std::optional<PqrRecord> by_blanks(std::string_view line) {
   return record;
 }
 
-/// In PDB's columns up to the coordinates, so that fields may touch; charge and radius follow.
+/// Splits a record at the columns of PDB up to the coordinates, where fields may touch. Charge and radius follow,
+/// separated by blanks.
 std::optional<PqrRecord> by_columns(std::string_view line) {
   if (line.size() <= kChargeStart) return std::nullopt;
-  const std::vector<std::string_view> behind = fields_of(line.substr(kChargeStart), 3);
-  if (behind.size() != 2) return std::nullopt;
+  const std::vector<std::string_view> charge_and_radius = fields_of(line.substr(kChargeStart), 3);
+  if (charge_and_radius.size() != 2) return std::nullopt;
   Atom names;
   read_pdb_names(line.substr(0, kNumbersStart), names);
   PqrRecord record;
@@ -70,8 +71,8 @@ std::optional<PqrRecord> by_columns(std::string_view line) {
     record.numbers[axis] = trimmed(line.substr(kNumbersStart + 8 * axis, 8));
     if (!is_number(record.numbers[axis])) return std::nullopt;
   }
-  record.numbers[3] = behind[0];
-  record.numbers[4] = behind[1];
+  record.numbers[3] = charge_and_radius[0];
+  record.numbers[4] = charge_and_radius[1];
   return record;
 }
 
@@ -80,7 +81,8 @@ bool has_pdb_coordinates(std::string_view line) {
          is_number(line.substr(kNumbersStart + 8, 8)) && is_number(line.substr(kNumbersStart + 16, 8));
 }
 
-/// Occupancy and B-factor fill six columns each; PQR's numbers have more decimals and cross the border.
+/// True if occupancy and B-factor fill six columns each. The numbers of PQR have more decimals and extend over the
+/// border.
 bool has_occupancy_and_b_factor(std::string_view line) {
   return has_pdb_coordinates(line) && line.size() > 60 && is_number(line.substr(54, 6)) &&
          is_number(line.substr(60, 6)) && (line.size() <= 66 || line[66] == ' ');
@@ -108,9 +110,9 @@ AtomRecordStyle style_of_atom_records(std::string_view text) {
     occupancies += has_occupancy_and_b_factor(line);
   }
   AtomRecordStyle style;
-  style.any = records > 0;
-  style.pqr = records > 0 && 2 * pqr >= records;
-  style.pdb = coordinates > 0 && !(style.pqr && 2 * occupancies < records);
+  style.has_records = records > 0;
+  style.is_pqr = records > 0 && 2 * pqr >= records;
+  style.is_pdb = coordinates > 0 && !(style.is_pqr && 2 * occupancies < records);
   return style;
 }
 
@@ -137,10 +139,10 @@ class PqrReader {
  private:
   void take(std::string_view line, std::size_t number) {
     if (is_pdb_record(line, "TER")) residues_.end_piece();
-    if (is_pdb_record(line, "ENDMDL") || is_pdb_record(line, "END")) open_ = false;
+    if (is_pdb_record(line, "ENDMDL") || is_pdb_record(line, "END")) is_open_ = false;
     if (!is_pdb_atom(line)) return;
-    if (!open_) ++contents_.models;
-    open_ = true;
+    if (!is_open_) ++contents_.models;
+    is_open_ = true;
     const auto model = static_cast<std::int32_t>(contents_.models);
     if (choice_.takes(model)) {
       take_atom(line, number, model);
@@ -176,11 +178,12 @@ class PqrReader {
     }
     atom.radius = parse_radius(file_, number, record->numbers[4], kLine);
     residues_.number(atom);
-    hints_.push_back({.heteroatom = is_pdb_record(line, "HETATM")});
+    hints_.push_back({.is_heteroatom = is_pdb_record(line, "HETATM")});
     contents_.atoms.push_back(std::move(atom));
   }
 
-  /// Occupancies and B-factors of a PDB file look like charges and radii, but not like good ones.
+  /// Warns of radii that are not plausible, as when the occupancies and B-factors of a PDB file are read as charges and
+  /// radii.
   void warn_of_doubtful_radii() {
     const std::vector<Atom>& atoms = contents_.atoms;
     const auto all = [&](auto&& is) { return !atoms.empty() && std::all_of(atoms.begin(), atoms.end(), is); };
@@ -195,10 +198,10 @@ class PqrReader {
   FileContents contents_;
   std::vector<AtomHints> hints_;
   ResidueCounter residues_{contents_.atoms};
-  bool open_ = false;
+  bool is_open_ = false;
 };
 
-bool recognizes(std::string_view text) { return style_of_atom_records(text).pqr; }
+bool recognizes(std::string_view text) { return style_of_atom_records(text).is_pqr; }
 
 FileContents read(const TextFile& file, const ModelChoice& models) { return PqrReader(file, models).run(); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes the atom records of PQR apart, and tells them from those of PDB, which begin with the same words.
+// Splits the atom records of PQR, and distinguishes them from those of PDB, which begin with the same words.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace meniscus {
 
-/// An atom record of PQR; the numbers are still text, part of the line.
+/// An atom record of PQR, with its numbers as text that is part of the line.
 struct PqrRecord {
   std::string name, residue_name, chain;
   std::int32_t residue_number = 0;
@@ -18,16 +18,17 @@ struct PqrRecord {
   std::array<std::string_view, 5> numbers;  ///< x y z charge radius
 };
 
-/// Takes a record apart between blanks or, where fields touch, at PDB's columns; nothing if neither gives all fields.
-/// Where both give the same coordinates and there is no chain between blanks, the columns are believed.
+/// Splits a record at blanks or, if fields touch, at the columns of PDB. Returns nothing if neither gives all fields.
+/// If both give the same coordinates and there is no chain between blanks, the columns are used.
 std::optional<PqrRecord> parse_pqr_record(std::string_view line);
 
-/// What the atom records of a text may be, by the first hundred of them.
+/// The formats that the atom records of a text may have, by the first hundred of them.
 struct AtomRecordStyle {
-  bool any = false;  ///< there are atom records
-  bool pqr = false;  ///< most of them can be taken apart as PQR
-  bool pdb = false;  ///< some have coordinates in PDB's columns, and they are not PQR only
+  bool has_records = false;  ///< true if there are atom records
+  bool is_pqr = false;       ///< true if most of them can be split as PQR
+  bool is_pdb = false;       ///< true if some have coordinates in PDB's columns and they are not clearly PQR
 };
+/// Returns the formats that the atom records of a text may have.
 AtomRecordStyle style_of_atom_records(std::string_view text);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads Amber's prmtop: atoms, charges, bonds and radii of generalized Born models, without coordinates.
+// Reads prmtop of Amber: atoms, charges, bonds and radii of generalized Born models, without coordinates.
 
 #include <algorithm>
 #include <cctype>
@@ -26,28 +26,31 @@
 namespace meniscus {
 namespace {
 
-/// Fields of a section are asked for by its name and their number; each of these functions throws InputError with file
-/// and line: no such section, columns that nobody understands, fewer or more fields, a field that is not a number.
+/// The sections of a prmtop file, whose fields are read by name and number of fields. Each of these functions throws
+/// InputError with file and line if there is no such section, if its columns are not understood, if it has fewer or
+/// more fields, or if a field is not a number.
 class PrmtopSections {
  public:
-  /// The file must outlive this object. Throws InputError where there is no section at all.
+  /// Finds all sections. The file must outlive this object. Throws InputError if there is no section at all.
   explicit PrmtopSections(const TextFile& file);
 
   bool has(std::string_view name) const { return sections_.find(name) != sections_.end(); }
 
-  std::vector<std::string> texts(std::string_view name, std::size_t count) const;  ///< without blanks at both ends
-  std::vector<double> numbers(std::string_view name, std::size_t count) const;     ///< finite
-  /// `least`, `most`: what they may be.
+  /// Returns the texts of a section without blanks at both ends.
+  std::vector<std::string> texts(std::string_view name, std::size_t count) const;
+  /// Returns the numbers of a section, which must be finite.
+  std::vector<double> numbers(std::string_view name, std::size_t count) const;
+  /// Returns the integers of a section, which must be from `least` to `most`.
   std::vector<std::int64_t> whole_numbers(std::string_view name, std::size_t count, std::int64_t least,
                                           std::int64_t most) const;
-  /// The first `count` whole numbers, and how many more there are does not matter.
+  /// Returns the first `count` integers of a section, which may have more.
   std::vector<std::int64_t> first_whole_numbers(std::string_view name, std::size_t count) const;
 
  private:
   struct Section {
-    std::size_t line = 0;                 ///< of %FLAG
-    std::size_t first_line = 0;           ///< of the fields
-    std::size_t per_line = 0, width = 0;  ///< 0: unknown
+    std::size_t line = 0;                 ///< line of %FLAG
+    std::size_t first_line = 0;           ///< line of the first field
+    std::size_t per_line = 0, width = 0;  ///< fields of a line, and columns of a field; 0: unknown
     std::string_view text;
   };
   using Take = std::function<void(std::string_view field, std::size_t line)>;
@@ -62,7 +65,8 @@ class PrmtopSections {
   std::map<std::string, Section, std::less<>> sections_;
 };
 
-/// Takes the digits off the front of a text; 0 where there are none, or more than a line of text has columns.
+/// Removes the digits at the beginning of a text and returns their number. Returns 0 if there are none, or if the
+/// number is above 1,000 and so more than a line has columns.
 std::size_t take_count(std::string_view& text) {
   std::size_t count = 0;
   while (!text.empty() && std::isdigit(static_cast<unsigned char>(text.front()))) {
@@ -82,7 +86,7 @@ PrmtopSections::PrmtopSections(const TextFile& file) : file_(file) {
       *section = {};
       section->line = lines.number();
     } else if (section && line.starts_with("%FORMAT(")) {
-      // As Fortran has it: 20a4, 10I8, 5E16.8.
+      // Formats are those of Fortran: 20a4, 10I8, 5E16.8.
       std::string_view columns = line.substr(8);
       section->per_line = take_count(columns);
       if (!columns.empty() && std::isalpha(static_cast<unsigned char>(columns.front()))) columns.remove_prefix(1);
@@ -113,7 +117,7 @@ const PrmtopSections::Section& PrmtopSections::find(std::string_view name) const
 
 void PrmtopSections::each_field(std::string_view name, std::size_t count, Fields kind, const Take& take) const {
   const Section& section = find(name);
-  if (count > section.text.size())  // no field has less than one letter
+  if (count > section.text.size())  // a field has at least one letter
     throw InputError(file_.path, section.line,
                      fmt::format("%FLAG {} should have {} fields, more than its {} bytes can hold; is the file cut "
                                  "short?",
@@ -122,7 +126,7 @@ void PrmtopSections::each_field(std::string_view name, std::size_t count, Fields
   std::size_t taken = 0;
   for (std::string_view line; lines.next(line);) {
     for (std::size_t n = 0; n < section.per_line && taken < count; ++n, ++taken) {
-      // A line may lack the blanks at its end, and with them names of blanks.
+      // A line may lack the blanks at its end, and also names that consist of blanks.
       if (kind != Fields::texts && trimmed(line).empty()) break;
       take(line.substr(0, section.width), section.first_line + lines.number() - 1);
       line.remove_prefix(std::min(line.size(), section.width));
@@ -183,10 +187,11 @@ std::vector<std::int64_t> PrmtopSections::first_whole_numbers(std::string_view n
   return numbers;
 }
 
-/// Charges are in units in which the energy of two of them at 1 Å is their product in kcal/mol: 18.2223 = √332.0522.
+/// The unit of charges. In this unit the energy of two charges at a distance of 1 Å is their product in kcal/mol:
+/// 18.2223 = √332.0522.
 constexpr double kChargeUnit = 18.2223;
 
-/// Where POINTERS has what.
+/// Places in the section POINTERS.
 constexpr std::size_t kAtoms = 0, kBondsWithHydrogen = 2, kResidues = 11, kBondsWithoutHydrogen = 12, kPointers = 13;
 
 class PrmtopReader {
@@ -210,7 +215,8 @@ class PrmtopReader {
   }
 
  private:
-  /// Nothing that POINTERS counts is shorter than a byte of the file.
+  /// Returns a count of POINTERS. Throws InputError if it is more than the bytes of the file, because everything that
+  /// is counted takes at least one byte.
   std::size_t count_of(std::int64_t pointer, const char* name) const {
     if (pointer < 0 || static_cast<std::uint64_t>(pointer) > file_.text.size())
       throw InputError(file_.path, 0,
@@ -222,7 +228,8 @@ class PrmtopReader {
   void read_atoms() {
     const std::vector<std::string> names = sections_.texts("ATOM_NAME", atoms_);
     const std::vector<double> charges = sections_.numbers("CHARGE", atoms_), masses = sections_.numbers("MASS", atoms_);
-    // Amber 12 and later; -1: no element, such as a lone pair, or one that LEaP does not know.
+    // Amber 12 and later have atomic numbers. -1 means that there is no element, as for a lone pair, or that LEaP does
+    // not know it.
     std::vector<std::int64_t> elements;
     std::vector<std::string> types(atoms_);
     if (sections_.has("AMBER_ATOM_TYPE")) types = sections_.texts("AMBER_ATOM_TYPE", atoms_);
@@ -231,7 +238,8 @@ class PrmtopReader {
       Atom& atom = contents_.atoms[n];
       atom.name = names[n];
       if (!elements.empty()) atom.element = static_cast<std::uint8_t>(std::max<std::int64_t>(0, elements[n]));
-      hints_.push_back({.site = is_site_symbol(types[n]), .mass = static_cast<float>(std::clamp(masses[n], 0.0, 1e6))});
+      hints_.push_back(
+          {.is_site = is_site_symbol(types[n]), .mass = static_cast<float>(std::clamp(masses[n], 0.0, 1e6))});
       if (std::abs(charges[n]) > std::numeric_limits<float>::max())
         throw InputError(file_.path, 0, fmt::format("CHARGE of atom {} is {}", n + 1, charges[n]));
       atom.charge = static_cast<float>(charges[n] / kChargeUnit);
@@ -249,10 +257,11 @@ class PrmtopReader {
             fmt::format("RADII of atom {} is {}; it must be from 0 to {} Å", n + 1, radii[n], kLargestRadius));
       contents_.atoms[n].radius = radii[n];
     }
-    contents_.radii = FileRadii::if_asked;
+    contents_.radii = FileRadii::on_request;
   }
 
-  /// Chains, numbers and insertion codes of the PDB file are there only if ParmEd's addPDB put them in.
+  /// Numbers the residues. Chains, numbers and insertion codes of the PDB file are in the file only if ParmEd's addPDB
+  /// was used.
   void number_residues(std::size_t count) {
     const std::vector<std::string> names = sections_.texts("RESIDUE_LABEL", count);
     std::vector<std::int64_t> first =
@@ -287,7 +296,7 @@ class PrmtopReader {
     return sections_.has(name) ? sections_.texts(name, count) : std::vector<std::string>(count);
   }
 
-  /// Threes: two atoms, as three times their place from 0, and a type.
+  /// Reads bonds of three numbers: two atoms, each as three times its place from 0, and a type.
   void read_bonds(std::string_view name, std::size_t count) {
     const std::vector<std::int64_t> numbers = sections_.whole_numbers(name, 3 * count, 0, std::int64_t{3} << 32);
     for (std::size_t n = 0; n < count; ++n) {

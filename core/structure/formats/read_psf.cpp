@@ -26,7 +26,7 @@ class PsfReader {
   FileContents run() {
     std::string_view line;
     lines_.next(line);
-    extended_ = line.find("EXT") != std::string_view::npos;
+    is_extended_ = line.find("EXT") != std::string_view::npos;
     const std::optional<std::size_t> atoms = find_section("!NATOM");
     if (!atoms) throw InputError(file_.path, 0, "has no line with a number and !NATOM; is the file cut short?");
     read_atoms(*atoms);
@@ -42,12 +42,14 @@ class PsfReader {
   }
 
  private:
-  /// Goes to the line "N !NAME..."; the N. Nothing where there is none, as in files without a topology.
+  /// Goes to the line "N !NAME..." and returns N. Returns nothing if there is no such line, as in files without a
+  /// topology.
   std::optional<std::size_t> find_section(std::string_view name) {
     for (std::string_view line; lines_.next(line);) {
       const std::size_t at = line.find(name);
       std::int64_t count = 0;
-      if (at == std::string_view::npos || !parse_whole_number(line.substr(0, at), count)) continue;  // a title, perhaps
+      // The line may be a title.
+      if (at == std::string_view::npos || !parse_whole_number(line.substr(0, at), count)) continue;
       if (count < 0) throw InputError(file_.path, lines_.number(), fmt::format("{} says {}", name, count));
       if (static_cast<std::uint64_t>(count) > lines_.bytes_left() / 2) {
         throw InputError(
@@ -75,15 +77,16 @@ class PsfReader {
     return parse_residue_number(field, ignored.residue_number, ignored.insertion_code);
   }
 
-  /// Number, segment, residue, its name, atom name, type, charge, mass, and what follows.
+  /// Returns segment, residue number, residue name, atom name, type, charge and mass of a line.
   std::array<std::string_view, 7> columns_of(std::string_view line) const {
     std::vector<std::string_view> fields = fields_of(line, 12);
     if (fields.size() == 8) {
-      // A blank segment, or, where the residue's number is behind one, a blank type, as ProDy writes.
+      // Either the segment is blank or, if the second field is no number but the third is, the type, as ProDy writes
+      // it.
       const bool has_segment = !is_residue_number(fields[1]) && is_residue_number(fields[2]);
       fields.insert(fields.begin() + (has_segment ? 5 : 1), std::string_view());
     }
-    if (fields.size() < 9 && line.size() > (extended_ ? 51 : 33)) fields = fixed_columns_of(line);
+    if (fields.size() < 9 && line.size() > (is_extended_ ? 51 : 33)) fields = fixed_columns_of(line);
     if (fields.size() < 9) {
       throw InputError(
           file_.path, lines_.number(),
@@ -94,9 +97,9 @@ class PsfReader {
     return {fields[1], fields[2], fields[3], fields[4], fields[5], fields[6], fields[7]};
   }
 
-  /// Where several columns are blank: as CHARMM has them, of four letters or of eight.
+  /// Splits a line in which several fields are blank at the columns of CHARMM, which have four or eight letters.
   std::vector<std::string_view> fixed_columns_of(std::string_view line) const {
-    const std::size_t number = extended_ ? 10 : 8, width = extended_ ? 8 : 4;
+    const std::size_t number = is_extended_ ? 10 : 8, width = is_extended_ ? 8 : 4;
     std::vector<std::string_view> fields{line.substr(0, number)};
     for (std::size_t n = 0; n < 4; ++n) fields.push_back(trimmed(line.substr(number + 1 + n * (width + 1), width)));
     const std::size_t type = number + 1 + 4 * (width + 1);
@@ -121,7 +124,7 @@ class PsfReader {
                        fmt::format("charge {} and mass {} are not both numbers; columns may have run together",
                                    in_quotes(charge), in_quotes(mass)));
     }
-    hint.site = type == "DRUD" || type.starts_with("LP");
+    hint.is_site = type == "DRUD" || type.starts_with("LP");
     hints_.push_back(hint);
     residues_.number(atom);
     contents_.atoms.push_back(std::move(atom));
@@ -132,7 +135,7 @@ class PsfReader {
     std::vector<std::uint32_t> ends;
     ends.reserve(2 * count);
     for (std::string_view line; ends.size() < 2 * count && lines_.next(line);) {
-      if (line.find('!') != std::string_view::npos) break;  // the next section
+      if (line.find('!') != std::string_view::npos) break;  // the next section begins
       take_bond_ends(line, 2 * count, ends);
     }
     if (ends.size() < 2 * count) {
@@ -143,9 +146,10 @@ class PsfReader {
     for (std::size_t n = 0; n < count; ++n) contents_.bonds.push_back({ends[2 * n], ends[2 * n + 1]});
   }
 
-  /// Numbers fill their columns in the largest systems, so that no blank is left between them.
+  /// Appends the atoms of a line of bonds. In the largest systems numbers fill their columns, so that no blanks
+  /// separate them.
   void take_bond_ends(std::string_view line, std::size_t most, std::vector<std::uint32_t>& ends) const {
-    const std::size_t width = extended_ ? 10 : 8;
+    const std::size_t width = is_extended_ ? 10 : 8;
     const bool touching =
         std::ranges::any_of(fields_of(line), [&](std::string_view field) { return field.size() > width; });
     while (ends.size() < most) {
@@ -167,7 +171,7 @@ class PsfReader {
   FileContents contents_;
   std::vector<AtomHints> hints_;
   ResidueCounter residues_{contents_.atoms};
-  bool extended_ = false;
+  bool is_extended_ = false;
 };
 
 bool recognizes(std::string_view text) {

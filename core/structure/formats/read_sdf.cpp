@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads MOL and SDF: small molecules with their bonds, as MDL's connection tables V2000 and V3000.
+// Reads MOL and SDF: small molecules with their bonds, as connection tables V2000 and V3000 of MDL.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -21,7 +21,7 @@
 namespace meniscus {
 namespace {
 
-/// x, y, z and symbol; charge: V2000's number for it.
+/// The fields of an atom. `charge` is the code of V2000 for a charge.
 struct AtomLine {
   std::array<std::string_view, 3> position;
   std::string_view symbol, charge;
@@ -35,7 +35,7 @@ bool is_symbol(std::string_view text) {
   return !text.empty() && (std::isalpha(static_cast<unsigned char>(text[0])) || text[0] == '*');
 }
 
-/// In V2000's columns or, as some programs write it, between blanks.
+/// Splits the line of an atom, at the columns of V2000 or, as some programs write it, at blanks.
 std::optional<AtomLine> atom_line(std::string_view line) {
   const auto good = [](const AtomLine& atom) {
     double ignored = 0.0;
@@ -52,7 +52,7 @@ std::optional<AtomLine> atom_line(std::string_view line) {
   return good(atom) ? std::optional(atom) : std::nullopt;
 }
 
-/// Two whole numbers, in columns of three letters or between blanks.
+/// Parses two integers, in columns of three letters or separated by blanks.
 std::optional<std::array<std::int64_t, 2>> pair_of(std::string_view line) {
   std::array<std::int64_t, 2> pair{};
   if (parse_whole_number(columns(line, 0, 3), pair[0]) && parse_whole_number(columns(line, 3, 3), pair[1])) return pair;
@@ -80,12 +80,12 @@ class SdfReader {
     std::string_view title, program, line;
     const bool whole = lines_.next(title) && lines_.next(program) && lines_.next(line) && lines_.next(line);
     ++contents_.models;
-    wanted_ = choice_.takes(static_cast<std::int32_t>(contents_.models));
+    is_wanted_ = choice_.takes(static_cast<std::int32_t>(contents_.models));
     first_ = contents_.atoms.size();
     seen_ = 0;
     name_ = take_field(title);
     if (name_.empty()) name_ = "UNL";
-    flat_ = columns(program, 20, 2) != "3D";
+    is_flat_ = columns(program, 20, 2) != "3D";
     numbers_of_symbols_.clear();
     places_.clear();
     if (!whole)
@@ -143,7 +143,7 @@ class SdfReader {
                      fmt::format("a bond names atom {}; the atoms are 1 to {}", in_quotes(atom), seen_));
   }
 
-  /// The numbers of V2000's atoms stand for these charges; 4 is a radical.
+  /// Returns the charge for the code of an atom in V2000, where 4 is a radical.
   static float charge_of_number(std::string_view field) {
     constexpr std::array<float, 8> kCharges{0, 3, 2, 1, 0, -1, -2, -3};
     std::int64_t number = 0;
@@ -151,14 +151,14 @@ class SdfReader {
     return known ? kCharges[static_cast<std::size_t>(number)] : 0.0F;
   }
 
-  /// What follows the bonds, and the data behind the molecule.
+  /// Reads the lines after the bonds, and the data after the molecule.
   void read_properties(bool v3000) {
     bool charges_begun = false, ended = v3000;
     for (std::string_view line; lines_.next(line);) {
       if (line.starts_with("$$$$")) return;
       ended = ended || is_end(line);
       if (line.starts_with("M  CHG") || line.starts_with("M  RAD")) {
-        // They stand for all charges that the lines of atoms give.
+        // These lines replace all charges in the lines of atoms.
         if (!charges_begun) clear_charges();
         charges_begun = true;
         if (line[3] == 'C') read_charges(line);
@@ -175,9 +175,9 @@ class SdfReader {
     for (std::size_t n = first_; n < contents_.atoms.size(); ++n) contents_.atoms[n].charge = 0.0F;
   }
 
-  /// Pairs of an atom and its charge, after their number.
+  /// Reads the number of charges, and then pairs of an atom and its charge.
   void read_charges(std::string_view line) {
-    if (!wanted_) return;
+    if (!is_wanted_) return;
     const std::vector<std::string_view> fields = fields_of(line.substr(6));
     for (std::size_t n = 1; n + 1 < fields.size(); n += 2) {
       std::int64_t atom = 0, charge = 0;
@@ -190,10 +190,11 @@ class SdfReader {
     }
   }
 
-  /// Partial charges: PubChem's, a number of lines of an atom and its charge, and RDKit's, one for each atom.
+  /// Reads partial charges. PubChem writes their number and then lines of an atom and its charge; RDKit writes one for
+  /// each atom.
   void read_data(std::string_view header) {
     const bool pubchem = header.find("<PUBCHEM_MMFF94_PARTIAL_CHARGES>") != std::string_view::npos;
-    if (!wanted_ || (!pubchem && header.find("<atom.dprop.PartialCharge>") == std::string_view::npos)) return;
+    if (!is_wanted_ || (!pubchem && header.find("<atom.dprop.PartialCharge>") == std::string_view::npos)) return;
     std::vector<float> charges;
     if (pubchem) charges.assign(seen_, 0.0F);
     const std::size_t first_line = lines_.number() + 1;
@@ -215,7 +216,7 @@ class SdfReader {
       throw InputError(file_.path, first_line - 1,
                        fmt::format("{} partial charges follow for {} atoms", charges.size(), seen_));
     for (std::size_t n = 0; n < seen_; ++n) contents_.atoms[first_ + n].charge = charges[n];
-    partial_charges_ = true;
+    has_partial_charges_ = true;
   }
 
   [[noreturn]] void refuse_partial_charges(std::string_view line) const {
@@ -225,7 +226,7 @@ class SdfReader {
 
   // V3000
 
-  /// The rest of a line "M  V30 ..." with those that continue it; false at the end of the table.
+  /// Reads the text of a line "M  V30 ..." together with the lines that continue it. False at the end of the table.
   bool next_v30(std::string& text) {
     text.clear();
     for (std::string_view line; lines_.next(line);) {
@@ -276,7 +277,7 @@ class SdfReader {
       throw InputError(file_.path, lines_.number(),
                        fmt::format("atom {} is there twice; give each atom its own number", index));
     take_atom({{fields[2], fields[3], fields[4]}, fields[1], {}});
-    for (std::size_t n = 5; wanted_ && n < fields.size(); ++n) {
+    for (std::size_t n = 5; is_wanted_ && n < fields.size(); ++n) {
       if (!fields[n].starts_with("CHG=")) continue;
       if (!parse_single(fields[n].substr(4), contents_.atoms.back().charge))
         throw InputError(file_.path, lines_.number(), fmt::format("{} is not a charge", in_quotes(fields[n])));
@@ -297,11 +298,11 @@ class SdfReader {
     take_bond(ends[0], ends[1]);
   }
 
-  // Both
+  // V2000 and V3000
 
   void take_atom(const AtomLine& line) {
     ++seen_;
-    if (!wanted_) {
+    if (!is_wanted_) {
       ++contents_.other_model_atoms;
       return;
     }
@@ -321,29 +322,29 @@ class SdfReader {
     contents_.atoms.push_back(std::move(atom));
   }
 
-  /// Places in the molecule, from 0.
+  /// Adds a bond between two places in the molecule, from 0.
   void take_bond(std::uint32_t a, std::uint32_t b) {
     if (a == b)
       throw InputError(file_.path, lines_.number(),
                        fmt::format("atom {} is bonded to itself; correct the bond", a + 1));
     const auto first = static_cast<std::uint32_t>(first_);
-    if (wanted_) contents_.bonds.push_back({first + std::min(a, b), first + std::max(a, b)});
+    if (is_wanted_) contents_.bonds.push_back({first + std::min(a, b), first + std::max(a, b)});
   }
 
-  /// A molecule without any charge states none.
+  /// Completes a molecule. If all charges are zero, the file is taken to have none.
   void finish_molecule() {
-    if (!wanted_) return;
+    if (!is_wanted_) return;
     ++molecules_;
     if (!contents_.bonds.empty() && contents_.bonds.back()[0] >= first_)
       contents_.fully_bonded.push_back(static_cast<std::int32_t>(contents_.models));
     const auto begin = contents_.atoms.begin() + static_cast<std::ptrdiff_t>(first_);
     const auto all = [&](auto&& is) { return std::all_of(begin, contents_.atoms.end(), is); };
-    if (!partial_charges_ && all([](const Atom& atom) { return atom.charge == 0.0F; }))
+    if (!has_partial_charges_ && all([](const Atom& atom) { return atom.charge == 0.0F; }))
       std::for_each(begin, contents_.atoms.end(),
                     [](Atom& atom) { atom.charge = std::numeric_limits<float>::quiet_NaN(); });
-    partial_charges_ = false;
+    has_partial_charges_ = false;
     // Drawings are not in Å, and their atoms overlap.
-    if (seen_ > 3 && flat_ && all([](const Atom& atom) { return atom.position.z == 0.0; }))
+    if (seen_ > 3 && is_flat_ && all([](const Atom& atom) { return atom.position.z == 0.0; }))
       contents_.warnings.emplace_back(fmt::format(
           "molecule {} is drawn in two dimensions: all z are 0; a surface needs its conformer", contents_.models));
   }
@@ -352,13 +353,14 @@ class SdfReader {
   const ModelChoice& choice_;
   LineReader lines_;
   FileContents contents_;
-  bool wanted_ = true, partial_charges_ = false, flat_ = true;
-  std::size_t first_ = 0;        ///< atom of this molecule in the contents
-  std::size_t seen_ = 0;         ///< its atoms
-  std::uint32_t molecules_ = 0;  ///< taken before it
+  bool is_wanted_ = true, has_partial_charges_ = false, is_flat_ = true;
+  std::size_t first_ = 0;        ///< first atom of this molecule in the contents
+  std::size_t seen_ = 0;         ///< number of atoms of this molecule
+  std::uint32_t molecules_ = 0;  ///< number of molecules used before it
   std::string_view name_;
   std::map<std::string, int> numbers_of_symbols_;
-  std::unordered_map<std::int64_t, std::uint32_t> places_;  ///< of V3000's numbers
+  /// The place of an atom in the molecule, by its number in V3000.
+  std::unordered_map<std::int64_t, std::uint32_t> places_;
 };
 
 bool recognizes(std::string_view text) {
@@ -368,7 +370,7 @@ bool recognizes(std::string_view text) {
     if (!lines.next(line)) return false;
   const std::string_view version = columns(line, 33, 6);
   if (version == "V2000" || version == "V3000") return true;
-  // Before there were versions.
+  // Files without a version are older than V2000.
   const auto counts = pair_of(line);
   return counts && (*counts)[0] > 0 && (*counts)[1] >= 0 && lines.next(line) && is_symbol(columns(line, 31, 3)) &&
          atom_line(line);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the reader, decides for each atom whether it is used, and counts the decisions.
+// Chooses the reader of a file, decides for each atom whether it is used, and counts the decisions.
 #include "core/structure/formats/read_structure.h"
 
 #include <algorithm>
@@ -24,8 +24,8 @@
 namespace meniscus {
 namespace {
 
-/// Lone pairs (LP and what follows), the mass-less sites of water models (EP, M, MW, with digits) and of AutoDock (G in
-/// opened rings, TZ at zinc), and the dummy atoms with which the OPM database draws membranes.
+/// True for lone pairs (names beginning with LP), for massless sites of water models (EP, M, MW, with digits) and of
+/// AutoDock (G in opened rings, TZ at zinc), and for the dummy atoms by which the OPM database draws membranes.
 bool is_virtual_site(const Atom& atom) {
   if (atom.residue_name == "DUM") return true;
   if (atom.element != 0) return false;
@@ -38,23 +38,23 @@ bool is_virtual_site(const Atom& atom) {
 
 bool is_hydrogen(const Atom& atom) { return atom.element == 1; }
 
-/// Whether a potential of the file's charges has this atom's, too, and a surface of the whole file its ball. Atoms of
-/// other alternate locations are where one is used.
+/// True if an atom that is left out has a charge in the file's potential and a ball in a surface of the whole file. An
+/// atom of another alternate location has none, because it is at the place of an atom that is used.
 bool has_charge_and_room(const Atom& atom, std::string_view reason) {
   return atom.charge != 0.0f && !std::isnan(atom.charge) && reason != kExcludedAltloc && reason != kExcludedVirtual &&
          reason != kExcludedRadius;
 }
 
-/// Moves the atoms without a reason to be left out to the front of `atoms`, counts the reasons of the others, and moves
-/// those of them that are shown to `beside`.
+/// Moves the atoms without a reason for leaving them out to the front of `atoms`. The reasons of the others are
+/// counted, and those of them that are shown are moved to `extra_atoms`.
 template <typename Reason>
-void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& beside, ReadReport& report, Reason&& reason_of) {
+void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& extra_atoms, ReadReport& report, Reason&& reason_of) {
   std::size_t kept = 0;
   for (std::size_t n = 0; n < atoms.size(); ++n) {
     if (const char* reason = reason_of(n)) {
       ++report.excluded[reason];
       if (has_charge_and_room(atoms[n], reason)) ++report.charged[reason];
-      if (atoms[n].shown != 0) beside.push_back(std::move(atoms[n]));
+      if (atoms[n].shown != 0) extra_atoms.push_back(std::move(atoms[n]));
     } else {
       if (kept != n) atoms[kept] = std::move(atoms[n]);
       ++kept;
@@ -63,21 +63,21 @@ void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& beside, ReadReport& 
   atoms.resize(kept);
 }
 
-/// What selections mean: what they select of atoms where these are, or all that they may select somewhere. In a frame
-/// of a run nothing may be drawn beside the surface.
-enum class Meaning { here, in_a_frame, anywhere };
+/// How selections are evaluated: for the current positions of atoms, for those in a frame of a trajectory, where
+/// nothing may be selected, or for all positions that atoms may have.
+enum class PositionScope { current, frame, any };
 
-std::vector<bool> selected_of(const Selection& selection, const std::vector<Atom>& atoms, Meaning meaning) {
-  return meaning == Meaning::anywhere ? selection.reach(atoms).selected : selection.evaluate(atoms);
+std::vector<bool> select(const Selection& selection, const std::vector<Atom>& atoms, PositionScope scope) {
+  return scope == PositionScope::any ? selection.possible(atoms).selected : selection.evaluate(atoms);
 }
 
 std::vector<bool> evaluate(const Selection& selection, const std::vector<Atom>& atoms, const RadiiChoice& radii,
-                           const std::string& path, Meaning meaning) {
+                           const std::string& path, PositionScope scope) {
   if (selection.uses_radius() && !radii.from_molecule_file()) {
     throw InputError(path, 0,
                      "has no radii yet: they are assigned after the selection, so 'radius' cannot be used in it");
   }
-  std::vector<bool> selected = selected_of(selection, atoms, meaning);
+  std::vector<bool> selected = select(selection, atoms, scope);
   if (std::find(selected.begin(), selected.end(), true) == selected.end()) {
     throw InputError(path, 0,
                      fmt::format("none of its {} atoms is selected by {}; {}", with_thousands(atoms.size()),
@@ -91,13 +91,13 @@ bool keeps_hydrogens(const std::vector<Atom>& atoms, const ReadOptions& options,
   return !radii.united(std::any_of(atoms.begin(), atoms.end(), [](const Atom& atom) { return is_hydrogen(atom); }));
 }
 
-/// Why the atoms of a file that are of the right model and alternate location are not taken.
+/// Decides for atoms of the right model and alternate location whether they are used.
 class Choice {
  public:
   Choice(const std::vector<Atom>& atoms, const ReadOptions& options, const RadiiChoice& radii)
       : options_(options), from_file_(radii.from_molecule_file()), hydrogens_(keeps_hydrogens(atoms, options, radii)) {}
 
-  /// Null: it is. named: does the selection speak of it?
+  /// Returns the reason for leaving an atom out; null if it is used. named: true if the selection names the atom.
   const char* reason(const Atom& atom, bool selected, bool named) const {
     if (!selected) return kExcludedSelection;
     if (from_file_) {
@@ -116,9 +116,9 @@ class Choice {
   bool from_file_, hydrogens_;
 };
 
-/// Sets Atom::shown.
+/// Sets Atom::shown. Throws InputError if a selection shows no atoms, except in a frame.
 void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, const Choice& choice,
-                const RadiiChoice& radii, const std::string& path, Meaning meaning) {
+                const RadiiChoice& radii, const std::string& path, PositionScope scope) {
   if (shown.size() > kMostShown)
     throw CapacityError(
         fmt::format("{} sets of atoms beside the surface are too many; the most is {}", shown.size(), kMostShown));
@@ -127,14 +127,14 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
     if (selection.uses_radius() && !radii.from_molecule_file())
       throw InputError(path, 0,
                        fmt::format("has no radii yet, so {} cannot select by them", option_name(shown[bit].option)));
-    const std::vector<bool> selected = selected_of(selection, atoms, meaning), named = selection.names(atoms);
+    const std::vector<bool> selected = select(selection, atoms, scope), named = selection.names(atoms);
     bool any = false;
     for (std::size_t n = 0; n < atoms.size(); ++n) {
       if (choice.reason(atoms[n], selected[n], named[n])) continue;
       atoms[n].shown = static_cast<std::uint16_t>(atoms[n].shown | (1u << bit));
       any = true;
     }
-    if (any || meaning == Meaning::in_a_frame) continue;
+    if (any || scope == PositionScope::frame) continue;
     throw InputError(path, 0,
                      fmt::format("none of its {} atoms is shown by {}; chains and names are case-sensitive, water "
                                  "and free ions are shown where the expression names them",
@@ -143,12 +143,12 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
   }
 }
 
-/// What each atom is left out for, in the order of the reasons in structure.h.
-void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, std::vector<Atom>& beside,
+/// Leaves out atoms for the reasons in structure.h, in their order.
+void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, std::vector<Atom>& extra_atoms,
                   const ReadOptions& options, const RadiiChoice& radii, ReadReport& report, const std::string& path,
-                  Meaning meaning) {
+                  PositionScope scope) {
   const std::vector<bool> of_kept_altlocs = kept_alternates(atoms, options.altloc, report.warnings);
-  leave_out(atoms, beside, report, [&](std::size_t n) -> const char* {
+  leave_out(atoms, extra_atoms, report, [&](std::size_t n) -> const char* {
     if (!of_kept_altlocs[n]) return kExcludedAltloc;
     const bool is_site = (atoms[n].index < sites.size() && sites[atoms[n].index]) || is_virtual_site(atoms[n]);
     return !radii.from_molecule_file() && is_site ? kExcludedVirtual : nullptr;
@@ -156,46 +156,46 @@ void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, std:
   if (options.secondary_structure) assign_secondary_structure(atoms);
   std::vector<bool> selected(atoms.size(), true), named(atoms.size());
   if (options.selection) {
-    for (const Selection& side : options.sides) evaluate(side, atoms, radii, path, meaning);
-    selected = evaluate(*options.selection, atoms, radii, path, meaning);
+    for (const Selection& side : options.required_parts) evaluate(side, atoms, radii, path, scope);
+    selected = evaluate(*options.selection, atoms, radii, path, scope);
     named = options.selection->names(atoms);
   }
   const Choice choice(atoms, options, radii);
-  mark_shown(atoms, options.shown, choice, radii, path, meaning);
-  leave_out(atoms, beside, report, [&](std::size_t n) { return choice.reason(atoms[n], selected[n], named[n]); });
+  mark_shown(atoms, options.shown, choice, radii, path, scope);
+  leave_out(atoms, extra_atoms, report, [&](std::size_t n) { return choice.reason(atoms[n], selected[n], named[n]); });
 }
 
-/// Gives radii to the atoms beside the surface; returns the labels of those whose element nobody knows.
-std::vector<std::string> assign_beside(Structure& structure, const RadiiChoice& radii) {
-  if (structure.beside.empty()) return {};
-  Structure beside;
-  beside.atoms = std::move(structure.beside);
-  std::vector<std::string> unknown = radii.assign(beside);
-  structure.beside = std::move(beside.atoms);
+/// Assigns radii to the atoms in `extra_atoms`. Returns the labels of those whose element is unknown.
+std::vector<std::string> assign_extra_radii(Structure& structure, const RadiiChoice& radii) {
+  if (structure.extra_atoms.empty()) return {};
+  Structure extra;
+  extra.atoms = std::move(structure.extra_atoms);
+  std::vector<std::string> unknown = radii.assign(extra);
+  structure.extra_atoms = std::move(extra.atoms);
   return unknown;
 }
 
-/// Copies the atoms beside the surface as those of the surface are.
-void assemble_beside(Structure& structure, const Assembly& assembly) {
-  std::erase_if(structure.beside, [&](const Atom& atom) { return !names_chain_of(assembly, atom); });
-  if (structure.beside.empty()) return;
-  Structure beside;
-  beside.file = structure.file;
-  beside.atoms = std::move(structure.beside);
-  assemble(beside, assembly, CopyMode::atoms);
-  structure.beside = std::move(beside.atoms);
+/// Makes the copies of the assembly for the atoms in `extra_atoms`.
+void assemble_extra_atoms(Structure& structure, const Assembly& assembly) {
+  std::erase_if(structure.extra_atoms, [&](const Atom& atom) { return !names_chain_of(assembly, atom); });
+  if (structure.extra_atoms.empty()) return;
+  Structure extra;
+  extra.file = structure.file;
+  extra.atoms = std::move(structure.extra_atoms);
+  assemble(extra, assembly, CopyMode::atoms);
+  structure.extra_atoms = std::move(extra.atoms);
 }
 
-/// The bonds of all shown atoms, which are in atoms and, after them, in beside.
-std::vector<Bond> bonds_of_shown(const Structure& structure, const FileContents& contents) {
+/// Returns the bonds of all shown atoms, as places in `atoms` followed by `extra_atoms`.
+std::vector<Bond> find_shown_bonds(const Structure& structure, const FileContents& contents) {
   const std::size_t own = structure.atoms.size();
   const auto atom = [&](std::uint32_t n) -> const Atom& {
-    return n < own ? structure.atoms[n] : structure.beside[n - own];
+    return n < own ? structure.atoms[n] : structure.extra_atoms[n - own];
   };
   std::vector<std::uint32_t> places;
-  for (std::uint32_t n = 0; n < own + structure.beside.size(); ++n)
+  for (std::uint32_t n = 0; n < own + structure.extra_atoms.size(); ++n)
     if (atom(n).shown != 0) places.push_back(n);
-  // Residues come as the file has them.
+  // Residues must be in the order of the file.
   std::stable_sort(places.begin(), places.end(), [&](std::uint32_t a, std::uint32_t b) {
     return std::pair(atom(a).copy, atom(a).index) < std::pair(atom(b).copy, atom(b).index);
   });
@@ -216,7 +216,7 @@ void refuse_no_atoms(const Structure& structure) {
                            structure.report.sentence()));
 }
 
-/// why: FileContents::unknown_elements.
+/// Throws InputError if elements are unknown. why: FileContents::unknown_elements.
 void halt_on_unknown_elements(const Structure& structure, const std::vector<std::string>& unknown,
                               const std::string& why) {
   if (unknown.empty()) return;
@@ -255,7 +255,7 @@ void warn_of_missing_altloc(Structure& structure, const std::vector<Atom>& atoms
       fmt::format("no atom has the alternate location {}; the best one of each residue is used", choice.letter));
 }
 
-/// Leaves what a trajectory has of the atoms and bonds, counted again.
+/// Removes the atoms and bonds that a trajectory does not have. The places of the others are counted again.
 void keep_trajectory_atoms(FileContents& contents, const Selection& selection, const TextFile& file,
                            ReadReport& report) {
   const auto refuse = [&](const std::string& what) {
@@ -285,7 +285,7 @@ void keep_trajectory_atoms(FileContents& contents, const Selection& selection, c
     for (std::uint32_t& end : bond) end = place[end];
 }
 
-/// The atoms of a topology are where the options say.
+/// Sets the positions of a topology to those of the options.
 void place_atoms(FileContents& contents, const ReadOptions& options, const TextFile& file) {
   if (!contents.without_positions) return;
   if (options.positions.empty())
@@ -300,7 +300,7 @@ void place_atoms(FileContents& contents, const ReadOptions& options, const TextF
   for (std::size_t n = 0; n < contents.atoms.size(); ++n) contents.atoms[n].position = options.positions[n];
 }
 
-/// Lists all assemblies; broken records of them are a warning.
+/// Lists all assemblies. If their records are broken, a warning is added.
 void list_assemblies(Structure& structure, const TextFile& file, const Reader& reader) {
   try {
     if (reader.assemblies) structure.assemblies = reader.assemblies(file);
@@ -309,8 +309,8 @@ void list_assemblies(Structure& structure, const TextFile& file, const Reader& r
   }
 }
 
-/// The assembly that is to be built, if there is one.
-std::optional<Assembly> asked_assembly(const TextFile& file, const Reader& reader, const ReadOptions& options) {
+/// Returns the requested assembly, or nothing.
+std::optional<Assembly> requested_assembly(const TextFile& file, const Reader& reader, const ReadOptions& options) {
   if (options.assembly.empty()) return {};
   if (!reader.assemblies) {
     throw InputError(file.path, 0,
@@ -319,7 +319,7 @@ std::optional<Assembly> asked_assembly(const TextFile& file, const Reader& reade
   return find_assembly(reader.assemblies(file), options.assembly, file.path);
 }
 
-/// Whether atoms are chosen by the copy that they are in, so that copies have to be made before.
+/// True if a selection distinguishes copies, so that copies must be made before atoms are selected.
 bool names_copies(const ReadOptions& options) {
   const auto of_some = [](const auto& each) { return each.atoms.names_copies(); };
   return options.copy_mode == CopyMode::atoms &&
@@ -327,7 +327,7 @@ bool names_copies(const ReadOptions& options) {
           std::ranges::any_of(options.radii.overrides, of_some));
 }
 
-/// Makes the copies of all atoms, which then count as read.
+/// Makes the copies of all atoms. They count as atoms that were read.
 void copy_atoms(std::vector<Atom>& atoms, const Assembly& assembly, Structure& structure) {
   const std::size_t of_file = atoms.size();
   structure.atoms = std::move(atoms);
@@ -337,11 +337,12 @@ void copy_atoms(std::vector<Atom>& atoms, const Assembly& assembly, Structure& s
   std::erase_if(structure.report.excluded, [](const auto& reason) { return reason.second == 0; });
 }
 
-/// Of atoms shown together, places in Structure::atoms and, after them, in beside, by Atom::index.
-std::vector<Bond> places_of(const Structure& structure, const std::vector<Bond>& by_index) {
+/// Converts bonds from Atom::index to places in Structure::atoms followed by `extra_atoms`. Only bonds between shown
+/// atoms are returned.
+std::vector<Bond> bonds_by_place(const Structure& structure, const std::vector<Bond>& by_index) {
   std::unordered_map<std::uint32_t, std::uint32_t> places;
   std::uint32_t next = 0;
-  for (const std::vector<Atom>* atoms : {&structure.atoms, &structure.beside})
+  for (const std::vector<Atom>* atoms : {&structure.atoms, &structure.extra_atoms})
     for (const Atom& atom : *atoms) places.emplace(atom.index, next++);
   std::vector<Bond> bonds;
   for (const auto& [a, b] : by_index) {
@@ -353,13 +354,13 @@ std::vector<Bond> places_of(const Structure& structure, const std::vector<Bond>&
 
 }  // namespace
 
-/// What is read once.
+/// The contents of a file, which is read once.
 struct StructureFile::Parts {
-  Parts(const std::string& path, const ReadOptions& asked)
-      : options(asked),
+  Parts(const std::string& path, const ReadOptions& read_options)
+      : options(read_options),
         file(read_molecule_file(path)),
         reader(choose_reader(file)),
-        contents(reader.read(file, asked.model)) {
+        contents(reader.read(file, read_options.model)) {
     require_model(file.path, options.model, contents.models);
     report.models = contents.models;
     if (options.trajectory_atoms) keep_trajectory_atoms(contents, *options.trajectory_atoms, file, report);
@@ -373,24 +374,24 @@ struct StructureFile::Parts {
     report.excluded[kExcludedModel] = contents.other_model_atoms;
     std::erase_if(report.excluded, [](const auto& reason) { return reason.second == 0; });
     report.warnings = contents.warnings;
-    note_other_molecules();
+    warn_of_other_molecules();
     chains = chains_of(contents.atoms);
     radii.emplace(options.radii, file.path, contents.radii, contents.atoms);
-    note_version_of_beads();
+    warn_of_uncertain_martini();
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
-  void note_other_molecules() {
+  void warn_of_other_molecules() {
     if (!contents.of_molecules || contents.models < 2 || options.model.all || options.model.number != 1) return;
     report.warnings.emplace_back(
         message("{} molecules are in the file; the first is used, @model 2@ takes the next, @model all@ unites them",
                 with_thousands(contents.models)));
   }
 
-  void note_version_of_beads() {
+  void warn_of_uncertain_martini() {
     const MartiniVersion martini = martini_version(contents.atoms);
-    if (martini.number == 0 || martini.certain || !options.radii.set.empty()) return;
+    if (martini.number == 0 || martini.is_certain || !options.radii.set.empty()) return;
     report.warnings.emplace_back(
         message("nothing in the names tells Martini 2 from Martini 3; beads have the types and radii of 3; @radii "
                 "martini2@ takes those of 2"));
@@ -407,8 +408,9 @@ struct StructureFile::Parts {
     added.emplace(file.path, options.added, options.model, options.superpose_on, contents);
   }
 
-  /// atoms: those of the contents, wherever the first file has them. Without bonds of what is shown.
-  Structure choose(std::vector<Atom> atoms, Meaning meaning) const {
+  /// Makes a structure of atoms, which are those of the contents at any positions. Structure::shown_bonds is not filled
+  /// in.
+  Structure choose(std::vector<Atom> atoms, PositionScope scope) const {
     Structure structure;
     structure.file = file.path;
     structure.format = reader.metadata.name;
@@ -417,18 +419,18 @@ struct StructureFile::Parts {
     structure.topology = topology;
     if (added) structure.added = added->place(atoms);
     structure.chains = chains;
-    const std::optional<Assembly> assembly = asked_assembly(file, reader, options);
+    const std::optional<Assembly> assembly = requested_assembly(file, reader, options);
     const bool copies_first = assembly && names_copies(options);
     if (copies_first) copy_atoms(atoms, *assembly, structure);
     warn_of_missing_altloc(structure, atoms, options.altloc);
-    choose_atoms(atoms, contents.sites, structure.beside, options, *radii, structure.report, file.path, meaning);
+    choose_atoms(atoms, contents.sites, structure.extra_atoms, options, *radii, structure.report, file.path, scope);
     structure.atoms = std::move(atoms);
     structure.report.used = structure.atoms.size();
     refuse_no_atoms(structure);
     std::vector<std::string> unknown = radii->assign(structure);
-    const std::vector<std::string> beside = assign_beside(structure, *radii);
-    unknown.insert(unknown.end(), beside.begin(), beside.end());
-    if (options.unknown_element == UnknownElement::halt && meaning != Meaning::anywhere)
+    const std::vector<std::string> extra_unknown = assign_extra_radii(structure, *radii);
+    unknown.insert(unknown.end(), extra_unknown.begin(), extra_unknown.end());
+    if (options.unknown_element == UnknownElement::halt && scope != PositionScope::any)
       halt_on_unknown_elements(structure, unknown, contents.unknown_elements);
     refuse_no_atoms(structure);
     warn_of_coincident_atoms(structure);
@@ -437,7 +439,7 @@ struct StructureFile::Parts {
     if (options.list_assemblies) list_assemblies(structure, file, reader);
     if (assembly && !copies_first) {
       assemble(structure, *assembly, options.copy_mode);
-      assemble_beside(structure, *assembly);
+      assemble_extra_atoms(structure, *assembly);
     }
     return structure;
   }
@@ -450,18 +452,21 @@ struct StructureFile::Parts {
   ReadReport report;
   std::shared_ptr<const Topology> topology;
   std::optional<RadiiChoice> radii;
-  std::vector<std::string> chains;   ///< Structure::chains
-  std::vector<Bond> bonds_by_index;  ///< of all that may be shown
+  std::vector<std::string> chains;   ///< becomes Structure::chains
+  std::vector<Bond> bonds_by_index;  ///< bonds of all atoms that may be shown, by Atom::index
 };
 
 StructureFile::StructureFile(const std::string& path, const ReadOptions& options)
     : parts_(std::make_unique<Parts>(path, options)),
-      reach_(parts_->choose(parts_->contents.atoms, Meaning::anywhere)) {
+      possible_structure_(parts_->choose(parts_->contents.atoms, PositionScope::any)) {
   if (options.shown.empty()) return;
-  reach_.shown_bonds = std::make_shared<const std::vector<Bond>>(bonds_of_shown(reach_, parts_->contents));
-  const std::size_t own = reach_.atoms.size();
-  const auto index = [&](std::uint32_t n) { return (n < own ? reach_.atoms[n] : reach_.beside[n - own]).index; };
-  for (const auto& [a, b] : *reach_.shown_bonds) parts_->bonds_by_index.push_back({index(a), index(b)});
+  possible_structure_.shown_bonds =
+      std::make_shared<const std::vector<Bond>>(find_shown_bonds(possible_structure_, parts_->contents));
+  const std::size_t own = possible_structure_.atoms.size();
+  const auto index = [&](std::uint32_t n) {
+    return (n < own ? possible_structure_.atoms[n] : possible_structure_.extra_atoms[n - own]).index;
+  };
+  for (const auto& [a, b] : *possible_structure_.shown_bonds) parts_->bonds_by_index.push_back({index(a), index(b)});
 }
 
 StructureFile::~StructureFile() = default;
@@ -469,9 +474,10 @@ StructureFile::~StructureFile() = default;
 Structure StructureFile::at(std::span<const glm::dvec3> positions) const {
   std::vector<Atom> atoms = parts_->contents.atoms;
   for (std::size_t n = 0; n < positions.size(); ++n) atoms[n].position = positions[n];
-  Structure structure = parts_->choose(std::move(atoms), Meaning::in_a_frame);
+  Structure structure = parts_->choose(std::move(atoms), PositionScope::frame);
   if (!parts_->options.shown.empty())
-    structure.shown_bonds = std::make_shared<const std::vector<Bond>>(places_of(structure, parts_->bonds_by_index));
+    structure.shown_bonds =
+        std::make_shared<const std::vector<Bond>>(bonds_by_place(structure, parts_->bonds_by_index));
   return structure;
 }
 
@@ -485,9 +491,9 @@ std::size_t count_atoms(const std::string& path, const std::optional<Selection>&
 
 Structure read_structure(const std::string& path, const ReadOptions& options) {
   StructureFile::Parts parts(path, options);
-  Structure structure = parts.choose(std::move(parts.contents.atoms), Meaning::here);
+  Structure structure = parts.choose(std::move(parts.contents.atoms), PositionScope::current);
   if (!options.shown.empty())
-    structure.shown_bonds = std::make_shared<const std::vector<Bond>>(bonds_of_shown(structure, parts.contents));
+    structure.shown_bonds = std::make_shared<const std::vector<Bond>>(find_shown_bonds(structure, parts.contents));
   return structure;
 }
 

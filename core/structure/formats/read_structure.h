@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the atoms of a surface from a file: format by content, one model, one alternate location, no water, no ions.
+// Reads the atoms for a surface from a file. By default that is one model and one alternate location, without water and
+// ions.
 #pragma once
 
 #include <memory>
@@ -17,19 +18,20 @@
 
 namespace meniscus {
 
-/// What to do with atoms of unknown element.
+/// The treatment of atoms of unknown element.
 enum class UnknownElement { halt, guess, skip };
 
-/// What to do with hydrogens. `automatic`: kept with radii for explicit hydrogens, left out with united atoms.
+/// The treatment of hydrogens. `automatic`: kept with radii for explicit hydrogens, left out with united atoms.
 enum class Hydrogens { automatic, keep, drop };
 
-/// Atoms that something else than a surface shows, such as sticks.
+/// Atoms that are shown in another way than by a surface, such as sticks.
 struct ShownAtoms {
-  std::string option;  ///< that asks for them, for messages: "sticks"
-  Selection atoms;     ///< of the same atoms as ReadOptions::selection, with the same rule for water and ions
+  std::string option;  ///< name of the option that selects them, for messages: "sticks"
+  /// Selection from the same atoms as ReadOptions::selection, with the same rule for water and ions.
+  Selection atoms;
 };
 
-/// As many as Atom::shown has bits.
+/// The greatest number of ShownAtoms, which is the number of bits of Atom::shown.
 inline constexpr std::size_t kMostShown = 16;
 
 struct ReadOptions {
@@ -37,64 +39,67 @@ struct ReadOptions {
   AltlocChoice altloc{};
   bool keep_water = false;
   bool keep_ions = false;
-  UnknownElement unknown_element = UnknownElement::halt;  ///< guess: radius kRadiusWithoutSource; skip: leave out
-  std::string assembly{};                                 ///< id of the assembly to build; empty: as deposited
+  UnknownElement unknown_element = UnknownElement::halt;  ///< guess: radius kRadiusWithoutSource; skip: left out
+  std::string assembly{};                                 ///< id of the assembly to build; empty: as in the file
   CopyMode copy_mode = CopyMode::atoms;                   ///< what becomes of its copies
-  bool list_assemblies = false;                           ///< fill in Structure::assemblies
-  std::vector<std::string> added{};  ///< further files, whose atoms come after those of the first as further models
-  std::optional<Selection> superpose_on{};  ///< of both: each added file is superposed on the first (AddedFiles)
-  /// Evaluated on what other models, altlocs and virtual sites leave, water and ions included. Water and ions that it
-  /// selects are used only if it names them (Selection::names) or keep_water, keep_ions.
+  bool list_assemblies = false;                           ///< if true, Structure::assemblies is filled in
+  std::vector<std::string> added{};  ///< names of further files, whose atoms are added as further models
+  /// The atoms by which each added file is superposed on the first, selected in both (AddedFiles).
+  std::optional<Selection> superpose_on{};
+  /// Selects the atoms to use. It is evaluated on all atoms, including water and ions, except for virtual sites and the
+  /// atoms of other models and other alternate locations. Selected water and ions are used only if the expression names
+  /// them (Selection::names) or with keep_water or keep_ions.
   std::optional<Selection> selection = {};
-  std::vector<Selection> sides = {};  ///< parts of it, each of which must have atoms
+  std::vector<Selection> required_parts = {};  ///< parts of the selection, each of which must have atoms
   Hydrogens hydrogens = Hydrogens::automatic;
   RadiiOptions radii{};
-  bool keep_topology = false;  ///< fill in Structure::topology
-  /// The atoms that the frames of a trajectory have, where these are not all of the file: the others are left out
-  /// before anything else, and Atom::index counts what is left. By names and classes; positions only where the file
-  /// has them.
+  bool keep_topology = false;  ///< if true, Structure::topology is filled in
+  /// The atoms of the frames of a trajectory, if these are not all atoms of the file. Other atoms are left out before
+  /// anything else, and Atom::index counts the atoms that are left. It may use names and classes, and positions only if
+  /// the file has them.
   std::optional<Selection> trajectory_atoms = {};
-  /// Where the atoms of a file without positions (PSF) are, Å, one each in the order of the file.
+  /// The positions (Å) of all atoms of a file without positions (PSF), in the order of the file.
   std::vector<glm::dvec3> positions{};
-  /// Fills in Atom::shown, Structure::beside and, of all shown atoms, shown_bonds. At most kMostShown.
+  /// Atoms to show, at most kMostShown entries. Atom::shown, Structure::extra_atoms and, for all shown atoms,
+  /// shown_bonds are filled in.
   std::vector<ShownAtoms> shown{};
-  bool secondary_structure = false;  ///< fill in Atom::secondary of all atoms (secondary_structure.h)
+  bool secondary_structure = false;  ///< if true, Atom::secondary is computed for all atoms (secondary_structure.h)
 };
 
-/// Reads a file of any format in formats.h, plain or gzipped; "-" is standard input. Default: polymer and ligands in,
-/// water and free ions out, first model, best alternate location. Radii: the file's own (XYZR, PQR), else
-/// Bondi's.
-/// Throws InputError (see read_text_file and the readers; no such model; nothing selected; no atoms left; unknown
-/// elements), CapacityError.
+/// Reads a file of any format in structure_formats.h, plain or gzipped; "-" is standard input. The default is: polymer
+/// and ligands, no water and free ions, the first model, the best alternate location, and the radii of the file (XYZR,
+/// PQR) or else those of Bondi.
+/// Throws InputError as read_text_file and the readers do, and if there is no such model, nothing is selected, no atoms
+/// are left, or elements are unknown. Throws CapacityError.
 Structure read_structure(const std::string& path, const ReadOptions& options = {});
 
-/// A file that is read once, for structures of its atoms wherever they are.
+/// A file that is read once, for structures of its atoms at any positions.
 class StructureFile {
  public:
-  /// Throws as read_structure.
+  /// Reads the file. Throws as read_structure does.
   StructureFile(const std::string& path, const ReadOptions& options);
   ~StructureFile();
   StructureFile(const StructureFile&) = delete;
   StructureFile& operator=(const StructureFile&) = delete;
 
-  /// All atoms that at() takes or marks anywhere, where the file or the options place them.
-  const Structure& reach() const { return reach_; }
+  /// All atoms that at() may use or show, at the positions of the file or of the options.
+  const Structure& possible_structure() const { return possible_structure_; }
 
-  /// What read_structure gives for atoms that are there: one position, Å, of each atom of the file, or of
-  /// ReadOptions::trajectory_atoms. Atoms of added files are superposed on them, if they are to be, or stay.
-  /// ReadOptions::shown may mean none of them, and bonds are those found in reach(), so that they stay. Throws as
-  /// read_structure.
+  /// Returns the structure that read_structure gives for other positions (Å), one for each atom of the file or of
+  /// ReadOptions::trajectory_atoms. Atoms of added files are superposed on them if requested, and stay otherwise. A
+  /// selection of ReadOptions::shown may be empty. Bonds are those found in possible_structure(), so that they do not
+  /// change. Throws as read_structure does.
   Structure at(std::span<const glm::dvec3> positions) const;
 
  private:
   friend Structure read_structure(const std::string& path, const ReadOptions& options);
   struct Parts;
   std::unique_ptr<Parts> parts_;
-  Structure reach_;
+  Structure possible_structure_;
 };
 
-/// How many atoms the first model of the file has, or how many of them are those of a trajectory
-/// (ReadOptions::trajectory_atoms). Throws as read_structure.
+/// Returns the number of atoms in the first model of the file, or of those that belong to a trajectory
+/// (ReadOptions::trajectory_atoms). Throws as read_structure does.
 std::size_t count_atoms(const std::string& path, const std::optional<Selection>& trajectory_atoms);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads XYZ: frames of a count, a comment and a line for each atom.
+// Reads XYZ: frames with a count, a comment and one line for each atom.
 #include <algorithm>
 #include <array>
 #include <bitset>
@@ -19,14 +19,15 @@
 namespace meniscus {
 namespace {
 
-/// Which fields of a line hold what, counted from 0.
+/// The places of the fields in a line, counted from 0.
 struct Columns {
   std::size_t element = 0;
-  std::size_t position = 1;  ///< and the two behind it
+  std::size_t position = 1;  ///< place of x, which y and z follow
   std::size_t count() const { return std::max(element + 1, position + 3); }
 };
 
-/// Extended XYZ says Properties=species:S:1:pos:R:3:... in its comment: name, kind, number of columns.
+/// Returns the columns of a frame. In extended XYZ the comment has Properties=species:S:1:pos:R:3:..., where each
+/// property has a name, a kind and a number of columns.
 Columns columns_of(std::string_view comment) {
   Columns columns;
   constexpr std::string_view kKey = "Properties=";
@@ -55,7 +56,7 @@ Columns columns_of(std::string_view comment) {
   return {species ? *species : *number, *position};
 }
 
-/// Fortran writes exponents with D.
+/// Parses a number. Fortran writes exponents with D.
 bool parse_fortran_number(std::string_view field, double& number) {
   if (parse_number(field, number)) return true;
   std::string text(field);
@@ -64,7 +65,8 @@ bool parse_fortran_number(std::string_view field, double& number) {
   return parse_number(text, number);
 }
 
-/// A symbol of any case, digits behind it aside ("C", "CL", "H12"), or an atomic number; 0 if it is neither.
+/// Returns the element of a symbol in upper or lower case, which digits may follow ("C", "CL", "H12"), or of an atomic
+/// number. Returns 0 if the word is neither.
 std::uint8_t element_of(std::string_view word) {
   std::int64_t number = 0;
   if (parse_whole_number(word, number)) return static_cast<std::uint8_t>(number > 0 && number <= 118 ? number : 0);
@@ -91,12 +93,12 @@ class XyzReader {
       read_frame(count_of(line));
     }
     if (contents_.atoms.empty() && contents_.other_model_atoms == 0) throw InputError(file_.path, 0, "holds no atoms");
-    tell_types();
+    warn_of_types();
     return std::move(contents_);
   }
 
  private:
-  /// The shortest line of an atom is "H 0 0 0", but for its end.
+  /// Returns the number of atoms of a frame. The shortest line of an atom is "H 0 0 0", without its line end.
   std::size_t count_of(std::string_view line) const {
     constexpr std::size_t kShortestLine = 8;
     std::int64_t count = 0;
@@ -120,7 +122,7 @@ class XyzReader {
     ++contents_.models;
     std::string_view line;
     const Columns columns = lines_.next(line) ? columns_of(line) : Columns{};
-    of_lammps_ = line.starts_with("Atoms. Timestep:") || trimmed(line) == "Atoms";  // the latter of old
+    is_lammps_ = line.starts_with("Atoms. Timestep:") || trimmed(line) == "Atoms";  // the latter in old versions
     const bool wanted = choice_.takes(static_cast<std::int32_t>(contents_.models));
     for (std::size_t n = 0; n < count; ++n) {
       if (!lines_.next(line)) refuse_short_frame(file_, count_line, count, n);
@@ -147,11 +149,11 @@ class XyzReader {
     atom.name = fields[columns.element];
     std::int64_t ignored = 0;
     const bool is_number = parse_whole_number(atom.name, ignored);
-    const bool is_type = is_number && of_lammps_;
+    const bool is_type = is_number && is_lammps_;
     if (!is_type) atom.element = element_of(atom.name);
     if (is_number) numbers_.set(atom.element);
-    symbols_ = symbols_ || !is_number;
-    types_ = types_ || is_type;
+    has_symbols_ = has_symbols_ || !is_number;
+    has_types_ = has_types_ || is_type;
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view field = fields[columns.position + static_cast<std::size_t>(axis)];
       double number = 0.0;
@@ -162,14 +164,14 @@ class XyzReader {
     contents_.atoms.push_back(std::move(atom));
   }
 
-  /// Types count from 1, but few molecules hold helium.
-  void tell_types() {
-    if (types_)
+  /// Warns if the numbers of elements may be types of atoms. Types count from 1, while few molecules contain helium.
+  void warn_of_types() {
+    if (has_types_)
       contents_.unknown_elements =
           "the numbers are LAMMPS' types of atoms; write the file again after 'dump_modify ID element C H O ...', one "
           "symbol a type, or put symbols in their place";
     const std::size_t last = numbers_.count();
-    if (symbols_ || last < 2 || numbers_ != (~std::bitset<128>() >> (127 - last)).reset(0)) return;
+    if (has_symbols_ || last < 2 || numbers_ != (~std::bitset<128>() >> (127 - last)).reset(0)) return;
     contents_.warnings.emplace_back(
         fmt::format("the elements are numbers from 1 to {}, and count as H, He and so on; if these are types of a "
                     "simulation, put symbols in their place",
@@ -180,8 +182,8 @@ class XyzReader {
   const ModelChoice& choice_;
   LineReader lines_;
   FileContents contents_;
-  std::bitset<128> numbers_;  ///< elements that are given as such
-  bool symbols_ = false, types_ = false, of_lammps_ = false;
+  std::bitset<128> numbers_;  ///< elements that are written as numbers
+  bool has_symbols_ = false, has_types_ = false, is_lammps_ = false;
 };
 
 bool recognizes(std::string_view text) {
@@ -193,7 +195,8 @@ bool recognizes(std::string_view text) {
   return lines.next(line) && is_atom_line(line, columns);
 }
 
-/// Rows of Tinker begin with the number of the atom and its name; the box may be before them.
+/// True for XYZ of Tinker, whose rows begin with the number and the name of the atom. A line with the box may precede
+/// them.
 bool is_of_tinker(std::string_view text) {
   LineReader lines(text);
   std::string_view line;
@@ -230,7 +233,7 @@ bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
     glm::dvec3& position = positions.emplace_back();
     for (std::size_t n = 0; n < columns.position; ++n) take_field(line);
     for (int axis = 0; axis < 3; ++axis)
-      if (!parse_quickly(take_field(line), 1.0, position[axis])) return false;
+      if (!try_parse_coordinate(take_field(line), 1.0, position[axis])) return false;
   }
   return positions.size() == static_cast<std::uint64_t>(count);
 }

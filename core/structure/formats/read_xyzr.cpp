@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads XYZR and XYZRN: one ball a line, as MSMS and NanoShaper take it.
+// Reads XYZR and XYZRN of MSMS and NanoShaper, which have one ball per line.
 
 #include <algorithm>
 
@@ -51,7 +51,7 @@ FileContents read(const TextFile& file, const ModelChoice& models) {
       atom.position[axis] = parse_coordinate(file, lines.number(), "xyz"[axis], fields[static_cast<std::size_t>(axis)]);
     }
     atom.radius = parse_radius(file, lines.number(), fields[3], kLine);
-    // MSMS has a number before the name, which says that the ball is part of the surface.
+    // MSMS has a number before the name. 1 means that the ball is part of the surface.
     std::int64_t flag = 1;
     const bool flagged = fields.size() > 5 && parse_whole_number(fields[4], flag);
     if (flag != 1) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists the structure formats and chooses the one that a file's content fits.
+// Lists the structure formats and chooses the one that fits the content of a file.
 #include "core/structure/formats/structure_formats.h"
 
 #include <algorithm>
@@ -15,12 +15,12 @@
 namespace meniscus {
 namespace {
 
-/// A new format is a file read_<name>.cpp, its name in reader.h and an entry in both lists.
+/// A new format has a file read_<name>.cpp, a declaration in structure_formats.h and an entry in both lists.
 constexpr std::array<const Reader*, 13> kReaders{
     &kPdbReader, &kMmcifReader, &kBinaryCifReader, &kSdfReader,       &kMol2Reader, &kPdbqtReader, &kPqrReader,
     &kGroReader, &kXyzReader,   &kXyzrReader,      &kCharmmCrdReader, &kPsfReader,  &kPrmtopReader};
 
-/// Strict tests first: PDB takes any text with one of its records in it, and what may be PQR or PDBQT too.
+/// Strict tests come first. PDB accepts any text with one of its records in it, including PQR and PDBQT.
 constexpr std::array<const Reader*, 13> kOrderOfTrial{
     &kBinaryCifReader, &kPsfReader, &kPrmtopReader, &kCharmmCrdReader, &kMmcifReader, &kMol2Reader, &kSdfReader,
     &kGroReader,       &kXyzReader, &kPdbqtReader,  &kPdbReader,       &kPqrReader,   &kXyzrReader};
@@ -32,7 +32,7 @@ const Reader* reader_by_name(std::string path) {
   return found == kReaders.end() ? nullptr : *found;
 }
 
-/// Formats we can name but not read; better refused by name than misread as PDB.
+/// Throws InputError for formats that are recognized but not read, so that they are not misread as PDB.
 void refuse_known_foreign(const TextFile& file) {
   const std::size_t first = file.text.find_first_not_of(" \t\n");
   if (file.text[first] == '<')
@@ -78,7 +78,7 @@ const Reader& choose_reader(const TextFile& file) {
                                  "right one",
                                  by_name->metadata.name, reader->metadata.name));
   }
-  if (by_name) return *by_name;  // its reader says what is missing, and where
+  if (by_name) return *by_name;  // this reader reports what is missing, and where
   throw InputError(file.path, 0, fmt::format("is in none of the formats that are read ({})", format_names()));
 }
 

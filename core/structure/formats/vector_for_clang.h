@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets clang 14 compile gemmi 0.5 as C++20: included before everything else in the files that use it.
+// Lets clang 14 compile gemmi 0.5 as C++20. The files that use gemmi include it before everything else.
 #pragma once
 
-// gemmi has vectors of a type that is not complete yet. clang looks into constexpr members of std::vector at once,
-// where gcc waits until they are needed; so here they are none. The function that gets another name is declared as
-// constexpr elsewhere; std::fill over std::vector<bool> would need it, which these files have not.
+// gemmi has vectors of a type that is incomplete at that point. clang instantiates constexpr members of std::vector at
+// once, where gcc waits until they are needed. Therefore these members are not constexpr here. The function that is
+// renamed is declared as constexpr elsewhere; only std::fill over std::vector<bool> would need it, which these files do
+// not use.
 #include <string>
 
 #pragma push_macro("_GLIBCXX20_CONSTEXPR")

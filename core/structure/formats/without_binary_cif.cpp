@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refuses BinaryCIF, in builds without nlohmann_json, which reads MessagePack.
+// Refuses BinaryCIF in builds without nlohmann_json, which reads MessagePack.
 #include "core/base/error.h"
 #include "core/structure/formats/binary_cif.h"
 

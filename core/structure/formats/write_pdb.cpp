@@ -26,7 +26,7 @@ void check_room(const Atom& atom) {
                                    escaped(atom_place(atom))));
 }
 
-/// Columns 13 to 16: elements of one letter begin in the second.
+/// Returns the text for columns 13 to 16, where elements of one letter begin in the second column.
 std::string name_field(const Atom& atom) {
   const std::string element = atom.element ? element_symbol(atom.element) : "";
   return atom.name.size() < 4 && element.size() < 2 ? " " + atom.name : atom.name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes one molecule at several places as the models of a PDB file.
+// Writes one molecule at several sets of positions as the models of a PDB file.
 #pragma once
 
 #include <filesystem>
@@ -13,15 +13,18 @@
 
 namespace meniscus {
 
-/// The file is complete or not there at all. Atoms of classes other than polymer are HETATM.
+/// A PDB file with models of the same atoms. The file appears only when it is complete. Atoms of classes other than
+/// polymer are written as HETATM.
 class PdbModels {
  public:
-  /// Throws RequestError for atoms that the format has no room for: more than 99,999 of them, numbers of residues of
-  /// more than four characters, chains of more than two; OutputError.
+  /// Begins a file. Throws RequestError if the format has no room for more than 99,999 atoms, residue numbers of more
+  /// than four characters, or chains of more than two. Throws OutputError.
   PdbModels(const std::filesystem::path& path, Existing existing, std::span<const Atom> atoms);
 
-  /// The next model: positions of the atoms, Å, in their order. Throws RequestError beyond -999.999 and 9999.999 Å.
+  /// Adds a model with these positions (Å), in the order of the atoms. Throws RequestError for coordinates beyond
+  /// -999.999 and 9999.999 Å.
   void add(std::span<const glm::dvec3> positions);
+  /// Completes the file and gives it its name. Throws OutputError.
   void commit();
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gives each atom its radius; atoms of equal names and element are looked up once.
+// Assigns radii. Atoms with the same names and element are looked up once.
 #include "core/structure/radii/assign_radii.h"
 
 #include <algorithm>
@@ -80,9 +80,10 @@ RadiiChoice::RadiiChoice(const RadiiOptions& options, const std::string& molecul
   refuse_covering_none(molecule_file, atoms);
 }
 
-/// Radii given one by one may be all that is wanted.
+/// Throws InputError if no atom has a radius of the chosen set or files. There is no error with overrides, because they
+/// may be all that the user wants.
 void RadiiChoice::refuse_covering_none(const std::string& molecule_file, std::span<const Atom> atoms) const {
-  const auto is_covered = [this](const Atom& atom) { return radius_for(atom, true).covered; };
+  const auto is_covered = [this](const Atom& atom) { return radius_for(atom, true).is_covered; };
   if (atoms.empty() || options_.may_cover_none || !options_.overrides.empty() || std::ranges::any_of(atoms, is_covered))
     return;
   throw InputError(molecule_file, 0,
@@ -114,7 +115,7 @@ std::vector<RadiiChoice::Given> RadiiChoice::radii_for(const Structure& structur
   std::unordered_map<std::string, Given> known;
   std::string key;
   for (const Atom& atom : structure.atoms) {
-    if (from_file_) {  // every atom has a radius of its own
+    if (from_file_) {  // each atom has its own radius
       given.push_back(radius_for(atom, hydrogens_used));
       continue;
     }
@@ -151,9 +152,9 @@ void RadiiChoice::warn(Structure& structure, const std::vector<Given>& given) co
   std::size_t hydrogens = 0;
   for (std::size_t n = 0; n < given.size(); ++n) {
     const Atom& atom = structure.atoms[n];
-    if (!given[n].covered) uncovered.push_back(label_of(atom));
+    if (!given[n].is_covered) uncovered.push_back(label_of(atom));
     if (is_hydrogen(atom)) ++hydrogens;
-    const bool by_element = !given[n].covered || set_ == &kBondiSet;
+    const bool by_element = !given[n].is_covered || set_ == &kBondiSet;
     if (by_element && given[n].found.source == source_name(RadiusSource::none)) ++without_source[atom.element];
   }
   if (!uncovered.empty()) {

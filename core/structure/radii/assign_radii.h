@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gives each atom its radius: by tables, sets and overrides in their order, with an account of where each came from.
+// Assigns a radius to each atom from tables, sets and overrides, and records the source of each radius.
 #pragma once
 
 #include <span>
@@ -16,46 +16,52 @@ enum class FileRadii : std::uint8_t;
 struct Atom;
 struct Structure;
 
-/// The radius of some atoms, whatever else says.
+/// A radius of some atoms that replaces any other.
 struct RadiusOverride {
   Selection atoms;
-  double radius;  ///< Å, above 0
+  double radius;  ///< Å, greater than 0
 };
 
 struct RadiiOptions {
-  std::string set{};                        ///< "bondi", "united", "protor" or "file"; empty: file if it has usual ones
-  std::vector<std::string> files{};         ///< read_radii_files; the last that covers an atom counts, then the set
-  std::vector<RadiusOverride> overrides{};  ///< the last that selects an atom counts
-  bool may_cover_none = false;              ///< no error where neither set nor files have a radius for any atom
+  /// "bondi", "united", "protor" or "file"; empty: "file" if the file has usual radii, else "bondi".
+  std::string set{};
+  /// Files for read_radii_files; the last one that covers an atom is used, then the set.
+  std::vector<std::string> files{};
+  std::vector<RadiusOverride> overrides{};  ///< the last one that selects an atom is used
+  bool may_cover_none = false;  ///< if true, there is no error if neither set nor files have a radius for any atom
 };
 
-/// Reads "EXPR=R", cut at the last "=". Throws SelectionError.
+/// Parses "EXPR=R", split at the last "=". Throws SelectionError.
 RadiusOverride parse_radius_override(const std::string& text);
 
-/// Where radii come from, once files are read.
+/// The tables and sets from which radii are assigned.
 class RadiiChoice {
  public:
-  /// atoms: all of the file; beads of Martini among them get the radii of their version if no set is asked for. Throws
-  /// InputError: an unknown set, one that is not for beads where there are some, "file" for a molecule file without
-  /// radii, a set or files that cover none of the atoms, or what read_radii_files throws.
+  /// Reads the files. atoms: all atoms of the molecule file. Beads of Martini among them have the radii of their
+  /// version if no set is requested. Throws InputError for an unknown set, a set without beads for a file with beads,
+  /// "file" for a molecule file without radii, and a set or files that cover none of the atoms, and as read_radii_files
+  /// does. `options` must outlive this object.
   RadiiChoice(const RadiiOptions& options, const std::string& molecule_file, FileRadii file_radii,
               std::span<const Atom> atoms = {});
 
+  /// True if the radii of the molecule file are used.
   bool from_molecule_file() const { return from_file_; }
-  /// Do the radii contain hydrogens, so that these are left out unless the user keeps them? `any`: the molecule has
-  /// some.
+  /// True if the radii include hydrogens, so that hydrogens are left out unless the user keeps them. any_hydrogens:
+  /// true if the molecule has hydrogens.
   bool united(bool any_hydrogens) const;
 
-  /// Gives every atom its radius and leaves out those whose radius is zero (tables say so of some hydrogens). Fills in
-  /// Structure::radii_set and radius_classes. Warns of atoms that neither files nor set cover, which get Bondi's radius
-  /// of their element; of explicit hydrogens beside united atoms; of elements without a published radius; of overrides
-  /// that select nothing. Returns the labels of atoms whose radius is a guess, because their element is unknown.
+  /// Assigns a radius to every atom, and leaves out those of radius zero (which tables give to some hydrogens).
+  /// Structure::radii_set and radius_classes are filled in. Warnings are added for atoms that neither files nor set
+  /// cover, which get Bondi's radius of their element, for explicit hydrogens with united atoms, for elements without a
+  /// published radius, and for overrides that select nothing. Returns the labels of atoms whose radius is a guess
+  /// because their element is unknown.
   std::vector<std::string> assign(Structure& structure) const;
 
  private:
   struct Given {
     FoundRadius found;
-    bool covered = true;  // by what the user chose, not by the element as a last resort
+    // False for Bondi's radius of the element, if the user chose other radii.
+    bool is_covered = true;
   };
   void refuse_covering_none(const std::string& molecule_file, std::span<const Atom> atoms) const;
   Given radius_for(const Atom& atom, bool hydrogens_used) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks radii up by name, from the exact one to the general; patterns are matched in all ways at once.
+// Looks radii up by name, from exact names to general ones, and matches patterns by following all ways at once.
 #include "core/structure/radii/radii_file.h"
 
 #include <cctype>
@@ -21,7 +21,7 @@ constexpr std::size_t kLongestPattern = 200;
   throw Error(fmt::format("the pattern {} {}", in_quotes(text), why));
 }
 
-/// The characters of "[...]", whose bracket opens at `place`, which moves to the closing one.
+/// Returns the characters of "[...]", whose opening bracket is at `place`. `place` becomes that of the closing bracket.
 std::bitset<256> set_at(std::string_view text, std::size_t& place) {
   const std::size_t close = text.find(']', place + 2);
   if (close == std::string_view::npos) refuse(text, "has a bracket that is not closed");
@@ -62,8 +62,8 @@ std::vector<NamePattern::Piece> NamePattern::pieces_of(std::string_view alternat
     const char c = alternative[n];
     if (c == '*' || c == '+' || c == '?') {
       if (pieces.empty()) refuse(alternative, "begins with a repetition sign");
-      pieces.back().optional |= c != '+';
-      pieces.back().repeated |= c != '?';
+      pieces.back().is_optional |= c != '+';
+      pieces.back().is_repeated |= c != '?';
       continue;
     }
     Piece piece;
@@ -90,17 +90,17 @@ bool NamePattern::matches(std::string_view name) const {
 }
 
 bool NamePattern::matches(const std::vector<Piece>& pieces, std::string_view name) {
-  std::vector<bool> at(pieces.size() + 1);  // behind how many pieces the name so far may end
+  std::vector<bool> at(pieces.size() + 1);  // entry p: true if the name so far may end after p pieces
   at[0] = true;
   const auto skip_optional = [&] {
-    for (std::size_t p = 0; p < pieces.size(); ++p) at[p + 1] = at[p + 1] || (at[p] && pieces[p].optional);
+    for (std::size_t p = 0; p < pieces.size(); ++p) at[p + 1] = at[p + 1] || (at[p] && pieces[p].is_optional);
   };
   skip_optional();
   for (const char c : name) {
     std::vector<bool> next(at.size());
     for (std::size_t p = 0; p < pieces.size(); ++p) {
       if (!pieces[p].characters[static_cast<unsigned char>(c)]) continue;
-      if (at[p] || (at[p + 1] && pieces[p].repeated)) next[p + 1] = true;
+      if (at[p] || (at[p + 1] && pieces[p].is_repeated)) next[p + 1] = true;
     }
     at = std::move(next);
     skip_optional();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds the radii sets bondi, protor, united and of Martini, and finds a set by its name.
+// Holds the built-in sets of radii (bondi, protor, united, Martini), and finds a set by its name.
 #include "core/structure/radii/radii_set.h"
 
 #include <map>
@@ -39,7 +39,7 @@ const RadiiSet kBondiSet{"bondi", "by element; hydrogens are atoms of their own"
                                               source_name(found.source)};
                          }};
 
-// J. Tsai, R. Taylor, C. Chothia & M. Gerstein, J. Mol. Biol. 290, 253 (1999), by bonding class.
+// Radii by bonding class from J. Tsai, R. Taylor, C. Chothia & M. Gerstein, J. Mol. Biol. 290, 253 (1999).
 
 namespace {
 
@@ -51,7 +51,7 @@ struct Entry {
   const char* source;
 };
 
-// The paper covers proteins; S. Mitternacht, F1000Research 5, 189 (2016) adds nucleotides, selenium and water.
+// The paper covers proteins. S. Mitternacht, F1000Research 5, 189 (2016) adds nucleotides, selenium and water.
 const std::map<std::string_view, Entry> kProtorRadii{
     {"C3H0", {1.61, kPaper}},     {"C3H1", {1.76, kPaper}},      {"C4H1", {1.88, kPaper}},
     {"C4H2", {1.88, kPaper}},     {"C4H3", {1.88, kPaper}},      {"N3H0", {1.64, kPaper}},
@@ -72,12 +72,12 @@ std::optional<FoundRadius> protor_radius_of(const Atom& atom) {
 const RadiiSet kProtorSet{"protor", "united atoms by bonding class, as FreeSASA uses them", kPaper, true,
                           protor_radius_of};
 
-// C. Chothia, J. Mol. Biol. 105, 1 (1976), for proteins; nucleotides by the same kinds of atoms.
+// Radii of C. Chothia, J. Mol. Biol. 105, 1 (1976), for proteins. In nucleotides they apply to atoms of the same kinds.
 
 namespace {
 
-// Å. Tetrahedral and trigonal carbon, amide and amino nitrogen, oxygen, sulphur. The paper gives no radius for
-// phosphorus and selenium.
+// Radii in Å of tetrahedral and trigonal carbon, amide and amino nitrogen, oxygen, and sulphur. The paper has no radius
+// for phosphorus and selenium.
 const std::map<std::string_view, double> kUnitedRadii{{"C4", 1.87}, {"C3", 1.76}, {"N4", 1.50}, {"N3", 1.65},
                                                       {"N2", 1.65}, {"O1", 1.40}, {"O2", 1.40}, {"S2", 1.85}};
 
@@ -93,7 +93,8 @@ std::optional<FoundRadius> united_radius_of(const Atom& atom) {
 const RadiiSet kUnitedSet{"united", "united atoms: hydrogens are part of the atoms that carry them",
                           "Chothia 1976, J. Mol. Biol. 105, 1", true, united_radius_of};
 
-// Half the distance of the energy minimum of two equal beads, which is also what areas of Martini are measured with.
+// The radius of a bead is half the distance at the energy minimum of two equal beads. Areas of Martini are measured
+// with the same radius.
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The built-in sets of van der Waals radii, each with its source.
+// The built-in sets of van der Waals radii, with their sources.
 #pragma once
 
 #include <optional>
@@ -11,20 +11,20 @@ namespace meniscus {
 
 struct Atom;
 
-/// A radius and why an atom has it. The texts live as long as what gave them.
+/// A radius and its origin. The texts live as long as the table or set that they come from.
 struct FoundRadius {
   double radius = 0.0;      ///< Å
-  std::string_view label;   ///< the class: "C4H2", an element, a type of a force field
-  std::string_view source;  ///< a paper, a file, an option
+  std::string_view label;   ///< class: "C4H2", an element, or a type of a force field
+  std::string_view source;  ///< paper, file or option
 };
 
-/// One published set.
+/// A published set of radii.
 struct RadiiSet {
-  std::string_view name;  ///< as --radii takes it
+  std::string_view name;  ///< name for --radii
   std::string_view description;
   std::string_view source;
-  bool united;  ///< do the radii contain the hydrogens, which are then left out?
-  /// Nothing for atoms that the set does not cover.
+  bool united;  ///< true if the radii include hydrogens, which are then left out
+  /// Returns the radius of an atom; nothing if the set does not cover it.
   std::optional<FoundRadius> (*radius_of)(const Atom& atom);
 };
 
@@ -33,12 +33,13 @@ extern const RadiiSet kUnitedSet;
 extern const RadiiSet kProtorSet;
 extern const RadiiSet kMartini2Set, kMartini3Set;
 
+/// Returns all built-in sets.
 std::span<const RadiiSet* const> radii_sets();
 
-/// The set of this name; nullptr: none.
+/// Returns the set with this name; null if there is none.
 const RadiiSet* find_radii_set(std::string_view name);
 
-/// "bondi, united, protor, martini2, martini3, file".
+/// Returns "bondi, united, protor, martini2, martini3, file".
 std::string radii_set_names();
 
 }  // namespace meniscus

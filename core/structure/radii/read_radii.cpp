@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Recognizes and reads files of radii: one atom or pattern per line, and CHARMM's topologies with parameters.
+// Reads files of radii after recognizing their format: one atom or pattern per line, or CHARMM topologies with
+// parameters.
 
 #include <algorithm>
 #include <array>
@@ -21,15 +22,16 @@
 namespace meniscus {
 namespace {
 
-/// Gathers topology (RESI, PRES, ATOM) and NONBONDED parameters from .rtf, .prm and .str files, after CHARMM's
-/// documentation (rtop, parmfile; B. R. Brooks et al., J. Comput. Chem. 30, 1545 (2009)).
+/// Collects topology (RESI, PRES, ATOM) and NONBONDED parameters from .rtf, .prm and .str files, by the documentation
+/// of CHARMM (rtop, parmfile; B. R. Brooks et al., J. Comput. Chem. 30, 1545 (2009)).
 class CharmmRadii {
  public:
-  /// Throws InputError with file and line.
+  /// Reads a file. Throws InputError with file and line.
   void read(const TextFile& file);
   bool empty() const { return files_.empty(); }
-  /// Half of Rmin by residue and atom. Atoms that only patches (PRES) name belong to every residue that lacks them; the
-  /// first patch counts. Throws InputError if topology or parameters are missing, or no type has parameters.
+  /// Returns half of Rmin by residue and atom. Atoms that only patches (PRES) have are added to every residue that
+  /// lacks them, from the first patch that has them. Throws InputError if topology or parameters are missing, or if no
+  /// type has parameters.
   RadiiTable table() const;
 
  private:
@@ -37,15 +39,15 @@ class CharmmRadii {
   void read_atom(const TextFile& file, std::size_t line, const std::vector<std::string_view>& fields);
   void read_type(const TextFile& file, std::size_t line, const std::vector<std::string_view>& fields);
 
-  std::string files_;                                                   // joined by ", "
-  std::map<std::string, std::map<std::string, std::string>> residues_;  // residue -> atom -> type
-  std::map<std::string, std::string> patch_atoms_;                      // atom -> type
-  std::map<std::string, double> radii_;                                 // type -> Rmin/2
-  std::string residue_;                                                 // being read; empty: a patch
+  std::string files_;                                                   // names of the files, joined by ", "
+  std::map<std::string, std::map<std::string, std::string>> residues_;  // type by residue and atom
+  std::map<std::string, std::string> patch_atoms_;                      // type by atom
+  std::map<std::string, double> radii_;                                 // Rmin/2 in Å by type
+  std::string residue_;                                                 // current residue; empty in a patch
   Section section_ = Section::other;
 };
 
-/// CHARMM compares the first four letters of a word, in any case.
+/// Returns the first four letters of a word in upper case, by which CHARMM compares words.
 std::string keyword(std::string_view field) {
   std::string word(field.substr(0, 4));
   for (char& c : word) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -59,7 +61,7 @@ bool ends_nonbonded(const std::string& word) {
   return std::find(kParameterSections.begin(), kParameterSections.end(), word) != kParameterSections.end();
 }
 
-/// Does a line with these fields begin a part of a topology or parameter file?
+/// True if a line with these fields begins a part of a topology or parameter file.
 bool is_charmm_line(const std::vector<std::string_view>& fields) {
   const std::string word = keyword(fields[0]);
   double number = 0.0;
@@ -71,7 +73,8 @@ void CharmmRadii::read(const TextFile& file) {
   files_ += (files_.empty() ? "" : ", ") + file.path;
   section_ = Section::other;
   LineReader lines(file.text);
-  bool continued = false;  // a line that ends in "-" goes on in the next: the options of NONBONDED
+  // True after a line that ends in "-", which the next line continues: the options of NONBONDED.
+  bool continued = false;
   for (std::string_view line; lines.next(line);) {
     line = trimmed(line.substr(0, line.find('!')));
     if (line.empty() || line[0] == '*') continue;
@@ -145,7 +148,7 @@ enum class RadiiFormat { atom_types, freesasa, charmm, force_field, plain };
 
 using Fields = std::vector<std::string_view>;
 
-/// Fields of a line without its comment.
+/// Returns the fields of a line without its comment.
 Fields fields_before_comment(std::string_view line, std::string_view comments = "#") {
   return fields_of(line.substr(0, line.find_first_of(comments)));
 }
@@ -172,7 +175,8 @@ RadiiFormat format_of(const TextFile& file) {
                    "parameters, PDB2PQR .DAT, or lines RESIDUE ATOM RADIUS");
 }
 
-/// "radius KEY DISTANCE EXPLICIT [UNITED]", then "RESIDUES ATOMS KEY" with patterns, underscores for blanks.
+/// Reads lines "radius KEY DISTANCE EXPLICIT [UNITED]", and then "RESIDUES ATOMS KEY" with patterns, in which
+/// underscores stand for blanks.
 RadiiTable read_atom_types(const TextFile& file) {
   RadiiTable table(file.path, "atom types");
   std::map<std::string, RadiiTable::Entry, std::less<>> radii;
@@ -207,7 +211,7 @@ RadiiTable read_atom_types(const TextFile& file) {
   return table;
 }
 
-/// Sections "types:" with NAME RADIUS [CLASS] and "atoms:" with RESIDUE ATOM TYPE.
+/// Reads the sections "types:" with NAME RADIUS [CLASS] and "atoms:" with RESIDUE ATOM TYPE.
 RadiiTable read_freesasa(const TextFile& file) {
   RadiiTable table(file.path, "FreeSASA");
   std::map<std::string, double, std::less<>> types;
@@ -234,7 +238,7 @@ RadiiTable read_freesasa(const TextFile& file) {
   return table;
 }
 
-/// RESIDUE ATOM [CHARGE] RADIUS.
+/// Reads lines "RESIDUE ATOM [CHARGE] RADIUS".
 RadiiTable read_lines(const TextFile& file, bool with_charge) {
   RadiiTable table(file.path, with_charge ? "force field" : "list");
   const std::size_t place = with_charge ? 3 : 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Recognizes words of selections in PyMOL and ChimeraX, and says what they are in our language.
+// Recognizes selections in the languages of PyMOL and ChimeraX, and translates them.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace meniscus {
 
-/// "'/a//A/10' is written in PyMOL's way; write 'chain A and resid 10'", as a message; empty if the word looks like
-/// neither program's.
+/// Returns the message "'/a//A/10' is written in PyMOL's way; write 'chain A and resid 10'". The result is empty if the
+/// word does not look like a selection of either program.
 std::string advice_on_foreign_selection(std::string_view word);
 
 }  // namespace meniscus

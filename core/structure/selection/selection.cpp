@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Evaluates parsed selections: each step for all atoms at once, with sets on a stack.
+// Evaluates parsed selections step by step, each step for all atoms, with a stack of sets.
 #include "core/structure/selection/selection.h"
 
 #include <algorithm>
@@ -65,7 +65,8 @@ double number_of(AtomField field, const Atom& atom) {
   }
 }
 
-/// Atoms keep some values in single precision: 20.1 in the file must equal 20.1 in the expression.
+/// Rounds a value as atoms store it. Some values have single precision, so that 20.1 in the file must equal 20.1 in the
+/// expression.
 double as_kept(AtomField field, double value) {
   const bool single = field == AtomField::b_factor || field == AtomField::occupancy || field == AtomField::charge;
   return single ? static_cast<float>(value) : value;
@@ -102,7 +103,8 @@ bool has_copies(std::span<const Atom> atoms) {
   return std::ranges::any_of(atoms, [](const Atom& atom) { return atom.copy > 0; });
 }
 
-/// Whether the values name the atom. A copied chain has two names: that of its file, and one with the copy's number.
+/// True if one of the values matches the atom. A chain of a copy has two names: the one in the file, and the one with
+/// the number of the copy.
 bool names(const TextTest& test, const Atom& atom, bool copied) {
   const auto is_one = [&](const std::string& text) {
     return std::ranges::any_of(test.values, [&](const TextPattern& pattern) { return matches(pattern, text); });
@@ -112,15 +114,15 @@ bool names(const TextTest& test, const Atom& atom, bool copied) {
   return is_one(atom.copy > 0 ? chain_of_file(atom) : atom.chain + "-1");
 }
 
-/// Carries out one step after another; each overload is a kind of step.
+/// Evaluates one step after another. Each overload evaluates one kind of step.
 class Evaluation {
  public:
-  explicit Evaluation(std::span<const Atom> atoms) : atoms_(atoms), copied_(has_copies(atoms)) {}
+  explicit Evaluation(std::span<const Atom> atoms) : atoms_(atoms), has_copies_(has_copies(atoms)) {}
 
   void operator()(const FlagTest& test) { stack_.push_back(atoms_with(test.flag, atoms_)); }
 
   void operator()(const TextTest& test) {
-    stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) { return names(test, atom, copied_); }));
+    stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) { return names(test, atom, has_copies_); }));
   }
 
   void operator()(const NumberTest& test) {
@@ -166,13 +168,13 @@ class Evaluation {
     }
     const PointTree tree(std::move(points));
     for (std::size_t n = 0; n < atoms_.size(); ++n) {
-      set[n] = set[n] ? step.with_the_set : tree.any_within(atoms_[n].position, step.distance);
+      set[n] = set[n] ? step.includes_set : tree.any_within(atoms_[n].position, step.distance);
     }
   }
 
   void operator()(const WholeStep& step) {
     Set& set = top();
-    if (step.chains) {
+    if (step.whole_chains) {
       std::set<std::pair<std::int32_t, std::string>> chains;
       for (std::size_t n = 0; n < atoms_.size(); ++n) {
         if (set[n]) chains.emplace(atoms_[n].model, atoms_[n].chain);
@@ -187,9 +189,9 @@ class Evaluation {
     }
   }
 
-  void operator()(const SettledTest& test) {
+  void operator()(const FixedTest& test) {
     stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) {
-      return test.atoms->contains({test.copied ? atom.copy : 0, atom.index});
+      return test.atoms->contains({test.compares_copies ? atom.copy : 0, atom.index});
     }));
   }
 
@@ -204,7 +206,7 @@ class Evaluation {
 
  private:
   std::span<const Atom> atoms_;
-  bool copied_;
+  bool has_copies_;
   std::vector<Set> stack_;
 };
 
@@ -222,7 +224,7 @@ bool is_of_coordinates(const SelectionStep& step) {
   return (numbers && is_one(numbers->field)) || (comparison && is_one(comparison->field));
 }
 
-/// Do the step's values, wildcards aside, say what this atom is?
+/// True if the values of a step, other than wildcards, name this water or ion.
 bool names_by(const SelectionStep& step, const Atom& atom, const std::set<std::string>& names_of_others) {
   if (const auto* test = std::get_if<FlagTest>(&step)) {
     return (test->flag == AtomFlag::water && atom.kind == AtomClass::water) ||
@@ -234,7 +236,7 @@ bool names_by(const SelectionStep& step, const Atom& atom, const std::set<std::s
            std::any_of(test->ranges.begin(), test->ranges.end(),
                        [&](const std::array<double, 2>& range) { return range[0] == atom.element; });
   }
-  if (const auto* test = std::get_if<SettledTest>(&step)) {
+  if (const auto* test = std::get_if<FixedTest>(&step)) {
     return std::ranges::any_of(test->expression->steps,
                                [&](const SelectionStep& each) { return names_by(each, atom, names_of_others); });
   }
@@ -243,14 +245,14 @@ bool names_by(const SelectionStep& step, const Atom& atom, const std::set<std::s
   const bool by_atom_name = test->field == AtomField::name && ion && !names_of_others.contains(atom.name);
   if (test->field != AtomField::residue_name && !by_atom_name) return false;
   return std::any_of(test->values.begin(), test->values.end(), [&](const TextPattern& pattern) {
-    return !pattern.wildcards && pattern.text == text_of(test->field, atom);
+    return !pattern.has_wildcards && pattern.text == text_of(test->field, atom);
   });
 }
 
 }  // namespace
 
 bool matches(const TextPattern& pattern, const std::string& text) {
-  if (!pattern.wildcards) return pattern.text == text;
+  if (!pattern.has_wildcards) return pattern.text == text;
   std::size_t p = 0, t = 0, star = std::string::npos, retry = 0;
   while (t < text.size()) {
     if (p < pattern.text.size() && pattern.text[p] == '*') {
@@ -327,38 +329,39 @@ bool Selection::uses_positions() const {
   });
 }
 
-// What is surely selected and what may be, side by side.
-Selection::Reach Selection::reach(std::span<const Atom> atoms) const {
-  Evaluation surely(atoms), perhaps(atoms);
-  Reach reach{{}, Set(atoms.size(), false)};
+// Two evaluations run in parallel: one of the atoms that are always selected, and one of the atoms that may be
+// selected.
+Selection::PossibleAtoms Selection::possible(std::span<const Atom> atoms) const {
+  Evaluation certain(atoms), perhaps(atoms);
+  PossibleAtoms possible{{}, Set(atoms.size(), false)};
   for (const SelectionStep& step : steps_->steps) {
     if (is_of_coordinates(step) || is_of_backbone(step)) {
-      surely.push(Set(atoms.size(), false));
+      certain.push(Set(atoms.size(), false));
       perhaps.push(is_of_coordinates(step) ? Set(atoms.size(), true) : atoms_with(AtomFlag::protein, atoms));
     } else if (const auto* within = std::get_if<WithinStep>(&step)) {
       for (std::size_t n = 0; n < atoms.size(); ++n) {
-        reach.measured[n] = reach.measured[n] || perhaps.top()[n];
-        perhaps.top()[n] = within->with_the_set || !surely.top()[n];
-        surely.top()[n] = within->with_the_set && surely.top()[n];
+        possible.measured[n] = possible.measured[n] || perhaps.top()[n];
+        perhaps.top()[n] = within->includes_set || !certain.top()[n];
+        certain.top()[n] = within->includes_set && certain.top()[n];
       }
     } else {
-      std::visit(surely, step);
+      std::visit(certain, step);
       std::visit(perhaps, step);
-      if (std::holds_alternative<NotStep>(step)) std::swap(surely.top(), perhaps.top());
+      if (std::holds_alternative<NotStep>(step)) std::swap(certain.top(), perhaps.top());
     }
   }
-  reach.selected = perhaps.pop();
-  return reach;
+  possible.selected = perhaps.pop();
+  return possible;
 }
 
-Selection Selection::settled(std::span<const Atom> atoms, const std::vector<bool>& selected) const {
+Selection Selection::fixed(std::span<const Atom> atoms, const std::vector<bool>& selected) const {
   auto chosen = std::make_shared<std::set<std::pair<std::uint32_t, std::uint32_t>>>();
   for (std::size_t n = 0; n < atoms.size(); ++n)
     if (selected[n]) chosen->emplace(atoms[n].copy, atoms[n].index);
-  Selection settled = *this;
-  settled.steps_ = std::make_shared<const SelectionSteps>(
-      SelectionSteps{{SettledTest{steps_, std::move(chosen), has_copies(atoms)}}});
-  return settled;
+  Selection fixed = *this;
+  fixed.steps_ =
+      std::make_shared<const SelectionSteps>(SelectionSteps{{FixedTest{steps_, std::move(chosen), has_copies(atoms)}}});
+  return fixed;
 }
 
 Selection either(const Selection& a, const Selection& b) {

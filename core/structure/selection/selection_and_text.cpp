@@ -11,7 +11,7 @@ std::optional<SelectionAndText> selection_and_text(std::string_view text) {
     try {
       return SelectionAndText{parse_selection(text.substr(0, sign)), text.substr(sign + 1)};
     } catch (const SelectionError&) {
-      continue;  // a part of a comparison
+      continue;  // this sign is part of a comparison
     }
   }
   return std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts "EXPR=TEXT" where the selection ends, for both sides may have equal signs.
+// Splits texts "EXPR=TEXT" at the end of the selection, because both sides may have equal signs.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,14 @@
 
 namespace meniscus {
 
+/// A selection and the text that follows it.
 struct SelectionAndText {
   Selection atoms;
-  std::string_view text;  ///< all that follows the sign
+  std::string_view text;  ///< everything after the equal sign
 };
 
-/// Parts the text at the first "=" before which there is a whole selection: "resid 17=K17=A" means the text "K17=A",
-/// "bfactor>=50=red" the text "red". Nothing if there is no such sign.
+/// Splits the text at the first "=" with a complete selection before it. "resid 17=K17=A" has the text "K17=A", and
+/// "bfactor>=50=red" has the text "red". Returns nothing if there is no such sign.
 std::optional<SelectionAndText> selection_and_text(std::string_view text);
 
 }  // namespace meniscus

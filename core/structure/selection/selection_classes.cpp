@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Classifies atoms residue by residue where the answer depends on the other atoms, else atom by atom.
+// Classifies atoms residue by residue if the class depends on other atoms, and otherwise atom by atom.
 #include "core/structure/selection/selection_classes.h"
 
 #include <algorithm>
@@ -17,26 +17,27 @@ namespace {
 
 enum class Chemistry : std::uint8_t { other, protein, nucleic };
 
-bool among(std::string_view names, const std::string& name) {
+bool is_in_list(std::string_view names, const std::string& name) {
   if (name.empty() || name.find(' ') != std::string::npos) return false;
   return names.find(' ' + name + ' ') != std::string_view::npos;
 }
 
-// After IUPAC-IUB 1970 and 1983, with the older names of phosphate oxygens (O1P) and sugars (C5*).
+// Names by IUPAC-IUB 1970 and 1983, with the older names of phosphate oxygens (O1P) and sugars (C5*).
 constexpr std::string_view kProteinBackbone = " N CA C O ";
 constexpr std::string_view kProteinMainChain =
     " N CA C O OXT OT OT1 OT2 H H1 H2 H3 HN HT1 HT2 HT3 1H 2H 3H HA HA1 HA2 HA3 1HA 2HA HXT D D1 D2 D3 DA ";
 constexpr std::string_view kNucleicBackbone = " P OP1 OP2 OP3 O1P O2P O3P O5' C5' C4' C3' O3' O5* C5* C4* C3* O3* ";
 constexpr std::string_view kPhosphateHydrogens = " HOP2 HOP3 HO5 HO3 H5T H3T ";
 
-// What the wwPDB writes as ATOM where it is part of a chain.
+// Residues that the wwPDB writes as ATOM if they are part of a chain.
 constexpr std::string_view kStandardResidues =
     " ALA ARG ASN ASP CYS GLN GLU GLY HIS ILE LEU LYS MET PHE PRO SER THR TRP TYR VAL ASX GLX UNK SEC PYL"
     " A C G I N U DA DC DG DI DN DT DU ";
 
-/// Names of nucleotide atoms carry a prime (or an asterisk) in the sugar, and begin with P or say P in the phosphate.
+/// True for an atom of a base. Other names of nucleotides have a prime or an asterisk in the sugar, and a P in the
+/// phosphate.
 bool is_base_atom(const std::string& name) {
-  return name.find_first_of("'*P") == std::string::npos && !among(kPhosphateHydrogens, name);
+  return name.find_first_of("'*P") == std::string::npos && !is_in_list(kPhosphateHydrogens, name);
 }
 
 Chemistry chemistry_of(std::span<const Atom> residue) {
@@ -51,7 +52,7 @@ Chemistry chemistry_of(std::span<const Atom> residue) {
   return has("C4'") || has("C4*") ? Chemistry::nucleic : Chemistry::other;
 }
 
-bool answers(AtomFlag flag, Chemistry chemistry, const Atom& atom) {
+bool has_flag(AtomFlag flag, Chemistry chemistry, const Atom& atom) {
   const bool protein = chemistry == Chemistry::protein, nucleic = chemistry == Chemistry::nucleic;
   switch (flag) {
     case AtomFlag::protein:
@@ -59,16 +60,16 @@ bool answers(AtomFlag flag, Chemistry chemistry, const Atom& atom) {
     case AtomFlag::nucleic:
       return nucleic;
     case AtomFlag::backbone:
-      return among(protein ? kProteinBackbone : nucleic ? kNucleicBackbone : std::string_view(), atom.name);
+      return is_in_list(protein ? kProteinBackbone : nucleic ? kNucleicBackbone : std::string_view(), atom.name);
     case AtomFlag::sidechain:
-      return (protein && !among(kProteinMainChain, atom.name)) || (nucleic && is_base_atom(atom.name));
+      return (protein && !is_in_list(kProteinMainChain, atom.name)) || (nucleic && is_base_atom(atom.name));
     default:
       return false;
   }
 }
 
-/// Of residues that are distinguished by all their atoms.
-bool answers(AtomFlag flag, std::span<const Atom> residue) {
+/// Returns whether a residue belongs to a class that depends on all its atoms.
+bool has_flag(AtomFlag flag, std::span<const Atom> residue) {
   if (flag == AtomFlag::glycan) return sugar_of(residue) != nullptr;
   if (flag == AtomFlag::lipid) return is_lipid(residue);
   const bool carbon = std::any_of(residue.begin(), residue.end(), [](const Atom& atom) { return atom.element == 6; });
@@ -77,7 +78,7 @@ bool answers(AtomFlag flag, std::span<const Atom> residue) {
   return (ligand && !carbon) || residue.front().kind == AtomClass::ion;
 }
 
-bool answers(AtomFlag flag, const Atom& atom) {
+bool has_flag(AtomFlag flag, const Atom& atom) {
   switch (flag) {
     case AtomFlag::all:
       return true;
@@ -91,7 +92,7 @@ bool answers(AtomFlag flag, const Atom& atom) {
       return atom.kind == AtomClass::ion;
     case AtomFlag::heteroatom:
       return atom.kind != AtomClass::unclassified &&
-             (atom.kind != AtomClass::polymer || !among(kStandardResidues, atom.residue_name));
+             (atom.kind != AtomClass::polymer || !is_in_list(kStandardResidues, atom.residue_name));
     case AtomFlag::hydrogen:
       return atom.element == 1;
     case AtomFlag::heavy:
@@ -121,7 +122,7 @@ std::vector<bool> atoms_with(AtomFlag flag, std::span<const Atom> atoms) {
     return result;
   }
   if (!needs_residues(flag)) {
-    for (std::size_t n = 0; n < atoms.size(); ++n) result[n] = answers(flag, atoms[n]);
+    for (std::size_t n = 0; n < atoms.size(); ++n) result[n] = has_flag(flag, atoms[n]);
     return result;
   }
   std::size_t last = 0;
@@ -132,12 +133,12 @@ std::vector<bool> atoms_with(AtomFlag flag, std::span<const Atom> atoms) {
     const std::span<const Atom> residue = atoms.subspan(first, last - first);
     if (flag == AtomFlag::organic || flag == AtomFlag::inorganic || flag == AtomFlag::glycan ||
         flag == AtomFlag::lipid) {
-      const bool yes = answers(flag, residue);
+      const bool yes = has_flag(flag, residue);
       for (std::size_t n = first; n < last; ++n) result[n] = yes;
       continue;
     }
     const Chemistry chemistry = chemistry_of(residue);
-    for (std::size_t n = first; n < last; ++n) result[n] = answers(flag, chemistry, atoms[n]);
+    for (std::size_t n = first; n < last; ++n) result[n] = has_flag(flag, chemistry, atoms[n]);
   }
   return result;
 }

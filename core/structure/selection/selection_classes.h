@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Answers the questions of a selection about the kind of an atom: protein, backbone, water, ...
+// Finds the atoms of a class that a selection names: protein, backbone, water, ...
 #pragma once
 
 #include <span>
@@ -11,8 +11,8 @@ namespace meniscus {
 
 struct Atom;
 
-/// One truth value an atom. Protein and nucleic are residues with a known name; other residues of polymers count by
-/// their atoms: N, CA and C make an amino acid, C4' or C4* a nucleotide.
+/// Returns for each atom whether it belongs to the class. Protein and nucleic are residues with a known name. Other
+/// residues of polymers are classified by their atoms: N, CA and C make an amino acid, C4' or C4* a nucleotide.
 std::vector<bool> atoms_with(AtomFlag flag, std::span<const Atom> atoms);
 
 }  // namespace meniscus

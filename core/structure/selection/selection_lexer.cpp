@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Splits a selection into tokens, and reads the patterns, elements, numbers and ranges among them.
+// Splits a selection into tokens, and parses patterns, elements, numbers and ranges.
 #include "core/structure/selection/selection_lexer.h"
 
 #include <cctype>
@@ -82,17 +82,18 @@ std::vector<Token> tokens_of(std::string_view text) {
 
 namespace {
 
-/// Both ends of a range as written, the second empty if it is a single value.
+/// Both ends of a range as written. A single value has no second end.
 struct Ends {
   SelectionValue low;
   std::optional<SelectionValue> high;
 };
 
 SelectionValue part(const SelectionValue& value, std::size_t first, std::size_t length) {
-  return {value.text.substr(first, length), value.position + first, value.quoted};
+  return {value.text.substr(first, length), value.position + first, value.is_quoted};
 }
 
-/// A minus sign parts a range only behind a digit or an insertion code, so that -5--1 is -5 to -1 and 1e-3 one number.
+/// Returns the place of the sign that separates a range, or npos. A minus sign does so only after a digit or an
+/// insertion code: -5--1 is -5 to -1, and 1e-3 is one number.
 std::size_t range_sign(const std::string& text, bool with_letters) {
   for (std::size_t n = 1; n < text.size(); ++n) {
     if (text[n] == ':') return n;
@@ -102,12 +103,12 @@ std::size_t range_sign(const std::string& text, bool with_letters) {
   return std::string::npos;
 }
 
-/// Values and ranges: A, A-B, A:B, and A to B, which comes as three values.
+/// Parses values and ranges: A, A-B, A:B, and "A to B", which is given as three values.
 std::vector<Ends> ends_of(std::string_view text, const std::vector<SelectionValue>& values, bool with_letters) {
   std::vector<Ends> all;
   for (std::size_t n = 0; n < values.size(); ++n) {
     const SelectionValue& value = values[n];
-    if (!value.quoted && (value.text == "to" || value.text == "TO")) {
+    if (!value.is_quoted && (value.text == "to" || value.text == "TO")) {
       if (all.empty() || all.back().high || n + 1 == values.size()) {
         throw SelectionError("'to' goes between two values, as in 5 to 10", pointed_at(text, value.position));
       }
@@ -161,7 +162,7 @@ std::vector<SelectionValue> split_at_plus(const Token& token) {
 std::vector<TextPattern> read_patterns(const std::vector<SelectionValue>& values) {
   std::vector<TextPattern> patterns;
   for (const SelectionValue& value : values) {
-    patterns.push_back({value.text, !value.quoted && value.text.find_first_of("*?") != std::string::npos});
+    patterns.push_back({value.text, !value.is_quoted && value.text.find_first_of("*?") != std::string::npos});
   }
   return patterns;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts a selection into words, quoted texts, brackets and operators, and reads the values after its words.
+// Splits a selection into words, quoted texts, brackets and operators, and parses the values of keywords.
 #pragma once
 
 #include <cstddef>
@@ -20,22 +20,24 @@ struct Token {
   std::size_t position = 0;  ///< byte in the expression
 };
 
-/// The tokens, the last of kind `end`. Words may hold anything but blanks, brackets, commas, double quotes and the
-/// signs < > = ! & |; a single quote opens a quoted text only where a word would begin, so that O5' is a word. Throws
-/// SelectionError for a quote that is not closed and for control characters.
+/// Returns the tokens, of which the last has the kind `end`. Words may contain everything except blanks, brackets,
+/// commas, double quotes and the signs < > = ! & |. A single quote opens a quoted text only at the beginning of a word,
+/// so that O5' is a word. Throws SelectionError for a quote that is not closed and for control characters.
 std::vector<Token> tokens_of(std::string_view text);
 
-/// One value of a list, with its place for messages.
+/// A value of a list, with its position for messages.
 struct SelectionValue {
   std::string text;
   std::size_t position = 0;
-  bool quoted = false;
+  bool is_quoted = false;
 };
 
-/// "CA+CB" is two values; "NA+" is one, since nothing follows the sign. Quoted values stay whole.
+/// Splits a word at plus signs. "CA+CB" has two values; "NA+" has one, because nothing follows the sign. A quoted text
+/// is one value.
 std::vector<SelectionValue> split_at_plus(const Token& token);
 
-/// These throw SelectionError pointing into `text`.
+/// These functions parse values. They throw SelectionError with the position in `text`. whole: only integers are
+/// allowed.
 std::vector<TextPattern> read_patterns(const std::vector<SelectionValue>& values);
 std::vector<std::array<double, 2>> read_elements(std::string_view text, const std::vector<SelectionValue>& values);
 std::vector<std::array<ResidueTest::Id, 2>> read_residue_ranges(std::string_view text,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parses selections by recursive descent into a flat list, so that only brackets and prefixes nest.
+// Parses selections by recursive descent into a flat list of steps, so that only brackets and prefixes are nested.
 #include <utility>
 
 #include <fmt/format.h>
@@ -82,19 +82,20 @@ class Parser {
     --depth_;
   }
 
-  /// Behind a set: `SET within 5 of SET` is what of the first is near the second, `SET around 5` what is near the set.
+  /// Parses a distance after a set. `SET within 5 of SET` selects the atoms of the first set near the second; `SET
+  /// around 5` selects the atoms near the set.
   void parse_nearness() {
     while (word() && word()->kind == WordKind::distance) {
-      const bool with_the_set = word()->which == 1;
+      const bool includes_set = word()->which == 1;
       const Token keyword = take();
       const double distance = parse_limit();
       if (token().kind != TokenKind::word || lower(token().text) != "of") {
-        steps_.push_back(WithinStep{distance, with_the_set});
+        steps_.push_back(WithinStep{distance, includes_set});
         continue;
       }
       take();
       parse_operand(keyword);
-      steps_.push_back(WithinStep{distance, with_the_set});
+      steps_.push_back(WithinStep{distance, includes_set});
       steps_.push_back(AndStep{});
     }
   }
@@ -153,7 +154,7 @@ class Parser {
                                      : fmt::format("; did you mean '{}'?", nearest)));
   }
 
-  /// The list behind a keyword: all words and quoted texts up to an operation, a bracket or the end.
+  /// Parses the list after a keyword: all words and quoted texts up to an operation, a bracket or the end.
   std::vector<SelectionValue> values_of(const Token& keyword) {
     std::vector<SelectionValue> values;
     while (true) {
@@ -201,7 +202,7 @@ class Parser {
     return sign == "!=" ? Comparison::not_equal : Comparison::equal;
   }
 
-  /// A distance in Å.
+  /// Parses a distance in Å.
   double parse_limit() {
     const Token value = take();
     if (value.kind != TokenKind::word) fail_at(value.position, "a distance in Å is missing here");
@@ -210,11 +211,11 @@ class Parser {
     return distance;
   }
 
-  void parse_distance(const Token& keyword, bool with_the_set) {
+  void parse_distance(const Token& keyword, bool includes_set) {
     const double distance = parse_limit();
     if (token().kind == TokenKind::word && lower(token().text) == "of") take();
     parse_operand(keyword);
-    steps_.push_back(WithinStep{distance, with_the_set});
+    steps_.push_back(WithinStep{distance, includes_set});
   }
 
   void parse_same(const Token& keyword) {
@@ -229,8 +230,8 @@ class Parser {
     steps_.push_back(WholeStep{chains});
   }
 
-  /// The set behind a prefix. Programs differ in whether `byres A and B` means (byres A) and B or byres (A and B): we
-  /// ask.
+  /// Parses the set after a prefix. Programs differ in whether `byres A and B` means (byres A) and B or byres (A and
+  /// B), so that brackets are required here.
   void parse_operand(const Token& keyword) {
     const std::size_t position = token().position;
     const bool in_brackets = token().kind == TokenKind::open;

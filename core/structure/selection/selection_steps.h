@@ -14,7 +14,7 @@
 
 namespace meniscus {
 
-/// Questions that need no value.
+/// Classes of atoms that are tested without a value.
 enum class AtomFlag : std::uint8_t {
   all,
   none,
@@ -38,7 +38,7 @@ enum class AtomFlag : std::uint8_t {
   lipid
 };
 
-/// What of an atom is compared with values.
+/// The property of an atom that is compared with values.
 enum class AtomField : std::uint8_t {
   chain,
   residue_name,
@@ -61,10 +61,10 @@ enum class AtomField : std::uint8_t {
 
 enum class Comparison : std::uint8_t { less, less_or_equal, greater, greater_or_equal, equal, not_equal };
 
-/// A value of a text field; with wildcards, * stands for any characters and ? for one.
+/// A value of a text field. With wildcards, * stands for any characters and ? for one.
 struct TextPattern {
   std::string text;
-  bool wildcards = false;
+  bool has_wildcards = false;
 };
 
 struct FlagTest {
@@ -74,12 +74,13 @@ struct TextTest {
   AtomField field;
   std::vector<TextPattern> values;
 };
-/// Closed ranges; elements by atomic number.
+/// Tests whether a number is in one of these closed ranges. Elements are compared by atomic number.
 struct NumberTest {
   AtomField field;
   std::vector<std::array<double, 2>> ranges;
 };
-/// Closed ranges of residue number and insertion code, ordered as in 52, 52A, 52B, 53.
+/// Tests whether residue number and insertion code are in one of these closed ranges. They are ordered as in 52, 52A,
+/// 52B, 53.
 struct ResidueTest {
   using Id = std::pair<std::int32_t, char>;
   std::vector<std::array<Id, 2>> ranges;
@@ -89,39 +90,39 @@ struct CompareTest {
   Comparison comparison;
   double value;
 };
-/// Set operations take their operands from the top of the stack.
+/// Operations on sets, which take their operands from the top of the stack.
 struct NotStep {};
 struct AndStep {};
 struct OrStep {};
 struct WithinStep {
   double distance;    ///< Å
-  bool with_the_set;  ///< are the atoms of the set itself in the result?
+  bool includes_set;  ///< true if the atoms of the set itself are in the result
 };
 struct WholeStep {
-  bool chains;  ///< whole chains, else whole residues
+  bool whole_chains;  ///< true for whole chains, false for whole residues
 };
 
 struct SelectionSteps;
 
-/// What an expression selected once.
-struct SettledTest {
+/// Selects the atoms that an expression selected once.
+struct FixedTest {
   std::shared_ptr<const SelectionSteps> expression;
   std::shared_ptr<const std::set<std::pair<std::uint32_t, std::uint32_t>>> atoms;  ///< by Atom::copy and Atom::index
-  bool copied;  ///< by both; else by Atom::index alone, for there were no copies
+  bool compares_copies;  ///< true to compare both; false for Atom::index alone, if there were no copies
 };
 
 using SelectionStep = std::variant<FlagTest, TextTest, NumberTest, ResidueTest, CompareTest, NotStep, AndStep, OrStep,
-                                   WithinStep, WholeStep, SettledTest>;
+                                   WithinStep, WholeStep, FixedTest>;
 
-/// Evaluated one after another on a stack of sets, they leave one.
+/// The steps of an expression. They are evaluated in order on a stack of sets, and leave one set.
 struct SelectionSteps {
   std::vector<SelectionStep> steps;
 
-  /// Is one of these fields compared with numbers?
+  /// True if one of these fields is compared with numbers.
   bool compare(std::initializer_list<AtomField> fields) const;
 };
 
-/// Does the text match the pattern? Time is linear in practice and at worst the product of the lengths.
+/// True if the text matches the pattern. Time is linear in practice, and at worst the product of the lengths.
 bool matches(const TextPattern& pattern, const std::string& text);
 
 }  // namespace meniscus

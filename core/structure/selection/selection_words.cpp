@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists the words of the selection language, and makes a page of help of them.
+// Lists the words of the selection language, and makes a page of help from them.
 #include "core/structure/selection/selection_words.h"
 
 #include <algorithm>

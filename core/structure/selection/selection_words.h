@@ -9,7 +9,7 @@
 
 namespace meniscus {
 
-/// What a word is followed by.
+/// The kind of argument that follows a word.
 enum class WordKind : std::uint8_t {
   flag,      ///< nothing; `which` is an AtomFlag
   text,      ///< names; `which` is an AtomField
@@ -23,24 +23,25 @@ enum class WordKind : std::uint8_t {
   operation  ///< and, or, not
 };
 
+/// A word of the selection language.
 struct SelectionWord {
-  std::string_view words;  ///< blank-separated; the first is the one we write, the others mean the same
+  std::string_view words;  ///< separated by blanks; the first is preferred, the others mean the same
   WordKind kind;
   std::uint8_t which;
-  std::string_view usage;  ///< with its argument, as the help shows it
+  std::string_view usage;  ///< the word with its argument, as the help shows it
   std::string_view help;
 };
 
-/// All words, in the order of the help.
+/// Returns all words in the order of the help.
 std::span<const SelectionWord> selection_words();
 
-/// The entry that this word (in any case) belongs to; nullptr: none.
+/// Returns the entry of a word in upper or lower case; null if there is none.
 const SelectionWord* find_selection_word(std::string_view word);
 
-/// The known word nearest to this one if at most two letters differ, else empty.
+/// Returns the known word that is nearest to this one, if at most two letters differ; otherwise an empty text.
 std::string_view nearest_selection_word(std::string_view word);
 
-/// The whole language as text of at most 100 columns: examples, words, rules.
+/// Returns the description of the whole language as text of at most 100 columns: examples, words, rules.
 std::string selection_help();
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the kernels for the reduced surface and for cusps, and takes their lists back.
+// Runs the kernels for the reduced surface and for cusps, and reads their lists back.
 #include "core/surface/gpu/gpu_engine.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace {
 
 class GpuEngine final : public ReducedSurfaceEngine {
  public:
-  /// own: this very context, if it should end with the engine.
+  /// own: this context, if the engine is to destroy it.
   explicit GpuEngine(const EglContext& context, std::unique_ptr<EglContext> own = {})
       : own_(std::move(own)),
         device_(context.renderer() + ", GL " + context.version()),
@@ -51,7 +51,7 @@ class GpuEngine final : public ReducedSurfaceEngine {
     const auto stage = clock.stage("spheres without arcs");
     find_whole_spheres(atoms, arcs_.weights(), swallowed, rs);
     rs.exact_within = decided_within(growth_as_roundoff(arcs_.weights()), stats().ties, protruding);
-    // Some atom is exposed, whatever the atoms: with arcs, or as a whole.
+    // For any atoms, some atom is exposed: with arcs, or as a whole.
     if (rs.arcs.empty() && rs.lone_atoms.empty())
       throw GpuError(message("the GPU found no surface, which is impossible; run again, or choose another @device@"));
     return rs;
@@ -62,7 +62,7 @@ class GpuEngine final : public ReducedSurfaceEngine {
   std::string device() const override { return device_; }
 
  private:
-  std::unique_ptr<EglContext> own_;  // ends last
+  std::unique_ptr<EglContext> own_;  // destroyed last
   std::string device_;
   ProgramCache programs_;
   GpuArcs arcs_{programs_};
@@ -86,7 +86,7 @@ namespace {
 using kernel::CuspArcRecord;
 using kernel::SideRecord;
 
-constexpr std::size_t kArcHeader = 16;  // counters before the arcs
+constexpr std::size_t kArcHeader = 16;  // bytes of counters before the arcs
 
 class GpuCuspTracer final : public CuspTracer {
  public:
@@ -98,7 +98,7 @@ class GpuCuspTracer final : public CuspTracer {
     cuts.first.assign(1, 0);
     neighbors_.for_each_batch([&](const BallBatch& batch) {
       flags_.resize(std::max(1u, batch.neighbor_count) * sizeof(std::uint32_t));
-      flags_.fill(2);  // what a driver that cuts loops short leaves out is in doubt
+      flags_.fill(2);  // an entry that a driver leaves out because it cuts loops short is in doubt
       neighbors_.first.bind(0);
       neighbors_.relative.bind(1);
       heads_.bind(2);
@@ -174,13 +174,13 @@ class GpuCuspTracer final : public CuspTracer {
     }
   }
 
-  // Appends what the kernel finds; lists the circles left in doubt.
+  // Appends the arcs that the kernel finds; lists the circles left in doubt.
   void run_circles(const BallBatch& batch, const std::vector<glm::uvec2>& circles, std::vector<TracedArc>& found) {
     circles_.upload(circles);
     arcs_.clear();
     doubtful_.clear();
     const Program& program = programs_.get("gpu_shaders/singularities/cusps.comp");
-    std::array<std::uint32_t, 2> counts{};  // arcs, doubtful circles
+    std::array<std::uint32_t, 2> counts{};  // numbers of arcs and of doubtful circles
     append_all({&arcs_, &doubtful_}, arcs_.buffer, counts, [&] {
       circles_.bind(0);
       neighbors_.first.bind(1);

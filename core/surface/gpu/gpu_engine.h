@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surface on the GPU: its reduced surface and its singularities.
+// Computes reduced surfaces and their singularities on the GPU.
 #pragma once
 
 #include <memory>
@@ -13,15 +13,16 @@ namespace meniscus {
 
 class EglContext;
 
-/// In this context, which is current and lives longer. Kernels and buffers stay from frame to frame. Results equal
-/// those of the CPU, arc by arc. Based on Krone, Dachsbacher & Ertl 2010, with circles (contour build-up) in place of
-/// their atom triples.
+/// Makes an engine in this context, which must be current and must outlive the engine. Kernels and buffers are reused
+/// from frame to frame. Results equal those of the CPU, arc by arc. Based on Krone, Dachsbacher & Ertl 2010, with
+/// circles (contour build-up) in place of their atom triples.
 std::unique_ptr<ReducedSurfaceEngine> make_gpu_engine(const EglContext& context);
 
-/// The same in a context of its own, which it leaves current. Throws GpuError if there is no such device.
+/// Makes an engine in a context of its own, which it leaves current. Throws GpuError if there is no such device.
 std::unique_ptr<ReducedSurfaceEngine> make_gpu_engine(const DeviceChoice& choice);
 
-/// Circles in doubt are decided on the host. The context of `programs` must be current; they live longer.
+/// Makes a tracer that leaves circles in doubt to the host. The context of `programs` must be current; `programs` must
+/// outlive the tracer.
 std::unique_ptr<CuspTracer> make_gpu_cusp_tracer(ProgramCache& programs);
 
 }  // namespace meniscus

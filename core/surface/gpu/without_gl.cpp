@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refuses the engine of compute shaders, in builds without epoxy.
+// Reports that there is no GPU engine, in builds without GL.
 #include "core/gpu/egl_context.h"
 #include "core/surface/gpu/gpu_engine.h"
 
 namespace meniscus {
 
-std::unique_ptr<ReducedSurfaceEngine> make_gpu_engine(const EglContext&) { return nullptr; }  // there is no context
+std::unique_ptr<ReducedSurfaceEngine> make_gpu_engine(const EglContext&) { return nullptr; }  // a context never exists
 
 std::unique_ptr<ReducedSurfaceEngine> make_gpu_engine(const DeviceChoice& choice) {
-  return make_gpu_engine(EglContext(choice));  // which throws
+  return make_gpu_engine(EglContext(choice));  // the constructor throws
 }
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the frames of a file one after another, and stores their places with a checksum.
+// Finds the frames of a file one after another, and stores their offsets with a checksum.
 #include "core/trajectory/formats/frame_index.h"
 
 #include <algorithm>
@@ -28,29 +28,29 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "meniscus frame index 1\n";
 
-/// FNV-1a of Fowler, Noll and Vo, 64 bits.
+/// Returns the checksum FNV-1a of G. Fowler, L. C. Noll and K.-P. Vo, 64 bits.
 std::uint64_t checksum(std::string_view bytes) {
   std::uint64_t sum = 0xcbf29ce484222325;
   for (const char byte : bytes) sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
   return sum;
 }
 
-void put(std::string& bytes, std::uint64_t number) {
+void append(std::string& bytes, std::uint64_t number) {
   const auto raw = std::bit_cast<std::array<char, sizeof number>>(number);
   bytes.append(raw.data(), raw.size());
 }
 
-void put(std::string& bytes, std::string_view text) {
-  put(bytes, std::uint64_t{text.size()});
+void append(std::string& bytes, std::string_view text) {
+  append(bytes, std::uint64_t{text.size()});
   bytes += text;
 }
 
-/// What an index must begin with to be that of this file as it is now.
+/// Returns the bytes with which the index of this file in its current state begins.
 std::string identity(const BinaryFile& file) {
   std::string bytes(kMagic);
-  put(bytes, text_of_path(fs::absolute(path_of_text(file.path()))));
-  put(bytes, file.size());
-  put(bytes, static_cast<std::uint64_t>(file.modified()));
+  append(bytes, text_of_path(fs::absolute(path_of_text(file.path()))));
+  append(bytes, file.size());
+  append(bytes, static_cast<std::uint64_t>(file.modified()));
   return bytes;
 }
 
@@ -69,7 +69,7 @@ class Fields {
   std::string_view rest_;
 };
 
-std::optional<FrameIndex> kept_index(const BinaryFile& file, const std::string& folder) {
+std::optional<FrameIndex> load_index(const BinaryFile& file, const std::string& folder) {
   std::ifstream stream(path_of_text(frame_index_path(folder, file.path())), std::ios::binary);
   if (!stream) return std::nullopt;
   const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
@@ -89,18 +89,19 @@ std::optional<FrameIndex> kept_index(const BinaryFile& file, const std::string& 
   return index;
 }
 
-/// A file that was changed a moment ago may change again without getting another time; its index is not kept.
+/// True if the file was changed in the last two seconds. It may change again without getting another time, so that its
+/// index must not be stored.
 bool changed_just_now(const BinaryFile& file) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() - file.modified() < 2'000'000'000;
 }
 
-void keep_index(const BinaryFile& file, const std::string& folder, const FrameIndex& index) {
+void store_index(const BinaryFile& file, const std::string& folder, const FrameIndex& index) {
   std::string bytes = identity(file);
-  put(bytes, std::uint64_t{index.offsets.size()});
-  for (const std::uint64_t offset : index.offsets) put(bytes, offset);
-  put(bytes, std::string_view(index.cut_short));
-  put(bytes, checksum(bytes));
+  append(bytes, std::uint64_t{index.offsets.size()});
+  for (const std::uint64_t offset : index.offsets) append(bytes, offset);
+  append(bytes, std::string_view(index.cut_short));
+  append(bytes, checksum(bytes));
   std::error_code ignored;
   fs::create_directories(path_of_text(folder), ignored);
   try {
@@ -108,7 +109,7 @@ void keep_index(const BinaryFile& file, const std::string& folder, const FrameIn
     output.write(bytes);
     output.commit();
   } catch (const OutputError&) {
-    // The next time walks again, which costs time and nothing else.
+    // Without a stored index the file is walked through again, which only costs time.
   }
 }
 
@@ -145,7 +146,7 @@ std::string frame_index_path(const std::string& folder, const std::string& path)
 FrameIndex find_frames(BinaryFile& file, const std::string& folder,
                        const std::function<FrameExtent(std::uint64_t)>& extent_at) {
   if (!folder.empty()) {
-    if (auto index = kept_index(file, folder)) return *std::move(index);
+    if (auto index = load_index(file, folder)) return *std::move(index);
   }
   FrameIndex index = walk(file, extent_at);
   file.check_unchanged();
@@ -154,7 +155,7 @@ FrameIndex find_frames(BinaryFile& file, const std::string& folder,
                      fmt::format("holds no complete frame{} in its {} bytes",
                                  index.cut_short.empty() ? " with positions" : "", with_thousands(file.size())));
   }
-  if (!folder.empty() && !changed_just_now(file)) keep_index(file, folder, index);
+  if (!folder.empty() && !changed_just_now(file)) store_index(file, folder, index);
   return index;
 }
 

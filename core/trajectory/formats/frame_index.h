@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The places where the frames of a file begin, for formats without an index; kept for the next time.
+// The offsets of all frames of a file, for formats without an index of their own. They may be stored in a folder.
 #pragma once
 
 #include <cstdint>
@@ -11,26 +11,28 @@
 
 namespace meniscus {
 
+/// The complete frames of a file.
 struct FrameIndex {
-  std::vector<std::uint64_t> offsets;  ///< where each whole frame begins
-  std::string cut_short;               ///< as Trajectory::cut_short()
+  std::vector<std::uint64_t> offsets;  ///< byte at which each complete frame begins
+  std::string cut_short;               ///< see Trajectory::cut_short()
 };
 
-/// What the header of a frame says, or the first words of what is wrong with it.
+/// The extent of a frame according to its header, or what is wrong with the header.
 struct FrameExtent {
-  std::uint64_t bytes = 0;    ///< header and data
-  bool has_positions = true;  ///< false: to be passed over
-  std::string fault;          ///< empty: a good header
+  std::uint64_t bytes = 0;    ///< header and data together
+  bool has_positions = true;  ///< frames without positions are skipped
+  std::string fault;          ///< predicate of a sentence about the frame; empty if the header is good
 };
 
-/// Walks through the frames of a file by their headers; `extent_at` may name more bytes than the file has left, and
-/// never reads behind its end. With a `folder`, made when missing, the result is kept there, and used instead of
-/// walking while path, size and time of the file are as they were. A folder that cannot be used does no harm. Throws
-/// InputError: no whole frame, or a first frame with a fault.
+/// Finds the frames of a file by walking from header to header. `extent_at` may return more bytes than are left in the
+/// file, but must not read beyond its end. The result is stored in `folder`, which is made if missing; an empty name
+/// means no folder. A stored index is used instead of walking as long as path, size and time of change of the file are
+/// the same. A folder that cannot be used is ignored. Throws InputError if there is no complete frame, or if the first
+/// frame has a fault.
 FrameIndex find_frames(BinaryFile& file, const std::string& folder,
                        const std::function<FrameExtent(std::uint64_t offset)>& extent_at);
 
-/// The file in `folder` that keeps the index of the trajectory `path`.
+/// Returns the path of the file in `folder` that stores the index of the trajectory `path`.
 std::string frame_index_path(const std::string& folder, const std::string& path);
 
 }  // namespace meniscus

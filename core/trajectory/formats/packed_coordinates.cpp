@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decodes the bit stream of XTC: three whole numbers in one, in as few bits as their product needs.
+// Decodes the bit stream of XTC, in which three integers are combined into one with as few bits as their product needs.
 #include "core/trajectory/formats/packed_coordinates.h"
 
 #include <bit>
@@ -13,8 +13,9 @@ namespace {
 
 __extension__ using Wide = unsigned __int128;
 
-/// The sizes of small differences, by class. They grow by the cube root of 2, so that a class is the number of bits of
-/// three numbers; the format has these very values, irregular ones too. Classes below 9 are not used.
+/// The ranges of small differences by class. They grow by the cube root of 2, so that the class is the number of bits
+/// of three numbers together. The values are those of the format, including irregular ones. Classes below 9 are not
+/// used.
 constexpr std::array<std::uint32_t, 73> kSmallSizes{
     0,       0,       0,       0,       0,        0,        0,       0,       0,       8,       10,
     12,      16,      20,      25,      32,       40,       50,      64,      80,      101,     128,
@@ -24,9 +25,9 @@ constexpr std::array<std::uint32_t, 73> kSmallSizes{
     330280,  416127,  524287,  660561,  832255,   1048576,  1321122, 1664510, 2097152, 2642245, 3329021,
     4194304, 5284491, 6658042, 8388607, 10568983, 13316085, 16777216};
 constexpr std::int32_t kFirstClass = 9;
-constexpr std::uint32_t kLargestJointSize = 0xffffff;  // beyond it the three numbers are one after the other
+constexpr std::uint32_t kLargestJointSize = 0xffffff;  // with a larger range the three numbers follow each other
 
-constexpr std::size_t kMostBytesLeft = 8;  // none are usual; a writer might fill up a word
+constexpr std::size_t kMostBytesLeft = 8;  // usually none are left; a writer might fill up a word
 
 using Steps = std::array<std::int64_t, 3>;
 using Sizes = std::array<std::uint32_t, 3>;
@@ -36,8 +37,8 @@ int bit_width(Wide number) {
   return high ? 64 + std::bit_width(high) : std::bit_width(static_cast<std::uint64_t>(number));
 }
 
-/// Takes bits from the front of a stream, the highest of each byte first. Behind the end it finds kPackedPadding bytes
-/// and must be asked overrun() before it is asked for more than these.
+/// Reads bits from a stream, from the highest bit of each byte to the lowest. After the end it reads kPackedPadding
+/// bytes of padding. overrun() must be checked before more than these are read.
 class BitReader {
  public:
   explicit BitReader(std::span<const std::byte> bits) : bytes_(bits.data()), end_(bits.size() * 8) {}
@@ -45,7 +46,7 @@ class BitReader {
   bool overrun() const { return next_ > end_; }
   std::size_t bytes_left() const { return overrun() ? 0 : (end_ - next_) / 8; }
 
-  /// At most 56 bits.
+  /// Reads at most 56 bits as a number.
   std::uint64_t take(int count) {
     if (count == 0) return 0;
     std::uint64_t word;
@@ -56,8 +57,8 @@ class BitReader {
     return bits;
   }
 
-  /// Three numbers below `sizes` that were made one, (x·size_y + y)·size_z + z, in `count` bits: whole bytes with the
-  /// lowest first, then the highest bits that are left.
+  /// Reads three numbers below `sizes` that were combined as (x·size_y + y)·size_z + z into `count` bits. Whole bytes
+  /// come first, beginning with the lowest, and then the remaining highest bits.
   Steps take_joint(int count, const Sizes& sizes) {
     return count <= 56 ? split(take_reversed(count), sizes) : split(take_wide(count), sizes);
   }
@@ -88,20 +89,20 @@ class BitReader {
   std::size_t end_, next_ = 0;
 };
 
-/// Takes the full positions, and small differences of one class.
+/// Reads full positions, and small differences of one class.
 class StepReader {
  public:
   explicit StepReader(const PackedCoordinates& packed) : bits_(packed.bits), packed_(packed) {
-    bool joint = true;
+    bool is_joint = true;
     Wide product = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       sizes_[axis] =
           static_cast<std::uint32_t>(packed.highest[axis]) - static_cast<std::uint32_t>(packed.lowest[axis]) + 1;
       widths_[axis] = std::bit_width(sizes_[axis]);
-      joint = joint && sizes_[axis] <= kLargestJointSize;
+      is_joint = is_joint && sizes_[axis] <= kLargestJointSize;
       product *= sizes_[axis];
     }
-    if (joint) joint_width_ = bit_width(product);
+    if (is_joint) joint_width_ = bit_width(product);
     set_small_class(packed.small_class);
   }
 
@@ -137,7 +138,7 @@ class StepReader {
   const PackedCoordinates& packed_;
   Sizes sizes_{};
   std::array<int, 3> widths_{};
-  int joint_width_ = 0;  // 0: one after the other
+  int joint_width_ = 0;  // bits of the three numbers combined; 0 if they follow each other
   std::int32_t small_class_ = 0;
   std::uint32_t small_size_ = 0;
 };
@@ -162,15 +163,15 @@ std::string unpack(const PackedCoordinates& packed, std::span<glm::dvec3> positi
   if (std::string fault = fault_of(packed); !fault.empty()) return fault;
   StepReader steps(packed);
   const double precision = packed.precision;
-  bool inside = true;  // the extent in front of the bits holds for all atoms, unless they are damaged
+  bool is_inside = true;  // true while all atoms are within the extent of the header; damaged atoms are not
   const auto place = [&](std::size_t n, const Steps& at) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      inside = inside && at[axis] >= packed.lowest[axis] && at[axis] <= packed.highest[axis];
-      // The product is exact, so this is the double next to the decimal number that was packed.
+      is_inside = is_inside && at[axis] >= packed.lowest[axis] && at[axis] <= packed.highest[axis];
+      // The product is exact, so that the quotient is the double nearest to the decimal number that was packed.
       positions[n][static_cast<int>(axis)] = 10.0 * static_cast<double>(at[axis]) / precision;
     }
   };
-  std::size_t run = 0;  // near atoms that follow; stays until another one is given
+  std::size_t run = 0;  // number of near atoms that follow; unchanged until another number is read
   for (std::size_t n = 0; n < positions.size();) {
     const Steps full = steps.take_full();
     std::int32_t class_change = 0;
@@ -186,7 +187,7 @@ std::string unpack(const PackedCoordinates& packed, std::span<glm::dvec3> positi
       if (run >= positions.size() - n) return fmt::format("is damaged at atom {}: too many atoms follow", n + 1);
       if (!steps.small_class_is_known())
         return fmt::format("is damaged at atom {}: class {} of differences", n + 1, steps.small_class());
-      // The first near atom is before the full one: the oxygen of a water is near to both hydrogens.
+      // The first near atom comes before the full one, because the oxygen of a water is near to both hydrogens.
       Steps near = full;
       for (std::size_t k = 0; k < run; ++k) {
         near = steps.take_near(near);
@@ -195,7 +196,7 @@ std::string unpack(const PackedCoordinates& packed, std::span<glm::dvec3> positi
         if (steps.bits().overrun()) return fmt::format("has too few bits: they end at atom {}", n);
       }
     }
-    if (!inside) return fmt::format("is damaged: atom {} lies outside of the extent that the frame names", n);
+    if (!is_inside) return fmt::format("is damaged: atom {} lies outside of the extent that the frame names", n);
     if (class_change != 0) steps.set_small_class(steps.small_class() + class_change);
   }
   if (steps.bits().bytes_left() > kMostBytesLeft)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads trajectories and restart files of Amber in NetCDF, whose headers are parsed here, too.
+// Reads trajectories and restart files of Amber in NetCDF. Their headers are parsed here, too.
 
 #include <algorithm>
 #include <array>
@@ -20,21 +20,22 @@
 namespace meniscus {
 namespace {
 
-/// One array of numbers, big-endian.
+/// A variable of NetCDF: an array of big-endian numbers.
 struct NetcdfVariable {
-  std::vector<std::uint64_t> lengths;  ///< of its dimensions, without that of the records
+  std::vector<std::uint64_t> lengths;  ///< lengths of its dimensions, without the dimension of records
   bool has_records = false;
-  std::uint32_t type = 0;          ///< as the format numbers them: 5 is float, 6 double
+  std::uint32_t type = 0;          ///< type code of the format: 5 is float, 6 double
   std::uint64_t begin = 0;         ///< offset of its first number
-  std::uint64_t record_bytes = 0;  ///< of one record; without records of all
+  std::uint64_t record_bytes = 0;  ///< bytes of one record, or of the whole variable if it has no records
   std::map<std::string, std::string> texts;
-  std::map<std::string, double> numbers;  ///< attributes of one number of type float or double
+  std::map<std::string, double> numbers;  ///< attributes with one number of type float or double
 };
 
+/// The variables of a NetCDF file and how its records are stored.
 struct NetcdfLayout {
-  std::uint64_t records = 0;        ///< as the header says
+  std::uint64_t records = 0;        ///< number of records according to the header
   bool records_are_known = true;    ///< false: the writer left the number open
-  std::uint64_t record_stride = 0;  ///< bytes from a number to the same one of the next record
+  std::uint64_t record_stride = 0;  ///< bytes from a number to the same number of the next record
   std::map<std::string, std::string> texts;
   std::map<std::string, NetcdfVariable> variables;
 };
@@ -84,7 +85,7 @@ class HeaderReader {
   std::uint64_t wide() { return number_at<std::uint64_t>(take(8), std::endian::big); }
   std::uint64_t count() { return version_ == 5 ? wide() : word(); }
 
-  /// The number of entries of a list; each takes at least 8 bytes.
+  /// Reads the tag and the length of a list, and returns the length. Each entry takes at least 8 bytes.
   std::uint64_t list(std::uint32_t expected_tag) {
     const std::uint32_t tag = word();
     const std::uint64_t entries = count();
@@ -147,7 +148,7 @@ class HeaderReader {
       }
       layout.variables[key] = variable;
     }
-    if (record_variables == 1) layout.record_stride = unpadded;  // as the format has it
+    if (record_variables == 1) layout.record_stride = unpadded;  // special case of the format
   }
 
   NetcdfVariable read_variable() {
@@ -171,7 +172,7 @@ class HeaderReader {
       variable.record_bytes *= length;
       if (length == 0) break;
     }
-    count();  // its size, which the dimensions tell
+    count();  // the size of the variable, which follows from its dimensions
     variable.begin = version_ == 1 ? word() : wide();
     return variable;
   }
@@ -183,16 +184,17 @@ class HeaderReader {
   std::vector<std::uint64_t> lengths_;
 };
 
-/// Reads the header (NetCDF classic format specification: CDF-1, CDF-2 with offsets of 64 bits, CDF-5). Our own because
-/// libnetcdf fills what a cut file lacks with zeros, and does not tell where a record lies. Throws InputError: another
-/// format, damaged, a header above 4 MiB.
+/// Reads the header of a file (NetCDF classic format specification: CDF-1, CDF-2 with offsets of 64 bits, CDF-5).
+/// libnetcdf is not used, because it fills missing parts of a file that is cut short with zeros, and it does not give
+/// the offsets of records. Throws InputError for another format, a damaged header, or a header above 4 MiB.
 NetcdfLayout read_netcdf_layout(const BinaryFile& file) { return HeaderReader(file).run(); }
 
-/// A variable with a value for each frame.
+/// A variable with the same number of values for each frame.
 struct PerFrame {
-  std::uint64_t begin = 0, stride = 0, count = 0;  ///< count: numbers of a frame
-  std::uint64_t bytes = 0;                         ///< of a frame
-  bool doubles = false;
+  /// Bytes from frame to frame; `count` is the number of values of a frame.
+  std::uint64_t begin = 0, stride = 0, count = 0;
+  std::uint64_t bytes = 0;  ///< bytes of the values of a frame
+  bool is_double = false;
   double scale = 1.0;
 };
 
@@ -208,7 +210,7 @@ class AmberNetcdf final : public Trajectory {
     }
     find_coordinates(layout);
     time_ = find(layout, "time", 1);
-    if (time_ && !time_->doubles) time_precision_ = kSinglePrecision;
+    if (time_ && !time_->is_double) time_precision_ = kSinglePrecision;
     edges_ = find(layout, "cell_lengths", 3);
     angles_ = find(layout, "cell_angles", 3);
     count_frames(layout);
@@ -220,10 +222,11 @@ class AmberNetcdf final : public Trajectory {
     if (found == layout.variables.end()) throw InputError(path_, 0, "holds no variable 'coordinates'");
     const NetcdfVariable& variable = found->second;
     const std::vector<std::uint64_t>& lengths = variable.lengths;
-    // A restart file has one frame, without a dimension for it; some writers give frames a fixed number.
-    single_ = !variable.has_records && lengths.size() == 2;
+    // A restart file has one frame, without a dimension of frames. Some writers give the dimension of frames a fixed
+    // length.
+    is_single_ = !variable.has_records && lengths.size() == 2;
     if (!variable.has_records && lengths.size() == 3) fixed_frames_ = lengths[0];
-    const bool shaped = lengths.size() == (variable.has_records || single_ ? 2U : 3U);
+    const bool shaped = lengths.size() == (variable.has_records || is_single_ ? 2U : 3U);
     if (!shaped || lengths.back() != 3 || lengths[lengths.size() - 2] == 0)
       throw InputError(path_, 0, "its 'coordinates' are not x, y and z of atoms of frames");
     atom_count_ = lengths[lengths.size() - 2];
@@ -232,13 +235,13 @@ class AmberNetcdf final : public Trajectory {
     if (unit != variable.texts.end() && unit->second.starts_with("nano")) coordinates_.scale *= 10.0;
   }
 
-  /// The variable of this name, which has `count` numbers a frame; nothing if it is not there.
+  /// Returns the variable of this name, which must have `count` numbers per frame; nothing if there is none.
   std::optional<PerFrame> find(const NetcdfLayout& layout, const std::string& name, std::uint64_t count) const {
     const auto found = layout.variables.find(name);
     if (found == layout.variables.end()) return std::nullopt;
     const NetcdfVariable& variable = found->second;
     const std::uint64_t width = variable.type == kDouble ? sizeof(double) : sizeof(float);
-    const std::uint64_t frames = variable.has_records || single_ ? 1 : fixed_frames_;
+    const std::uint64_t frames = variable.has_records || is_single_ ? 1 : fixed_frames_;
     if ((variable.type != kFloat && variable.type != kDouble) || variable.record_bytes != frames * count * width) {
       throw InputError(path_, 0,
                        fmt::format("its variable '{}' should hold {} floating-point numbers a frame", name, count));
@@ -249,7 +252,7 @@ class AmberNetcdf final : public Trajectory {
         variable.type == kDouble, scale == variable.numbers.end() ? 1.0 : scale->second};
   }
 
-  /// Frames that are whole in every variable used.
+  /// Returns the number of frames that are complete in every variable, at most `most`.
   std::uint64_t frames_by_size(std::uint64_t most) const {
     for (const std::optional<PerFrame>& part : {std::optional(coordinates_), time_, edges_, angles_}) {
       if (!part) continue;
@@ -261,8 +264,8 @@ class AmberNetcdf final : public Trajectory {
 
   void count_frames(const NetcdfLayout& layout) {
     constexpr std::uint64_t kMany = std::uint64_t{1} << 60;
-    const bool records = !single_ && fixed_frames_ == 0;
-    const std::uint64_t promised = single_ ? 1 : !records ? fixed_frames_ : layout.records;
+    const bool records = !is_single_ && fixed_frames_ == 0;
+    const std::uint64_t promised = is_single_ ? 1 : !records ? fixed_frames_ : layout.records;
     const bool known = !records || layout.records_are_known;
     const std::uint64_t present = frames_by_size(records ? kMany : promised);
     frame_count_ = known ? std::min(promised, present) : present;
@@ -279,12 +282,12 @@ class AmberNetcdf final : public Trajectory {
   }
 
   double number_of(const PerFrame& part, std::uint64_t n) const {
-    const std::byte* at = bytes_.data() + n * (part.doubles ? sizeof(double) : sizeof(float));
+    const std::byte* at = bytes_.data() + n * (part.is_double ? sizeof(double) : sizeof(float));
     return part.scale *
-           (part.doubles ? number_at<double>(at, std::endian::big) : number_at<float>(at, std::endian::big));
+           (part.is_double ? number_at<double>(at, std::endian::big) : number_at<float>(at, std::endian::big));
   }
 
-  /// Reads the numbers of a frame into bytes_.
+  /// Reads the numbers of a frame into bytes_. Returns `part`.
   const PerFrame& load(const PerFrame& part, std::uint64_t frame) {
     bytes_.resize(part.bytes);
     file_.read(part.begin + frame * part.stride, bytes_);
@@ -312,14 +315,14 @@ class AmberNetcdf final : public Trajectory {
   }
 
   BinaryFile file_;
-  bool single_ = false;
-  std::uint64_t fixed_frames_ = 0;  // 0: frames are records
+  bool is_single_ = false;
+  std::uint64_t fixed_frames_ = 0;  // 0 if frames are records
   PerFrame coordinates_;
   std::optional<PerFrame> time_, edges_, angles_;
   std::vector<std::byte> bytes_;
 };
 
-/// NetCDF-4 too, so that its reader names it.
+/// NetCDF-4 is recognized, too, so that the error of the reader can name it.
 bool recognizes(std::string_view start) {
   if (start.starts_with("\x89HDF")) return true;
   return start.size() > 3 && start.starts_with("CDF") && (start[3] == 1 || start[3] == 2 || start[3] == 5);

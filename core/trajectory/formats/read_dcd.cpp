@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads DCD of CHARMM, NAMD and X-PLOR: Fortran records, coordinates in single precision, axis by axis.
+// Reads DCD trajectories of CHARMM, NAMD and X-PLOR: Fortran records with single-precision coordinates, axis by axis.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,10 +18,10 @@ namespace {
 
 constexpr std::size_t kHeaderRecord = 84;  // "CORD" and twenty integers
 constexpr std::size_t kCellRecord = 6 * sizeof(double);
-constexpr double kPicosecondsPerAkma = 4.888821e-2;  // the unit of time of CHARMM
-constexpr int kFirstCharmmWithShapeMatrix = 25;      // NAMD, VMD and all who follow them write 24 here
+constexpr double kPicosecondsPerAkma = 4.888821e-2;  // unit of time of CHARMM
+constexpr int kFirstCharmmWithShapeMatrix = 25;      // NAMD, VMD and compatible programs write version 24
 
-/// How a file writes the length of a Fortran record, in front of it and behind it.
+/// The format of the length markers before and after each Fortran record.
 struct Markers {
   std::endian order = std::endian::little;
   std::size_t size = 4;
@@ -31,7 +31,7 @@ struct Markers {
   }
 };
 
-/// Told by the first record, which has 84 bytes and begins with CORD or VELD.
+/// Returns the markers of a file by its first record, which has 84 bytes and begins with CORD or VELD.
 std::optional<Markers> markers_of(std::string_view start) {
   const auto* bytes = reinterpret_cast<const std::byte*>(start.data());
   for (const std::size_t size : {std::size_t{4}, std::size_t{8}}) {
@@ -45,20 +45,21 @@ std::optional<Markers> markers_of(std::string_view start) {
   return std::nullopt;
 }
 
-/// Programs write edges of 0 or 1 Å where there is no box.
-bool stands_for_no_box(const std::array<double, 6>& numbers) {
+/// True if programs mean that there is no box. They write edges of 0 or 1 Å then.
+bool means_no_box(const std::array<double, 6>& numbers) {
   return std::abs(numbers[0]) <= 1.0 && std::abs(numbers[2]) <= 1.0 && std::abs(numbers[5]) <= 1.0;
 }
 
-/// Six numbers of one box as the versions of CHARMM and NAMD have written them: A gamma B beta alpha C with angles in
-/// degrees or as cosines, or the symmetric shape matrix of CHARMM, row by row of its lower half.
-std::optional<glm::dmat3> cell_of_record(const std::array<double, 6>& numbers, bool charmm_itself) {
-  if (stands_for_no_box(numbers)) return std::nullopt;
+/// Returns the box from six numbers, in any form that versions of CHARMM and NAMD have written. These are A gamma B
+/// beta alpha C with angles in degrees or as cosines, and the symmetric shape matrix of CHARMM as the rows of its lower
+/// half.
+std::optional<glm::dmat3> cell_of_record(const std::array<double, 6>& numbers, bool written_by_charmm) {
+  if (means_no_box(numbers)) return std::nullopt;
   const auto& [n0, n1, n2, n3, n4, n5] = numbers;
   const glm::dmat3 shape(glm::dvec3(n0, n1, n3), glm::dvec3(n1, n2, n4), glm::dvec3(n3, n4, n5));
   const bool right_angles = n1 == 90.0 && n3 == 90.0 && n4 == 90.0;
   const bool positive_definite = n0 > 0.0 && n0 * n2 - n1 * n1 > 0.0 && glm::determinant(shape) > 0.0;
-  if (charmm_itself && positive_definite && !right_angles) return cell_of_vectors(shape);
+  if (written_by_charmm && positive_definite && !right_angles) return cell_of_vectors(shape);
   const glm::dvec3 edges(n0, n2, n5), angles(n4, n3, n1);
   if (std::abs(n1) <= 1.0 && std::abs(n3) <= 1.0 && std::abs(n4) <= 1.0) return cell_of_cosines(edges, angles);
   if (const auto cell = cell_of_angles(edges, angles)) return cell;
@@ -82,7 +83,7 @@ class Dcd final : public Trajectory {
     throw InputError(path_, 0, fmt::format("{} (byte {})", what, with_thousands(offset)));
   }
 
-  /// A record that must have this length; its content, and the offset behind it.
+  /// Reads a record that must have this length, and returns its content. `offset` becomes the offset after it.
   std::vector<std::byte> record(std::uint64_t& offset, std::uint64_t length, const char* what) const {
     std::vector<std::byte> bytes(length + 2 * markers_.size);
     file_.read(offset, bytes);
@@ -95,9 +96,9 @@ class Dcd final : public Trajectory {
 
   void check_markers(const std::byte* record, std::uint64_t length, std::uint64_t offset,
                      const std::string& what) const {
-    const std::uint64_t before = markers_.at(record), behind = markers_.at(record + markers_.size + length);
-    if (before == length && behind == length) return;
-    const std::uint64_t wrong = before == length ? behind : before;
+    const std::uint64_t before = markers_.at(record), after = markers_.at(record + markers_.size + length);
+    if (before == length && after == length) return;
+    const std::uint64_t wrong = before == length ? after : before;
     refuse(before == length ? offset + markers_.size + length : offset,
            fmt::format("is damaged: the record with {} should have {} bytes, but a marker says {}", what,
                        with_thousands(length), with_thousands(wrong)));
@@ -118,7 +119,7 @@ class Dcd final : public Trajectory {
     const std::vector<std::byte> header = record(offset, kHeaderRecord, "the header");
     if (static_cast<char>(header[0]) == 'V') refuse(0, "holds velocities, not positions");
     const auto integer = [&](std::size_t n) { return number<std::int32_t>(header.data() + 4 + 4 * n); };
-    const int version = integer(19);  // X-PLOR writes 0, and the time step in double precision
+    const int version = integer(19);  // X-PLOR writes version 0, and the time step in double precision
     promised_frames_ = integer(0);
     first_step_ = integer(1);
     steps_between_ = integer(2);
@@ -126,12 +127,13 @@ class Dcd final : public Trajectory {
     time_step_ = version == 0 ? number<double>(header.data() + 40) : number<float>(header.data() + 40);
     has_cell_ = version != 0 && integer(10) != 0;
     has_fourth_axis_ = version != 0 && integer(11) == 1;
-    charmm_itself_ = version >= kFirstCharmmWithShapeMatrix;
+    written_by_charmm_ = version >= kFirstCharmmWithShapeMatrix;
     return offset;
   }
 
-  /// The record holds a number of titles and 80 letters for each. Versions of MDAnalysis wrote three titles between
-  /// markers of two, so that where the markers disagree the number decides.
+  /// Skips the record of titles and returns the offset after it. It has the number of titles and 80 letters for each.
+  /// Some versions of MDAnalysis wrote three titles, with markers for two. So where the markers disagree, the number of
+  /// titles decides.
   std::uint64_t skip_titles(std::uint64_t offset) const {
     std::vector<std::byte> head(markers_.size + sizeof(std::int32_t));
     file_.read(offset, head);
@@ -160,7 +162,7 @@ class Dcd final : public Trajectory {
     return offset;
   }
 
-  /// With fixed atoms the header lists the others, and all frames but the first hold only these.
+  /// Reads the list of atoms that are not fixed, if some are. All frames but the first have only these atoms.
   std::uint64_t read_fixed_atoms(std::uint64_t offset) {
     if (fixed_count_ == 0) return offset;
     if (fixed_count_ < 0 || static_cast<std::size_t>(fixed_count_) >= atom_count_)
@@ -181,7 +183,8 @@ class Dcd final : public Trajectory {
     return (has_cell_ ? kCellRecord + 2 * markers_.size : 0) + (has_fourth_axis_ ? 4 : 3) * axis;
   }
 
-  /// The size of the file decides; the header is often wrong after a stop, a restart or a cut.
+  /// Computes the number of frames from the size of the file. The number in the header is often wrong after a
+  /// simulation was stopped or restarted, or the file was cut.
   void count_frames(std::uint64_t offset) {
     first_frame_ = offset;
     const std::uint64_t first = frame_bytes(atom_count_);
@@ -211,7 +214,7 @@ class Dcd final : public Trajectory {
     const std::byte* next = bytes_.data();
     if (has_cell_) {
       check_markers(next, kCellRecord, offset, fmt::format("the box of frame {}", number));
-      frame.cell = cell_of_record(box_at(next + markers_.size), charmm_itself_);
+      frame.cell = cell_of_record(box_at(next + markers_.size), written_by_charmm_);
       next += kCellRecord + 2 * markers_.size;
       offset += kCellRecord + 2 * markers_.size;
     }
@@ -242,7 +245,7 @@ class Dcd final : public Trajectory {
     }
   }
 
-  /// The step is a float, and the unit of time that was written with it has as many digits.
+  /// The time step is a float in units of AKMA, and the factor to picoseconds has as many digits as a float.
   void set_time(std::uint64_t number, Frame& frame) const {
     if (steps_between_ <= 0) return;
     frame.step = first_step_ + static_cast<std::int64_t>(number) * steps_between_;
@@ -256,18 +259,18 @@ class Dcd final : public Trajectory {
     std::array<std::byte, kCellRecord> record;
     file_.read(first_frame_ + markers_.size, record);
     const std::array<double, 6> box = box_at(record.data());
-    if (stands_for_no_box(box) || cell_of_record(box, charmm_itself_)) return;
+    if (means_no_box(box) || cell_of_record(box, written_by_charmm_)) return;
     warnings_.emplace_back("the box of its first frame has none of the forms that DCD knows; it is left out");
   }
 
   BinaryFile file_;
   Markers markers_;
   std::int32_t promised_frames_ = 0, first_step_ = 0, steps_between_ = 0, fixed_count_ = 0;
-  double time_step_ = 0.0;  // AKMA
-  bool has_cell_ = false, has_fourth_axis_ = false, charmm_itself_ = false;
-  std::vector<std::uint32_t> free_atoms_;  // empty: all of them
-  std::uint64_t first_frame_ = 0;          // its offset
-  Frame first_;                            // where the fixed atoms are
+  double time_step_ = 0.0;  // in units of AKMA
+  bool has_cell_ = false, has_fourth_axis_ = false, written_by_charmm_ = false;
+  std::vector<std::uint32_t> free_atoms_;  // empty if no atom is fixed
+  std::uint64_t first_frame_ = 0;          // offset of the first frame
+  Frame first_;                            // the first frame, for the positions of fixed atoms; empty without them
   std::vector<std::byte> bytes_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads H5MD, and the HDF5 of MDTraj, through the HDF5 library: a module of its own, see
-// trajectory_formats.cpp.
+// Reads H5MD and the HDF5 files of MDTraj by the HDF5 library. It is compiled as a module of its own, which
+// trajectory_formats.cpp loads.
 #include "core/trajectory/formats/trajectory_formats.h"
 
 #include <hdf5.h>
@@ -22,7 +22,7 @@
 namespace meniscus {
 namespace {
 
-/// An open object of the library, closed by the function that belongs to its kind.
+/// An open object of the library, which is closed by the function for its kind.
 class Handle {
  public:
   Handle() = default;
@@ -44,66 +44,69 @@ class Handle {
   herr_t (*close_)(hid_t) = nullptr;
 };
 
-/// An array of numbers and the lengths of its dimensions.
+/// A data set of numbers and the lengths of its dimensions.
 struct Table {
   Handle set;
   std::vector<hsize_t> lengths;
 };
 
-/// Keeps the library from printing its own lines about what is not there.
-class Quiet {
+/// Keeps the library from printing messages about missing objects while it lives.
+class ErrorSilencer {
  public:
-  Quiet() {
+  ErrorSilencer() {
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
-  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
+  ~ErrorSilencer() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+  ErrorSilencer(const ErrorSilencer&) = delete;
+  ErrorSilencer& operator=(const ErrorSilencer&) = delete;
 
  private:
   H5E_auto2_t function_ = nullptr;
   void* data_ = nullptr;
 };
 
-/// At the end of the process the library would look for what it lost of damaged files itself, and print that it found
-/// no end of it. Our handles have closed by then what there is to close.
-void leave_no_last_words() { [[maybe_unused]] static const herr_t told = H5dont_atexit(); }
+/// Prevents the library from cleaning up at the end of the process. Otherwise it looks for the objects of damaged files
+/// that it lost, and prints that it found no end of them. All handles have been closed by then.
+void disable_exit_cleanup() { [[maybe_unused]] static const herr_t status = H5dont_atexit(); }
 
 bool has(hid_t place, const std::string& path) {
-  // The library asks that every step of a path is looked up by itself.
+  // The library requires that every step of a path is checked on its own.
   for (std::size_t end = path.find('/'); end != std::string::npos; end = path.find('/', end + 1)) {
     if (H5Lexists(place, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
   }
   return H5Lexists(place, path.c_str(), H5P_DEFAULT) > 0;
 }
 
-/// Whether the numbers lie in other files, which this one names: a file that is read never has others read.
-bool is_elsewhere(hid_t set) {
+/// True if the numbers are in other files that this file names. Reading one file must never make the program read
+/// others.
+bool is_stored_elsewhere(hid_t set) {
   const Handle creation(H5Dget_create_plist(set), H5Pclose);
   return H5Pget_external_count(creation) != 0 || H5Pget_layout(creation) == H5D_VIRTUAL;
 }
 
-/// Whether a value is a number such as processors know: for one of a damaged size the library would ask for any memory.
+/// True if a value is a number of a size that processors have. For a damaged size the library might request any amount
+/// of memory.
 bool is_number(const Handle& type) {
   const H5T_class_t kind = H5Tget_class(type);
   const std::size_t size = H5Tget_size(type);
   return (kind == H5T_INTEGER || kind == H5T_FLOAT) && size >= 1 && size <= sizeof(long double);
 }
 
-/// Whether numbers have the precision of a float, or less.
+/// True if numbers have the precision of a float, or less.
 bool is_single(const Table& table) {
   if (!table.set) return false;
   const Handle type(H5Dget_type(table.set), H5Tclose);
   return H5Tget_class(type) == H5T_FLOAT && H5Tget_size(type) <= sizeof(float);
 }
 
-/// None, if there is none at this path, or none of numbers that this file holds itself.
+/// Opens the table at a path. The result is empty if there is none, or if it does not contain numbers that are stored
+/// in this file.
 Table table(hid_t place, const std::string& path) {
   Table result;
   if (!has(place, path)) return result;
   result.set = Handle(H5Dopen2(place, path.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!result.set || is_elsewhere(result.set)) return {};
+  if (!result.set || is_stored_elsewhere(result.set)) return {};
   if (!is_number(Handle(H5Dget_type(result.set), H5Tclose))) return {};
   const Handle space(H5Dget_space(result.set), H5Sclose);
   const int dimensions = H5Sget_simple_extent_ndims(space);
@@ -114,7 +117,7 @@ Table table(hid_t place, const std::string& path) {
   return result;
 }
 
-/// The text of an attribute; empty if there is none, or no short one.
+/// Returns the text of an attribute; empty if there is none, or if it is longer than 1000 bytes.
 std::string text_attribute(hid_t object, const char* name) {
   if (H5Aexists(object, name) <= 0) return {};
   const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
@@ -135,7 +138,7 @@ std::string text_attribute(hid_t object, const char* name) {
   return text.substr(0, text.find('\0'));
 }
 
-/// What one unit of length of this table is in Å.
+/// Returns the unit of length of a table in Å.
 double length_unit(const Table& values, const std::string& path, std::vector<Warning>& warnings) {
   const std::string unit = text_attribute(values.set, "unit");
   if (unit == "nm") return kAngstromPerNanometre;
@@ -149,7 +152,7 @@ double length_unit(const Table& values, const std::string& path, std::vector<War
   return 1.0;
 }
 
-/// What one unit of time is in ps; 0: unknown, so that there are no times.
+/// Returns the unit of time of a table in ps. 0 means that it is unknown, so that frames have no times.
 double time_unit(const Table& times) {
   const std::string unit = times.set ? text_attribute(times.set, "unit") : std::string();
   if (unit == "fs") return 1e-3;
@@ -162,12 +165,12 @@ double time_unit(const Table& times) {
 class H5md final : public Trajectory {
  public:
   explicit H5md(const std::string& path) : Trajectory(path, "H5MD"), bytes_(path) {
-    leave_no_last_words();  // before all other calls
-    const Quiet quiet;
-    H5Lunregister(H5L_TYPE_EXTERNAL);  // links to other files lead nowhere; it does not matter if they did so before
+    disable_exit_cleanup();  // must be the first call of the library
+    const ErrorSilencer quiet;
+    H5Lunregister(H5L_TYPE_EXTERNAL);  // disables links to other files; it does no harm if they were disabled before
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_file_locking(access, false, true);  // readers of one file must not wait for each other
-    H5Pset_sieve_buf_size(access, 0);  // after a read that failed, the library takes this buffer of zeros for the data
+    H5Pset_file_locking(access, false, true);  // several readers of one file must not wait for each other
+    H5Pset_sieve_buf_size(access, 0);  // after a failed read the library would take zeros in this buffer for data
     file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
     if (!file_) throw InputError(path, 0, "is damaged or cut short: the HDF5 library cannot open it");
     if (!has(file_, "particles") && text_attribute(file_, "conventions").find("Pande") != std::string::npos)
@@ -202,7 +205,8 @@ class H5md final : public Trajectory {
     if (!box_.set) box_ = table(group_, "box/edges");
   }
 
-  /// MDTraj's own convention, "HDF5 format specification" of its manual: nm, ps and degrees, which `units` repeats.
+  /// Opens a file by MDTraj's own convention ("HDF5 format specification" of its manual). Units are nm, ps and degrees,
+  /// which the attribute `units` repeats.
   void open_mdtraj() {
     format_ = "HDF5 of MDTraj";
     name_ = "coordinates";
@@ -223,7 +227,7 @@ class H5md final : public Trajectory {
       throw InputError(path_, 0, fmt::format("names {} as a unit where MDTraj writes {}", in_quotes(found), unit));
   }
 
-  /// The first group of particles that has positions, in the order of names.
+  /// Chooses the first group of particles with positions, in alphabetical order.
   void choose_group() {
     std::vector<std::string> names;
     if (!has(file_, "particles"))
@@ -240,8 +244,9 @@ class H5md final : public Trajectory {
     }
   }
 
-  /// No compression of positions is a thousandfold; a header that promises more would only exhaust the memory. Frames
-  /// that were never written take no place, and would be read as zeros.
+  /// Throws InputError if the file is too small for its atoms and frames. Compression of positions never reaches a
+  /// factor of a thousand, and a damaged header would exhaust the memory. Frames that were never written take no space,
+  /// and would be read as zeros.
   void check_plausible_size() const {
     const double frame = static_cast<double>(atom_count_) * 3 * sizeof(float),
                  size = static_cast<double>(bytes_.size());
@@ -252,7 +257,8 @@ class H5md final : public Trajectory {
                       with_thousands(frame_count_), with_thousands(bytes_.size())));
   }
 
-  /// The part of a table that belongs to a frame: all dimensions but the first, which counts frames.
+  /// Reads the part of a table that belongs to one frame. The first dimension counts frames. False if the library
+  /// fails.
   bool read_frame_of(const Table& from, std::uint64_t number, hid_t type, void* numbers) const {
     const Handle space(H5Dget_space(from.set), H5Sclose);
     std::vector<hsize_t> start(from.lengths.size(), 0), count = from.lengths;
@@ -263,7 +269,8 @@ class H5md final : public Trajectory {
     return H5Dread(from.set, type, memory, space, H5P_DEFAULT, numbers) >= 0;
   }
 
-  /// A number of each frame, or one of all: then it is the increment from frame to frame.
+  /// Returns the number of a frame from a table with one number per frame. A table with a single number has the
+  /// increment from frame to frame.
   template <typename Number>
   std::optional<Number> number_of(const Table& from, std::uint64_t frame, hid_t type) const {
     Number number{};
@@ -282,7 +289,7 @@ class H5md final : public Trajectory {
     return sum_of(offset, number, frame);
   }
 
-  /// offset + number * frame; nothing where whole numbers have no place for it.
+  /// Returns offset + number * frame, or nothing if an integer overflows.
   static std::optional<double> sum_of(double offset, double number, std::uint64_t frame) {
     return offset + number * static_cast<double>(frame);
   }
@@ -292,7 +299,7 @@ class H5md final : public Trajectory {
     return sum;
   }
 
-  /// Three numbers of a frame.
+  /// Returns three numbers of a frame from a table, or nothing.
   std::optional<glm::dvec3> three_of(const Table& from, std::uint64_t frame) const {
     glm::dvec3 numbers(0.0);
     if (!from.set || from.lengths != std::vector<hsize_t>{frame_count_, 3}) return std::nullopt;
@@ -321,7 +328,7 @@ class H5md final : public Trajectory {
   }
 
   void read_unchecked(std::uint64_t number, Frame& frame) override {
-    const Quiet quiet;
+    const ErrorSilencer quiet;
     numbers_.resize(3 * atom_count_);
     const bool good = read_frame_of(position_, number, H5T_NATIVE_DOUBLE, numbers_.data());
     bytes_.check_unchanged();
@@ -337,11 +344,11 @@ class H5md final : public Trajectory {
     if (time && time_unit_ > 0.0 && std::isfinite(time_unit_ * *time)) frame.time = time_unit_ * *time;
   }
 
-  BinaryFile bytes_;  // tells whether the file changed
+  BinaryFile bytes_;  // detects changes of the file
   Handle file_, group_;
   std::string name_;
   Table position_, time_, step_, box_;
-  Table lengths_, angles_;  ///< of the box, as MDTraj has it
+  Table lengths_, angles_;  ///< lengths and angles of the box in files of MDTraj
   double unit_ = 1.0, time_unit_ = 1.0;
   std::vector<double> numbers_;
 };
@@ -351,7 +358,7 @@ std::unique_ptr<Trajectory> open_h5md(const std::string& path) { return std::mak
 }  // namespace
 }  // namespace meniscus
 
-// Nothing for a program that was built with another idea of what passes between them.
+// Returns null for a program of another version, or with another layout of Frame.
 extern "C" __attribute__((visibility("default"))) meniscus::OpenH5md* meniscus_open_h5md(const char* version,
                                                                                          std::size_t frame_size) {
   return version == std::string_view(MENISCUS_VERSION) && frame_size == sizeof(meniscus::Frame) ? meniscus::open_h5md

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads text dumps of LAMMPS (dump atom, dump custom), whose atoms come in any order and go by their numbers.
+// Reads text dumps of LAMMPS (dump atom, dump custom). Their atoms come in any order and are identified by their
+// numbers.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +26,7 @@
 namespace meniscus {
 namespace {
 
-/// What one unit of length is in Å and one of time in ps ("units" in the manual); 0: nobody knows.
+/// The units of LAMMPS by the name of a style: length in Å and time in ps ("units" in the manual).
 struct UnitStyle {
   std::string_view name;
   double length, time;
@@ -38,32 +39,33 @@ constexpr std::array<UnitStyle, 7> kUnitStyles{{{"real", 1.0, 1e-3},
                                                 {"micro", 1e4, 1e6},
                                                 {"nano", 10.0, 1e3}}};
 
-/// Columns of positions, the best kind first: those that go on where they leave the box keep molecules whole.
+/// The columns of positions, the preferred kind first. Unwrapped positions (xu) keep molecules whole at the sides of
+/// the box.
 struct PositionColumns {
   std::array<std::string_view, 3> names;
-  bool scaled;
+  bool is_scaled;
 };
 constexpr std::array<PositionColumns, 4> kPositionColumns{
     {{{"xu", "yu", "zu"}, false}, {{"xsu", "ysu", "zsu"}, true}, {{"x", "y", "z"}, false}, {{"xs", "ys", "zs"}, true}}};
 
-/// What is above the atoms of a frame.
+/// The header of a frame.
 struct DumpHeader {
   std::optional<std::int64_t> step;
   std::optional<double> time;
-  std::string units;  ///< LAMMPS names them once, in the first frame
+  std::string units;  ///< LAMMPS writes them only once, in the first frame
   std::int64_t atoms = -1;
-  glm::dvec3 low{0.0};  ///< the corner of the box, in the file's unit
-  glm::dmat3 box{0.0};  ///< its vectors, in the columns
-  bool has_box = false, periodic = false;
+  glm::dvec3 low{0.0};  ///< corner of the box, in the unit of the file
+  glm::dmat3 box{0.0};  ///< vectors of the box in the columns, in the unit of the file
+  bool has_box = false, is_periodic = false;
   std::string columns;
 };
 
-/// Reads a header line by line; what is wrong with it is a fault.
+/// Reads a header line by line. It throws a Fault if the header is wrong.
 class HeaderReader {
  public:
   explicit HeaderReader(FileLines& lines) : lines_(lines) {}
 
-  /// Up to the line of columns. False: the file ends before it. Throws the words of a fault.
+  /// Reads up to the line with the names of columns. False if the file ends before it. Throws Fault.
   bool read(DumpHeader& header) {
     for (std::string_view line; next(line);) {
       if (trimmed(line).empty()) continue;
@@ -73,12 +75,12 @@ class HeaderReader {
         header.columns = item.substr(5);
         return true;
       }
-      if (!take(item, header)) return false;
+      if (!parse_item(item, header)) return false;
     }
     return false;
   }
 
-  bool only_blanks() const { return only_blanks_; }  ///< nothing but blanks was read
+  bool only_blanks() const { return has_only_blanks_; }  ///< true if only blank lines were read
 
   struct Fault {
     std::string words;
@@ -88,16 +90,16 @@ class HeaderReader {
   bool next(std::string_view& line) {
     if (!lines_.next(line)) return false;
     line = without_return(line);
-    only_blanks_ = only_blanks_ && trimmed(line).empty();
-    return lines_.ended_by_newline();  // else the end of the file cuts it
+    has_only_blanks_ = has_only_blanks_ && trimmed(line).empty();
+    return lines_.ended_by_newline();  // without a line feed the line may be cut by the end of the file
   }
 
   static Fault fault(fmt::format_string<std::string> words, std::string_view text) {
     return {fmt::format(words, in_quotes(text))};
   }
 
-  bool take(const std::string& item, DumpHeader& header) {
-    if (item.starts_with("BOX BOUNDS")) return take_box(item.substr(10), header);
+  bool parse_item(const std::string& item, DumpHeader& header) {
+    if (item.starts_with("BOX BOUNDS")) return parse_box(item.substr(10), header);
     std::string_view line;
     if (!next(line)) return false;
     std::int64_t number = 0;
@@ -118,15 +120,16 @@ class HeaderReader {
     return true;
   }
 
-  /// Three lines: low, high, and of an inclined box xy, xz, yz; bounds are then those of the box around it (manual,
-  /// "Triclinic simulation boxes"). Boundaries: "pp" is periodic.
-  bool take_box(std::string_view words, DumpHeader& header) {
+  /// Reads three lines with low and high bounds, and xy, xz or yz of a triclinic box. In that case the bounds are those
+  /// of the box around it (manual, "Triclinic simulation boxes"). Boundaries "pp" mean that the box is periodic. False
+  /// if the file ends before the third line.
+  bool parse_box(std::string_view words, DumpHeader& header) {
     const std::vector<std::string_view> fields = fields_of(words);
     if (!fields.empty() && fields.front() == "abc")
       throw Fault{"has a general triclinic box; write restricted ones: dump_modify triclinic/general no"};
     const bool inclined = !fields.empty() && fields.front() == "xy";
     const auto boundaries = std::span(fields).subspan(inclined ? std::min<std::size_t>(3, fields.size()) : 0);
-    header.periodic = std::ranges::all_of(boundaries, [](std::string_view word) { return word == "pp"; });
+    header.is_periodic = std::ranges::all_of(boundaries, [](std::string_view word) { return word == "pp"; });
     glm::dvec3 low(0.0), high(0.0), tilt(0.0);
     for (int axis = 0; axis < 3; ++axis) {
       std::string_view line;
@@ -146,13 +149,13 @@ class HeaderReader {
   }
 
   FileLines& lines_;
-  bool only_blanks_ = true;
+  bool has_only_blanks_ = true;
 };
 
 class LammpsDump final : public Trajectory {
  public:
   LammpsDump(const std::string& path, const TrajectoryOptions& options)
-      : Trajectory(path, "LAMMPS dump"), file_(path), lines_(file_), trusts_order_(options.trust_atom_order) {
+      : Trajectory(path, "LAMMPS dump"), file_(path), lines_(file_), trust_atom_order_(options.trust_atom_order) {
     index_ = find_frames(file_, options.index_folder, [this](std::uint64_t offset) { return extent_at(offset); });
     cut_short_ = index_.cut_short;
     frame_count_ = index_.offsets.size();
@@ -165,12 +168,12 @@ class LammpsDump final : public Trajectory {
       warnings_.emplace_back("its last line has no line end; if the file was cut there, its last number is cut, too");
     Frame frame;
     read_unchecked(0, frame);
-    numbers_ = found_;
-    atom_count_ = numbers_.size();
+    ids_ = frame_ids_;
+    atom_count_ = ids_.size();
   }
 
  private:
-  /// Goes through the lines of a frame without reading its atoms.
+  /// Finds the extent of a frame without parsing its atoms.
   FrameExtent extent_at(std::uint64_t offset) {
     constexpr std::uint64_t kEndless = std::uint64_t{1} << 62;
     DumpHeader header;
@@ -185,11 +188,11 @@ class LammpsDump final : public Trajectory {
     std::string_view line;
     for (std::int64_t n = 0; n < header.atoms; ++n)
       if (!lines_.next(line)) return {kEndless, true, {}};
-    // LAMMPS ends every line, but other programs do not.
+    // LAMMPS ends every line, but other programs do not end the last one.
     constexpr std::size_t kMost = 1000;
     const bool whole = lines_.ended_by_newline() ||
                        fields_of(without_return(line), kMost).size() >= fields_of(header.columns, kMost).size();
-    return {whole ? lines_.behind() - offset : kEndless, true, {}};
+    return {whole ? lines_.next_offset() - offset : kEndless, true, {}};
   }
 
   void choose_units(const std::string& name) {
@@ -223,11 +226,11 @@ class LammpsDump final : public Trajectory {
                      fmt::format("frame {} at byte {} {}", number, with_thousands(index_.offsets[number]), what));
   }
 
-  /// Where the columns of an atom are that are read: its number, and three of its position.
+  /// The columns that are read: the number of an atom and its three coordinates.
   struct Columns {
-    std::array<std::size_t, 4> place;  ///< the first is beyond all columns where there are no numbers
+    std::array<std::size_t, 4> place;  ///< the first is beyond all columns if atoms have no numbers
     std::size_t last;
-    bool scaled;
+    bool is_scaled;
   };
 
   Columns columns_of(std::uint64_t number, const DumpHeader& header) const {
@@ -237,16 +240,16 @@ class LammpsDump final : public Trajectory {
     };
     Columns columns{};
     columns.place[0] = place("id");
-    if (columns.place[0] == names.size() && !trusts_order_)
+    if (columns.place[0] == names.size() && !trust_atom_order_)
       refuse(number, message("has no column 'id', so its atoms cannot be identified; add id to dump custom, or "
                              "@trust-atom-order@ if they are in the order of FILE in every frame"));
     for (const PositionColumns& kind : kPositionColumns) {
       for (std::size_t axis = 0; axis < 3; ++axis) columns.place[axis + 1] = place(kind.names[axis]);
       columns.last = *std::max_element(columns.place.begin() + 1, columns.place.end());
-      columns.scaled = kind.scaled;
+      columns.is_scaled = kind.is_scaled;
       if (columns.last == names.size()) continue;
       if (columns.place[0] < names.size()) columns.last = std::max(columns.last, columns.place[0]);
-      if (kind.scaled && !header.has_box) refuse(number, "has positions as fractions of a box, but no box");
+      if (kind.is_scaled && !header.has_box) refuse(number, "has positions as fractions of a box, but no box");
       return columns;
     }
     refuse(number, fmt::format("has the columns {}, but neither xu yu zu, xsu ysu zsu, x y z nor xs ys zs",
@@ -258,19 +261,19 @@ class LammpsDump final : public Trajectory {
     read_header(number, header);
     const Columns columns = columns_of(number, header);
     if (static_cast<std::uint64_t>(header.atoms) > file_.size()) refuse(number, "has more atoms than the file bytes");
-    found_.clear();
-    placed_.clear();
-    for (std::int64_t n = 0; n < header.atoms; ++n) take_atom(number, header, columns);
+    frame_ids_.clear();
+    frame_positions_.clear();
+    for (std::int64_t n = 0; n < header.atoms; ++n) parse_atom(number, header, columns);
     file_.check_unchanged();
     sort_atoms(number);
-    frame.positions.resize(placed_.size());
-    for (std::size_t n = 0; n < placed_.size(); ++n) frame.positions[n] = length_ * placed_[n];
-    if (header.has_box && header.periodic) frame.cell = cell_of_vectors(length_ * header.box);
+    frame.positions.resize(frame_positions_.size());
+    for (std::size_t n = 0; n < frame_positions_.size(); ++n) frame.positions[n] = length_ * frame_positions_[n];
+    if (header.has_box && header.is_periodic) frame.cell = cell_of_vectors(length_ * header.box);
     frame.step = header.step;
     if (header.time && time_ > 0.0 && std::isfinite(time_ * *header.time)) frame.time = time_ * *header.time;
   }
 
-  void take_atom(std::uint64_t number, const DumpHeader& header, const Columns& columns) {
+  void parse_atom(std::uint64_t number, const DumpHeader& header, const Columns& columns) {
     std::string_view line;
     if (!lines_.next(line)) refuse(number, "has fewer atoms than before");
     line = without_return(line);
@@ -281,37 +284,38 @@ class LammpsDump final : public Trajectory {
       for (std::size_t n = 0; n < 4; ++n)
         if (columns.place[n] == column) fields[n] = field;
     }
-    auto id = static_cast<std::int64_t>(found_.size()) + 1;
+    auto id = static_cast<std::int64_t>(frame_ids_.size()) + 1;
     glm::dvec3 p(0.0);
     const bool has_id = columns.place[0] <= columns.last;
     if ((has_id && !parse_whole_number(fields[0], id)) || !parse_number(fields[1], p.x) ||
         !parse_number(fields[2], p.y) || !parse_number(fields[3], p.z))
       refuse(number, fmt::format("has the atom {}, whose number and position in the columns {} are not all numbers",
                                  in_quotes(line), in_quotes(trimmed(header.columns))));
-    found_.push_back(id);
-    placed_.push_back(columns.scaled ? header.low + header.box * p : p);
+    frame_ids_.push_back(id);
+    frame_positions_.push_back(columns.is_scaled ? header.low + header.box * p : p);
   }
 
-  /// By their numbers, which must be those of the first frame.
+  /// Sorts the atoms by their numbers, which must be those of the first frame.
   void sort_atoms(std::uint64_t number) {
-    if (!std::ranges::is_sorted(found_)) {
-      std::vector<std::size_t> order(found_.size());
+    if (!std::ranges::is_sorted(frame_ids_)) {
+      std::vector<std::size_t> order(frame_ids_.size());
       std::iota(order.begin(), order.end(), std::size_t{0});
-      std::ranges::sort(order, {}, [&](std::size_t n) { return found_[n]; });
+      std::ranges::sort(order, {}, [&](std::size_t n) { return frame_ids_[n]; });
       std::vector<std::int64_t> ids;
       std::vector<glm::dvec3> positions;
       for (const std::size_t n : order) {
-        ids.push_back(found_[n]);
-        positions.push_back(placed_[n]);
+        ids.push_back(frame_ids_[n]);
+        positions.push_back(frame_positions_[n]);
       }
-      found_ = std::move(ids);
-      placed_ = std::move(positions);
+      frame_ids_ = std::move(ids);
+      frame_positions_ = std::move(positions);
     }
-    const auto twice = std::ranges::adjacent_find(found_);
-    if (twice != found_.end()) refuse(number, fmt::format("has the atom {} twice", *twice));
-    if (numbers_.empty() || found_.size() != numbers_.size()) return;  // the first, or of another number of atoms
-    const auto other = std::ranges::mismatch(found_, numbers_);
-    if (other.in1 != found_.end())
+    const auto twice = std::ranges::adjacent_find(frame_ids_);
+    if (twice != frame_ids_.end()) refuse(number, fmt::format("has the atom {} twice", *twice));
+    // This is the first frame, or the caller refuses it for its number of atoms.
+    if (ids_.empty() || frame_ids_.size() != ids_.size()) return;
+    const auto other = std::ranges::mismatch(frame_ids_, ids_);
+    if (other.in1 != frame_ids_.end())
       refuse(number,
              fmt::format("has the atom {} where the first frame has {}: a dump of a changing group is not a trajectory",
                          *other.in1, *other.in2));
@@ -320,11 +324,11 @@ class LammpsDump final : public Trajectory {
   BinaryFile file_;
   FileLines lines_;
   FrameIndex index_;
-  bool trusts_order_ = false;
+  bool trust_atom_order_ = false;
   double length_ = 1.0, time_ = 0.0;
-  std::vector<std::int64_t> numbers_;  ///< of the atoms, ascending
-  std::vector<std::int64_t> found_;    ///< those of the frame that is read
-  std::vector<glm::dvec3> placed_;     ///< their positions in the file's unit
+  std::vector<std::int64_t> ids_;            ///< of all atoms, ascending
+  std::vector<std::int64_t> frame_ids_;      ///< numbers of the atoms of the current frame
+  std::vector<glm::dvec3> frame_positions_;  ///< positions of the atoms of the current frame, in the unit of the file
 };
 
 bool recognizes(std::string_view start) {

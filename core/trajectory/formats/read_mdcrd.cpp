@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads what Amber writes as text, in Å: trajectories (mdcrd) with ten numbers of eight columns a line behind a title,
-// and coordinates of one moment (inpcrd, restart files) with six of twelve.
+// Reads text files of Amber, in Å. Trajectories (mdcrd) have a title and then lines of ten numbers in eight columns
+// each. Coordinates of one frame (inpcrd, restart files) have lines of six numbers in twelve columns each.
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -27,7 +27,8 @@ std::string_view without_blanks_behind(std::string_view line) {
   return line.substr(0, line.find_last_not_of(" \t\r") + 1);
 }
 
-/// Does a line consist of numbers as F8.3 or F12.7 prints them? Those that do not fit into the columns are asterisks.
+/// True if a line consists of numbers in the format F8.3 or F12.7. A number that does not fit into its columns is
+/// written as asterisks.
 bool is_formatted(std::string_view line, std::size_t width = kWidth, std::size_t most = kPerLine) {
   line = without_blanks_behind(line);
   if (line.empty() || line.size() % width != 0 || line.size() > most * width) return false;
@@ -40,7 +41,7 @@ bool is_formatted(std::string_view line, std::size_t width = kWidth, std::size_t
   return true;
 }
 
-/// The three edges of a box: by columns, or with blanks between them.
+/// Parses the three edges of a box, which are in columns or separated by blanks.
 std::optional<glm::dvec3> edges_of(std::string_view line) {
   line = without_blanks_behind(line);
   const std::vector<std::string_view> fields = fields_of(line);
@@ -69,7 +70,7 @@ class Mdcrd final : public Trajectory {
     lines_ = (numbers_ + kPerLine - 1) / kPerLine;
     measure();
     count_frames();
-    // Which say where the lines are others than those of so many atoms.
+    // Loading the first frames fails if their lines do not match this number of atoms.
     for (std::uint64_t frame = 0; frame < std::min<std::uint64_t>(2, frame_count_); ++frame) load(frame);
     Frame first;
     read_unchecked(0, first);
@@ -81,12 +82,12 @@ class Mdcrd final : public Trajectory {
   }
 
  private:
-  /// Lines end at the same places in all frames.
+  /// Measures the first frame. Lines end at the same places in all frames.
   void measure() {
     FileLines lines(file_);
     std::string_view line;
     lines.next(line);
-    begin_ = lines.behind();
+    begin_ = lines.next_offset();
     for (std::size_t n = 0; n < lines_; ++n) {
       if (!lines.next(line))
         throw InputError(path_, n + 1,
@@ -94,12 +95,12 @@ class Mdcrd final : public Trajectory {
                                      "the two belong together?",
                                      with_thousands(atom_count_)));
     }
-    frame_bytes_ = lines.behind() - begin_;
+    frame_bytes_ = lines.next_offset() - begin_;
     last_newline_ = lines.ended_by_newline() ? (line.ends_with('\r') ? 2 : 1) : 0;
-    // A frame of one atom looks like a box, and a run of one atom needs no box.
+    // A frame of one atom looks like a box, and a trajectory of one atom needs no box.
     if (numbers_ != 3 && lines.next(line) && edges_of(line)) {
       has_box_ = true;
-      frame_bytes_ = lines.behind() - begin_;
+      frame_bytes_ = lines.next_offset() - begin_;
       last_newline_ = lines.ended_by_newline() ? (line.ends_with('\r') ? 2 : 1) : 0;
     }
     lines_of_frame_ = lines_ + (has_box_ ? 1 : 0);
@@ -111,7 +112,7 @@ class Mdcrd final : public Trajectory {
     const std::uint64_t rest = bytes % frame_bytes_;
     if (rest == 0) return;
     if (frame_count_ > 0 && rest == frame_bytes_ - last_newline_) {
-      ++frame_count_;  // without a line feed behind it
+      ++frame_count_;  // the last frame has no line feed at its end
       return;
     }
     std::string text(std::min<std::uint64_t>(rest, 4096), '\0');
@@ -125,7 +126,7 @@ class Mdcrd final : public Trajectory {
     throw InputError(path_, 2 + frame * lines_of_frame_ + line, fmt::format("{} (frame {})", what, frame));
   }
 
-  /// Reads the lines of a frame and looks at their lengths.
+  /// Reads the lines of a frame and checks their lengths.
   void load(std::uint64_t number) {
     const std::uint64_t begin = begin_ + number * frame_bytes_;
     text_.resize(std::min(frame_bytes_, file_.size() - begin));
@@ -177,7 +178,7 @@ class Mdcrd final : public Trajectory {
   std::string text_;
 };
 
-/// The line behind the title is one of coordinates.
+/// True if the line after the title is one of coordinates.
 bool recognizes(std::string_view start) {
   const std::size_t title = start.find('\n');
   if (title == std::string_view::npos || title > 1000) return false;
@@ -186,11 +187,11 @@ bool recognizes(std::string_view start) {
   return end != std::string_view::npos && is_formatted(rest.substr(0, end));
 }
 
-// Restart files
+// The reader of restart files follows.
 
 constexpr std::size_t kRestartWidth = 12, kRestartPerLine = 6;
 
-/// "  160  0.5000000E+02": the number of atoms, the time in ps, and in replica exchange the temperature.
+/// Parses "  160  0.5000000E+02": the number of atoms, the time in ps, and in replica exchange the temperature.
 bool parse_counts(std::string_view line, std::int64_t& atoms, std::optional<double>& time) {
   const std::vector<std::string_view> fields = fields_of(without_blanks_behind(line), 4);
   if (fields.empty() || fields.size() > 3 || !parse_whole_number(fields[0], atoms) || atoms < 1) return false;
@@ -210,7 +211,7 @@ class AmberRestart final : public Trajectory {
     if (static_cast<std::uint64_t>(atoms) > most) refuse_short_frame(file_, 2, static_cast<std::size_t>(atoms), most);
     frame_count_ = 1;
     atom_count_ = static_cast<std::size_t>(atoms);
-    time_precision_ = kSinglePrecision;  // seven decimals
+    time_precision_ = kSinglePrecision;  // times have seven decimals
     read_positions();
     read_rest();
   }
@@ -233,8 +234,9 @@ class AmberRestart final : public Trajectory {
     }
   }
 
-  /// Velocities in as many lines as positions, a box in one, both or nothing. What may be either, six numbers behind
-  /// two atoms or three behind one, is no box.
+  /// Skips the velocities, which take as many lines as the positions, and reads the box, which takes one line. Each of
+  /// them may be missing. A line that may be either is taken for velocities: six numbers after two atoms, or three
+  /// numbers after one.
   void read_rest() {
     const std::size_t lines_of_velocities = (3 * atom_count_ + kRestartPerLine - 1) / kRestartPerLine;
     std::vector<std::string_view> rest;

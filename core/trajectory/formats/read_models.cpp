@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the models of a structure file (PDB, mmCIF, GRO, XYZ, ...) as frames of a trajectory, which it finds without
-// parsing atoms.
+// Reads the models of a structure file (PDB, mmCIF, GRO, XYZ, ...) as frames of a trajectory. In plain text files it
+// finds the models without parsing atoms.
 
 #include <algorithm>
 #include <array>
@@ -31,31 +31,32 @@ namespace {
 
 inline constexpr std::uint64_t kNoBox = ~std::uint64_t{0};
 
-/// A piece of the file that the reader of its format takes for one model.
+/// A part of the file that the reader of its format takes for one model.
 struct TextFrame {
   std::uint64_t begin = 0, end = 0;
-  std::uint64_t box = kNoBox;  ///< PDB: where the CRYST1 record that holds for it begins
+  std::uint64_t box = kNoBox;  ///< in PDB the offset of the CRYST1 record that applies to the model
 };
 
+/// The models of a text file.
 struct TextFrames {
   std::vector<TextFrame> frames;
-  std::string cut_short;  ///< as Trajectory::cut_short()
+  std::string cut_short;  ///< see Trajectory::cut_short()
 };
 
 bool is_blank(std::string_view line) { return line.find_first_not_of(" \t\r\v\f") == std::string_view::npos; }
 
-/// The rules by which the reader of PDB counts models.
+/// Finds the models of a PDB file by the same rules as the reader of PDB.
 class PdbWalk {
  public:
   explicit PdbWalk(const BinaryFile& file) : lines_(file) {}
 
   TextFrames run() {
     for (std::string_view line; lines_.next(line);) take(without_return(line));
-    const bool cut = open_ && !ended_ && (atoms_ != atoms_of_first_ || last_atom_bytes_ < kCoordinatesEnd);
+    const bool cut = is_open_ && !has_ended_ && (atoms_ != atoms_of_first_ || last_atom_bytes_ < kCoordinatesEnd);
     if (cut && !result_.frames.empty()) {
       result_.cut_short = cut_short_sentence(result_.frames.size());
     } else {
-      close(lines_.behind());
+      close(lines_.next_offset());
     }
     return std::move(result_);
   }
@@ -65,9 +66,9 @@ class PdbWalk {
 
   void take(std::string_view line) {
     if (is_pdb_atom(line)) {
-      if (open_ && ended_ && !in_model_record_) close(lines_.begin());
-      if (!open_) open();
-      ended_ = false;
+      if (is_open_ && has_ended_ && !in_model_record_) close(lines_.begin());
+      if (!is_open_) open();
+      has_ended_ = false;
       ++atoms_;
       last_atom_bytes_ = line.size();
     } else if (is_pdb_record(line, "MODEL")) {
@@ -78,7 +79,7 @@ class PdbWalk {
       close(lines_.begin());
       in_model_record_ = false;
     } else if (is_pdb_record(line, "END")) {
-      ended_ = true;
+      has_ended_ = true;
     } else if (is_pdb_record(line, "CRYST1")) {
       box_ = lines_.begin();
     }
@@ -86,33 +87,33 @@ class PdbWalk {
 
   void open() {
     frame_ = {in_model_record_ ? model_record_ : lines_.begin(), 0, box_};
-    open_ = true;
+    is_open_ = true;
     atoms_ = 0;
   }
 
   void close(std::uint64_t end) {
-    if (open_) {
+    if (is_open_) {
       frame_.end = end;
       if (result_.frames.empty()) atoms_of_first_ = atoms_;
       result_.frames.push_back(frame_);
     }
-    open_ = ended_ = false;
+    is_open_ = has_ended_ = false;
   }
 
   FileLines lines_;
   TextFrames result_;
   TextFrame frame_;
-  bool open_ = false, ended_ = false, in_model_record_ = false;
+  bool is_open_ = false, has_ended_ = false, in_model_record_ = false;
   std::uint64_t model_record_ = 0, box_ = kNoBox, atoms_ = 0, atoms_of_first_ = 0;
   std::size_t last_atom_bytes_ = 0;
 };
 
-/// Frames that begin with a count (XYZ) or with a title and a count (GRO); a comment or a box makes one line more than
-/// the atoms.
+/// Finds frames that begin with a count (XYZ), or with a title and a count (GRO). A frame has one line more than atoms:
+/// a comment or a box.
 TextFrames walk_by_counts(const BinaryFile& file, bool title_first) {
   FileLines lines(file);
   TextFrames result;
-  std::size_t last_bytes = 0, last_bytes_before = 0;  // of the last line of a frame, and of the frame before
+  std::size_t last_bytes = 0, last_bytes_before = 0;  // size of the last line of this frame, and of the previous one
   for (std::string_view line; lines.next(line);) {
     if (!title_first && is_blank(line)) continue;
     TextFrame frame{lines.begin(), 0, kNoBox};
@@ -126,7 +127,7 @@ TextFrames walk_by_counts(const BinaryFile& file, bool title_first) {
     std::int64_t count = 0;
     const bool counted = whole && parse_whole_number(without_return(line), count) && count >= 0;
     for (std::int64_t n = 0; whole && (!counted || n <= count); ++n) advance();
-    if (blank) break;  // lines after the last frame
+    if (blank) break;  // only blank lines follow the last frame
     last_bytes_before = std::exchange(last_bytes, line.size());
     const bool ends_in_last_line = !lines.ended_by_newline() && last_bytes < last_bytes_before;
     const bool cut = ends_in_count || (counted && (!whole || ends_in_last_line));
@@ -134,13 +135,13 @@ TextFrames walk_by_counts(const BinaryFile& file, bool title_first) {
       result.cut_short = cut_short_sentence(result.frames.size());
       break;
     }
-    frame.end = lines.behind();
+    frame.end = lines.next_offset();
     result.frames.push_back(frame);
   }
   return result;
 }
 
-/// The number behind a word such as "t=", which begins the text or follows a blank.
+/// Returns the number after a word such as "t=", which must begin the text or follow a blank.
 std::optional<double> number_behind(std::string_view text, std::string_view word) {
   std::size_t at = text.rfind(word);
   if (at == std::string_view::npos || (at > 0 && text[at - 1] != ' ')) return std::nullopt;
@@ -151,7 +152,7 @@ std::optional<double> number_behind(std::string_view text, std::string_view word
 
 std::string_view first_line(std::string_view text) { return text.substr(0, text.find('\n')); }
 
-/// All numbers of a line; none if something else is in it.
+/// Returns all numbers of a line. The result is empty if the line has anything else.
 std::vector<double> numbers_of(std::string_view line) {
   std::vector<double> numbers;
   for (const std::string_view field : fields_of(line)) {
@@ -174,7 +175,8 @@ std::optional<glm::dmat3> cell_of_cryst1(std::string_view record) {
   return cell_of_angles(edges, angles);
 }
 
-/// GRO writes xx yy zz xy xz yx yz zx zy of the vectors x, y, z; the last six may be left out.
+/// Returns the box of a GRO frame. It is written as xx yy zz xy xz yx yz zx zy of the vectors x, y, z, and the last six
+/// may be left out.
 std::optional<glm::dmat3> cell_of_gro(std::string_view frame) {
   while (frame.ends_with('\n')) frame.remove_suffix(1);
   std::vector<double> n = gro_box(frame.substr(frame.rfind('\n') + 1));
@@ -195,7 +197,8 @@ std::optional<glm::dmat3> cell_of_xyz(std::string_view frame) {
   return cell_of_vectors(glm::dmat3(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8]));
 }
 
-/// Can the frames of this format be found so? The file's text must not be packed and its lines must end in LF or CR LF.
+/// True if find_text_frames() can find the frames of a file of this format. Its text must not be packed, and its lines
+/// must end in LF or CR LF.
 bool can_find_text_frames(const Reader& reader, std::string_view start) {
   if (&reader != &kPdbReader && &reader != &kGroReader && &reader != &kXyzReader) return false;
   if (start.starts_with("\x1f\x8b") || start.starts_with("\xef\xbb\xbf")) return false;
@@ -205,28 +208,30 @@ bool can_find_text_frames(const Reader& reader, std::string_view start) {
   return start.find('\n') != std::string_view::npos;
 }
 
-/// Walks through the file once, line by line. Where a count is no number the last frame begins; its reader says what is
-/// wrong. A last frame that is not whole is left out, unless it is the only one.
+/// Finds the models by walking through the file once, line by line. Where a count is not a number the last frame
+/// begins, and its reader reports the error. A last frame that is cut short is left out, unless it is the only one.
 TextFrames find_text_frames(const BinaryFile& file, const Reader& reader) {
   return &reader == &kPdbReader ? PdbWalk(file).run() : walk_by_counts(file, &reader == &kGroReader);
 }
 
-/// The box a frame names: the CRYST1 record given (PDB), the last line (GRO), Lattice="..." (extended XYZ). The record
-/// 1 1 1 90 90 90, which stands for no crystal, is none.
+/// Returns the box of a frame: from its CRYST1 record (PDB), its last line (GRO) or Lattice="..." (extended XYZ). The
+/// record 1 1 1 90 90 90, which means that there is no crystal, gives no box.
 std::optional<glm::dmat3> cell_of_text(const Reader& reader, std::string_view frame, std::string_view box_record) {
   if (&reader == &kPdbReader) return cell_of_cryst1(box_record);
   return &reader == &kGroReader ? cell_of_gro(frame) : cell_of_xyz(frame);
 }
 
-/// The number behind "t=" (ps) and the one behind "step=" in the title of a GRO frame.
+/// Returns the time (ps) after "t=" in the title of a GRO frame.
 std::optional<double> time_of_title(std::string_view frame) { return number_behind(first_line(frame), "t="); }
 
+/// Returns the step after "step=" in the title of a GRO frame.
 std::optional<std::int64_t> step_of_title(std::string_view frame) {
   const auto step = number_behind(first_line(frame), "step=");
   return step && std::abs(*step) < 1e15 ? std::optional(static_cast<std::int64_t>(*step)) : std::nullopt;
 }
 
-/// Of a format, or packed in a way, whose models cannot be found without reading all: they stay in memory.
+/// The models of a file that has to be read as a whole, because of its format or because it is packed. All models stay
+/// in memory.
 class ModelsInMemory final : public Trajectory {
  public:
   explicit ModelsInMemory(const std::string& path) : Trajectory(path, "models") {
@@ -237,7 +242,7 @@ class ModelsInMemory final : public Trajectory {
     if (contents.without_positions)
       throw InputError(path, 0, "lists atoms without coordinates: it is not a trajectory");
     for (const Atom& atom : contents.atoms) {
-      const auto model = static_cast<std::size_t>(atom.model);  // mmCIF may list models in turn
+      const auto model = static_cast<std::size_t>(atom.model);  // mmCIF may list atoms of several models alternately
       if (frames_.size() < model) frames_.resize(model);
       frames_[model - 1].push_back(atom.position);
     }
@@ -254,7 +259,7 @@ class ModelsInMemory final : public Trajectory {
   std::vector<std::vector<glm::dvec3>> frames_;
 };
 
-/// Keeps in memory where each model is in the file, and parses the one that is asked for.
+/// The models of a plain text file. Only their places are in memory, and read() parses one model.
 class ModelsInFile final : public Trajectory {
  public:
   ModelsInFile(const std::string& path, const Reader& reader)

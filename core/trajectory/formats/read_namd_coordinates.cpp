@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads coordinate files of NAMD: the number of atoms, then their positions in double precision.
+// Reads coordinate files of NAMD, which have the number of atoms and then their positions in double precision.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -22,8 +22,8 @@ namespace {
 
 constexpr std::size_t kCount = sizeof(std::int32_t), kPosition = 3 * sizeof(double);
 
-/// The byte order in which a file begins like one of NAMD's: a count that fits its size, and numbers that are
-/// coordinates. What is nearer to 0 than any is other bytes.
+/// Returns the byte order in which a file begins like one of NAMD: the count fits its size, and the numbers are
+/// coordinates. A number other than 0 with an absolute value below 1e-30 is no coordinate.
 std::optional<std::endian> order_of(std::string_view start) {
   const auto* bytes = reinterpret_cast<const std::byte*>(start.data());
   if (start.size() < kCount + kPosition) return std::nullopt;
@@ -64,7 +64,7 @@ class NamdCoordinates final : public Trajectory {
   std::endian order_;
 };
 
-/// Where binaryOutput is off, NAMD writes PDB under the same name.
+/// Opens a file. NAMD writes PDB under the same name if its option binaryOutput is off.
 std::unique_ptr<Trajectory> open(const std::string& path, const TrajectoryOptions& options) {
   const BinaryFile file(path);
   std::string start(std::min<std::uint64_t>(file.size(), kTrajectoryStart), '\0');

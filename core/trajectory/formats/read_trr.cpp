@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads TRR of GROMACS: positions in single or double precision, big-endian, in nanometres.
+// Reads TRR trajectories of GROMACS: big-endian positions in nanometres, in single or double precision.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace meniscus {
 namespace {
 
 constexpr std::int32_t kMagic = 1993;
-constexpr std::size_t kTag = 12;       // magic, the length of the title that follows, with and without its end
+constexpr std::size_t kTag = 12;       // magic, then the length of the title with and without its end
 constexpr std::size_t kIntegers = 13;  // ten sizes, atoms, step, one more; time and lambda follow
 constexpr std::int32_t kLongestTitle = 80;
 
@@ -28,19 +28,21 @@ Number big_endian(const std::byte* bytes) {
 }
 
 struct TrrHeader {
-  bool doubles = false;
+  bool is_double = false;
   std::size_t atoms = 0;
   std::int32_t step = 0;
   std::uint64_t title_bytes = 0, header_bytes = 0;
-  std::uint64_t box_bytes = 0, between_bytes = 0, position_bytes = 0;  // box, what is before the positions, these
-  std::uint64_t rest_bytes = 0;                                        // velocities and forces
+  // The sizes of the box, of the data between box and positions, and of the positions.
+  std::uint64_t box_bytes = 0, between_bytes = 0, position_bytes = 0;
+  std::uint64_t rest_bytes = 0;  // of velocities and forces
 
   std::uint64_t time_offset() const { return kTag + title_bytes + 4 * kIntegers; }
   std::uint64_t position_offset() const { return header_bytes + box_bytes + between_bytes; }
   std::uint64_t frame_bytes() const { return position_offset() + position_bytes + rest_bytes; }
 };
 
-/// The precision, told by the size of what the frame holds; 0 if that fits neither.
+/// Returns the bytes of one number, which follow from the sizes of the parts of a frame. Returns 0 if the sizes fit
+/// neither precision.
 std::size_t bytes_of_number(const std::array<std::int64_t, kIntegers>& sizes, std::int64_t atoms) {
   for (const std::int64_t width : {sizeof(float), sizeof(double)}) {
     const std::int64_t box = 9 * width, vectors = 3 * atoms * width;
@@ -52,14 +54,16 @@ std::size_t bytes_of_number(const std::array<std::int64_t, kIntegers>& sizes, st
   return 0;
 }
 
-/// Reads it; returns what is wrong, or nothing. A header that ends too early seems endless.
+/// Parses a header. Returns what is wrong, as the predicate of a sentence, or an empty text. A header that ends too
+/// early gets a size beyond any file.
 std::string parse(std::span<const std::byte> bytes, TrrHeader& header) {
   header.header_bytes = std::uint64_t{1} << 62;
   if (bytes.size() < 4) return {};
   if (const auto magic = big_endian<std::int32_t>(bytes.data()); magic != kMagic)
     return fmt::format("begins with {}, not with {}", magic, kMagic);
   if (bytes.size() < kTag) return {};
-  // "GMX_trn_file" by GROMACS; cpptraj wrote its own name before 2016. Letters fill up to a multiple of four.
+  // GROMACS writes the title "GMX_trn_file"; cpptraj wrote its own name before 2016. It is padded to a multiple of four
+  // letters.
   const auto letters = big_endian<std::int32_t>(bytes.data() + 8);
   if (letters < 0 || letters > kLongestTitle || big_endian<std::int32_t>(bytes.data() + 4) != letters + 1)
     return fmt::format("has a title of {} letters", letters);
@@ -75,15 +79,14 @@ std::string parse(std::span<const std::byte> bytes, TrrHeader& header) {
   const std::size_t width = bytes_of_number(numbers, atoms);
   if (width == 0) return fmt::format("has parts whose sizes do not belong to {} atoms", atoms);
   const auto size = [&](std::size_t n) { return static_cast<std::uint64_t>(numbers[n]); };
-  header.doubles = width == sizeof(double);
+  header.is_double = width == sizeof(double);
   header.atoms = static_cast<std::size_t>(atoms);
   header.step = static_cast<std::int32_t>(numbers[11]);
   header.header_bytes = header.time_offset() + 2 * width;
   header.box_bytes = size(2);
   header.between_bytes = size(3) + size(4);
   header.position_bytes = size(7);
-  // The two sizes in front and two behind the pressure belong to run input files; they are zero, or there in this
-  // order.
+  // The two sizes before and the two after the pressure belong to run input files. Otherwise they are zero.
   header.rest_bytes = size(8) + size(9);
   if (numbers[0] != 0 || numbers[1] != 0 || numbers[5] != 0 || numbers[6] != 0)
     return "holds parts of a run input file";
@@ -127,8 +130,8 @@ class Trr final : public Trajectory {
                        message("frame {} at byte {} {}; leave it out by @frames@, or write the file again", number,
                                with_thousands(offset), fault));
     }
-    time_precision_ = header.doubles ? kDoublePrecision : kSinglePrecision;
-    header.doubles ? copy<double>(header, frame) : copy<float>(header, frame);
+    time_precision_ = header.is_double ? kDoublePrecision : kSinglePrecision;
+    header.is_double ? copy<double>(header, frame) : copy<float>(header, frame);
   }
 
   template <typename Number>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads XTC of GROMACS: packed coordinates, big-endian, in nanometres.
+// Reads XTC trajectories of GROMACS: big-endian compressed coordinates in nanometres.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,28 +19,29 @@ namespace meniscus {
 namespace {
 
 constexpr std::int32_t kMagic = 1995, kMagicOfLargeSystems = 2023;
-constexpr std::size_t kHeader = 56;        // magic, atoms, step, time, nine numbers of the box, atoms again
-constexpr std::size_t kPackedHeader = 32;  // precision, extent, class, bytes (four, or eight in large systems)
+constexpr std::size_t kHeader = 56;  // magic, atoms, step, time, nine numbers of the box, atoms again
+// Precision, extent, class, number of bytes (four bytes, or eight in large systems).
+constexpr std::size_t kPackedHeader = 32;
 constexpr std::size_t kLongestHeader = kHeader + kPackedHeader + 8;
-constexpr std::size_t kMostPlainAtoms = 9;  // so few are not packed
+constexpr std::size_t kMostPlainAtoms = 9;  // greatest number of atoms whose coordinates are not compressed
 
 template <typename Number>
 Number big_endian(const std::byte* bytes) {
   return number_at<Number>(bytes, std::endian::big);
 }
 
-/// The fixed part of a frame.
+/// The header of a frame.
 struct XtcHeader {
   std::size_t atoms = 0;
-  std::size_t data_offset = 0;  // from the begin of the frame
+  std::size_t data_offset = 0;  // bytes from the beginning of the frame
   std::uint64_t data_bytes = 0;
   PackedCoordinates packed;
 
   std::uint64_t frame_bytes() const { return data_offset + (data_bytes + 3) / 4 * 4; }
 };
 
-/// Reads it; returns what is wrong, or nothing. Of a header that ends too early the data are taken to be the rest of
-/// it.
+/// Parses a header. Returns what is wrong, as the predicate of a sentence, or an empty text. If the header ends too
+/// early, the sizes are so large that the frame does not fit into the file.
 std::string parse(std::span<const std::byte> bytes, XtcHeader& header) {
   header.data_bytes = header.data_offset = kLongestHeader;
   if (bytes.size() < 8) return {};
@@ -69,7 +70,7 @@ std::string parse(std::span<const std::byte> bytes, XtcHeader& header) {
   }
   header.packed.small_class = big_endian<std::int32_t>(next + 28);
   const std::int64_t count = large ? big_endian<std::int64_t>(next + 32) : big_endian<std::int32_t>(next + 32);
-  // An atom takes two bits at least: one of its place, and one that says whether near ones follow.
+  // An atom takes at least two bits: one for its position, and one that tells whether near atoms follow.
   if (count <= 0 || static_cast<std::uint64_t>(count) < header.atoms / 4 || count > std::int64_t{1} << 48)
     return fmt::format("has {} bytes of packed coordinates for {} atoms", count, atoms);
   header.data_bytes = static_cast<std::uint64_t>(count);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists the trajectory formats, chooses among them by content, and loads the module that reads H5MD.
+// Lists the trajectory formats, chooses one by content, and loads the module that reads H5MD.
 #include "core/trajectory/formats/trajectory_formats.h"
 
 #include <algorithm>
@@ -20,7 +20,8 @@
 namespace meniscus {
 namespace {
 
-/// A new format is a file read_<name>.cpp, its name in formats.h and an entry here, before the last.
+/// A new format has a file read_<name>.cpp, a declaration in trajectory_formats.h and an entry here before the last
+/// one.
 constexpr std::array<const TrajectoryFormat*, 10> kFormats{
     &kXtcFormat,          &kTrrFormat,         &kDcdFormat,
     &kH5mdFormat,         &kAmberNetcdfFormat, &kMdcrdFormat,
@@ -53,7 +54,7 @@ std::string start_of(const std::string& path) {
   return start;
 }
 
-/// The version of the program as an XDR string, twice its length before it.
+/// True if the file begins with the version of the program as an XDR string, with its length before it twice.
 bool is_run_input(std::string_view start) {
   constexpr std::string_view kLengths("\0\0\0", 3);
   return start.size() > 16 && start.starts_with(kLengths) && start.substr(4).starts_with(kLengths) &&
@@ -84,7 +85,7 @@ const TrajectoryFormat& choose_format(const std::string& path, const std::string
                                  "right one",
                                  by_name->metadata.name, by_content->metadata.name));
   }
-  if (by_name) return *by_name;  // its reader says what is missing
+  if (by_name) return *by_name;  // the reader of this format reports what is missing
   if (by_content) return *by_content;
   if (!packed && !kBinaryCifReader.recognizes(start) && start.find('\0') != std::string::npos) {
     throw InputError(path, 0,

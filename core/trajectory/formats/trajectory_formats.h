@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of trajectory formats, and what the module that reads H5MD gives to the program.
+// The table of trajectory formats, and the function that the module for H5MD exports.
 #pragma once
 
 #include <memory>
@@ -14,22 +14,24 @@ namespace meniscus {
 class Trajectory;
 struct TrajectoryOptions;
 
-/// One format. `recognizes` looks at the first kTrajectoryStart bytes of a file, and `open` throws as open_trajectory
-/// does.
+/// A trajectory format. `recognizes` is called with the first kTrajectoryStart bytes of a file. `open` throws as
+/// open_trajectory does.
 struct TrajectoryFormat {
   FormatMetadata metadata;
   bool (*recognizes)(std::string_view start);
   std::unique_ptr<Trajectory> (*open)(const std::string& path, const TrajectoryOptions& options);
 };
 
+/// The number of bytes by which a format is recognized.
 inline constexpr std::size_t kTrajectoryStart = 4096;
 
-/// All formats, in the order they are tried. The last is the models of a structure file, of any format of
-/// core/structure/formats/structure_formats.h.
+/// Returns all formats in the order in which they are tried. The last one is the models of structure files in any
+/// format of core/structure/formats/structure_formats.h.
 std::span<const TrajectoryFormat* const> trajectory_formats();
 
-/// The name of the format that the file begins like, if it is one of those that hold no atoms of their own: all but the
-/// last. Empty for other files, and for one that cannot be read. Throws InputError for a run input file of GROMACS.
+/// Returns the name of the format that a file begins like, if files of this format have no names of atoms. Those are
+/// all formats but the last. The result is empty for other files and for files that cannot be read. Throws InputError
+/// for a run input file of GROMACS.
 std::string_view bare_trajectory_format(const std::string& path);
 
 extern const TrajectoryFormat kDcdFormat;
@@ -43,7 +45,7 @@ extern const TrajectoryFormat kAmberRestartFormat;
 extern const TrajectoryFormat kNamdCoordinatesFormat;
 extern const TrajectoryFormat kModelsFormat;
 
-/// Opens a file. Throws InputError.
+/// A function that opens an H5MD file. It throws InputError.
 using OpenH5md = std::unique_ptr<Trajectory>(const std::string& path);
 
 }  // namespace meniscus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads molecules with the readers of the program and the options of a caller.
-#include "exporters/bindings/c/read_file.h"
+// Reads molecules from files with the options of a caller.
+#include "exporters/bindings/c/c_structure.h"
 
 #include <string>
 #include <string_view>
@@ -9,13 +9,14 @@
 #include "core/base/text.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/structure/selection/selection.h"
-#include "exporters/bindings/c/caller_memory.h"
+#include "exporters/bindings/c/c_calls.h"
 
 namespace meniscus::c_api {
 namespace {
 
 constexpr std::size_t kMostTexts = 10'000;
 
+/// Returns the result of a function that parses a selection. Refuses an invalid selection; the message shows its place.
 template <typename Understand>
 auto understood(const char* option, const Understand& understand) {
   try {
@@ -25,7 +26,7 @@ auto understood(const char* option, const Understand& understand) {
   }
 }
 
-/// A caller's list of texts.
+/// Returns a copy of a caller's list of texts. Refuses NULL texts.
 std::vector<std::string> texts_of(const char* const* texts, std::size_t count, const char* name) {
   if (count > kMostTexts)
     refuse(MENISCUS_CAPACITY, "{}: {} are more than the {} that are read", name, count, kMostTexts);
@@ -92,9 +93,8 @@ ReadOptions reading_of(const meniscus_read_options& given) {
 }  // namespace
 
 Structure read_file(const char* path, const meniscus_read_options* options) {
-  const ReadOptions reading =
-      reading_of(options ? read_struct(options, kReadDefaults, "meniscus_read_options") : kReadDefaults);
-  // A library leaves the standard input of its process alone.
+  const ReadOptions reading = reading_of(read_options(options, kReadDefaults, "meniscus_read_options"));
+  // The library does not read the standard input, which "-" means in the program.
   return read_structure(std::string_view(path) == "-" ? "./-" : path, reading);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refuses pages, in builds without the libraries that they need.
-#include "exporters/bindings/c/guard.h"
+// Replaces c_page.cpp in builds without the libraries for pages, and refuses every call.
+#include "exporters/bindings/c/c_calls.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refuses molecule files, in builds without gemmi, whose tables of elements and residues all readers need.
-#include "exporters/bindings/c/guard.h"
-#include "exporters/bindings/c/read_file.h"
+// Replaces read_file.cpp in builds without gemmi, which all readers need, and refuses every call.
+#include "exporters/bindings/c/c_calls.h"
+#include "exporters/bindings/c/c_structure.h"
 
 namespace meniscus::c_api {
 

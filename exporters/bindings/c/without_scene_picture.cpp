@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refuses scenes of molecules and their schemes of colours, in builds without the libraries that read and write them.
-#include "exporters/bindings/c/guard.h"
-#include "exporters/bindings/c/structure_colors.h"
+// Replaces c_scene_picture.cpp in builds without the libraries for scene files, and refuses every call.
+#include "exporters/bindings/c/c_calls.h"
+#include "exporters/bindings/c/c_structure.h"
 
 namespace {
 

@@ -1,24 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Renders a .mns file, or frames of a sequence of them, in Blender without a window, with true exit codes.
+"""Renders a .mns file, or frames of a sequence of them, in Blender without a window, and returns an exit code.
 
   blender -b --factory-startup --python-exit-code 3 --python render_mns.py -- FILE.mns --output picture.png
-  ... -- FILE.mns --passes passes.exr       depth, normals and unlit colours through pixel centres, 32-bit, no anti-aliasing
+  ... -- FILE.mns --passes passes.exr      depth, normals, unlit colours through pixel centres; 32-bit, not anti-aliased
   ... -- SEQUENCE.json --frames 0-99:10,250 --output DIR/frame_#####
 
---camera FILE looks with a camera of --save-camera instead of that of the file; of a sequence it stays for all frames.
-Of a sequence, --frames names frames of the trajectory (default: all of the run), --scene-frames those of the scene, from
-1; a run of # in a path stands for the number of the trajectory's frame. --motion-blur 0.5 blurs by half a frame.
---mode driver, the default, holds one frame in memory; bake puts all frames into the scene, stream has the add-on's handler
-read them, and with these two --blend keeps the scene. One unit is one Å unless --scale says otherwise.
---look glass and the others are the add-on's; they need light (--style film, their default) but for flat, which may have outlines (--lines).
---engine eevee draws by OpenGL, without a screen too.
+--camera FILE replaces the camera of the file by one of --save-camera; for a sequence it applies to all frames.
+For a sequence, --frames names frames of the trajectory (default: all of the run), and --scene-frames names frames of
+the scene, from 1. A run of # in a path stands for the frame number of the trajectory. --motion-blur 0.5 blurs half a
+frame. --mode driver, the default, keeps one frame in memory; bake puts all frames into the scene; stream lets the
+handler of the add-on read them. With the last two, --blend saves the scene. One unit is one Å unless --scale says
+otherwise. --look selects a look of the add-on. All of them except flat need light (--style film, their default); flat
+may have outlines (--lines). --engine eevee draws by OpenGL, also without a screen.
 
-Of what Blender and Cycles print, errors and warnings go to standard error, with --verbose everything. Standard output holds, after
-Blender's name, one JSON line a frame, for a sequence
+Errors and warnings of Blender and Cycles go to standard error, with --verbose everything they print. Standard output
+contains, after Blender's name, one JSON line per frame. For a sequence it is
   {"frame": 42, "scene_frame": 5, "state": "done", "files": ["DIR/frame_00042.png"], "triangles": 6120, "ms": 812.4}
   {"frame": 43, "scene_frame": 6, "state": "failed", "exit": 3, "error": "surface_00043.mns: missing"}
-Pictures appear whole or not at all. After a frame that fails the others are rendered all the same.
-Exit codes: 0 done, 2 wrong usage, 3 bad input or failed import, 6 output not written; that of the first frame that failed.
+Pictures are written whole or not at all. If a frame fails, the others are still rendered.
+Exit codes: 0 done, 2 wrong usage, 3 bad input or failed import, 6 output not written. The first frame that failed
+determines the code.
 """
 
 import argparse
@@ -35,30 +36,33 @@ import bpy
 import mathutils
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from meniscus_import import build, camera_reader, compat, looks, materials, mns_reader, sequence, sequence_reader  # noqa: E402
+from meniscus_import import (build, compat, looks, materials, mns_reader, sequence,  # noqa: E402
+                             sequence_reader)
 
-#: Direction towards the light in the camera's axes (right, up, back), its colour; strengths are what a white, matt
-#: surface that faces the light sends to the camera. As in the POV-Ray scenes of Meniscus.
+#: The lights of the studio style: the direction towards the light in the camera's axes (right, up, back), and the
+#: radiance of a white matt surface that faces the light. They agree with the POV-Ray scenes of Meniscus.
 STUDIO = (
     ((-0.45, 0.65, 0.75), (0.74, 0.72, 0.68)),
     ((0.85, -0.05, 0.45), (0.15, 0.17, 0.20)),
     ((0.0, 1.0, 0.0), (0.05, 0.06, 0.07)),
     ((0.0, 0.0, 1.0), (0.13, 0.13, 0.14)),
 )
-#: The same for the film style, with soft shadows: and how wide the lamp is, in degrees.
+#: The lights of the film style, which have soft shadows: direction, radiance, and angular diameter in degrees.
 FILM = (
     ((-0.55, 0.65, 0.75), (0.90, 0.87, 0.82), 12.0),
     ((0.8, 0.1, 0.5), (0.13, 0.15, 0.18), 30.0),
 )
-#: Looks that light goes through. Its ways there are many, so pixels get as many samples as they need, and grain is taken out.
+#: Looks that transmit light. Light has many paths there, so sampling is adaptive, and pictures are denoised.
 THROUGH = ("wax", "glass")
 NOISE = 0.02
 GLASS_BOUNCES = 32
 LIGHTS = {"studio": STUDIO, "film": FILM, "flat": ()}
-#: What surrounds glass, from behind the molecule to behind the camera, by half the cosine: a bright wall in a dark room draws its
-#: edges, as photographers light glass.
+#: The surroundings of glass: pairs of a position, from 0 behind the molecule to 1 behind the camera (half the cosine
+#: plus 0.5), and a brightness. A bright wall in a dark room makes edges visible, which is how photographers light
+#: glass.
 BRIGHT_FIELD = ((0.0, 1.0), (0.02, 1.0), (0.06, 0.45), (0.15, 0.12), (0.5, 0.05), (0.8, 0.3), (1.0, 0.8))
-#: Degrees that the lamp is wide which lights glass: each bump of an atom mirrors a smaller one as a white dot.
+#: The angular diameter in degrees of the lamp that lights glass. Bumps of atoms would reflect a smaller lamp as white
+#: dots.
 GLASS_LAMP = 60.0
 
 
@@ -80,13 +84,16 @@ def parse(arguments):
     parser.add_argument("--camera", metavar="FILE", help="as --save-camera writes it, instead of that of the file")
     parser.add_argument("--size", help="WIDTHxHEIGHT in pixels; default: that of the file")
     parser.add_argument("--scale", type=float, default=1.0, help="Blender units per Å")
-    parser.add_argument("--samples", type=int, help="of a pixel, at most where a look has light go through; default: 32, 128 for Cycles' wax and glass")
+    parser.add_argument(
+        "--samples", type=int,
+        help="of a pixel, at most where a look has light go through; default: 32, 128 for Cycles' wax and glass")
     parser.add_argument("--style", choices=tuple(LIGHTS),
                         help="studio: matt, no shadows, as the POV-Ray scenes; film: soft shadows and sky light; "
                         "flat: colours as they are, no light; default: studio, film with --look")
     parser.add_argument("--look", choices=[name.lower() for name in looks.LOOKS], help="a material of the add-on's")
     parser.add_argument("--lines", action="store_true", help="outlines by Line Art")
-    parser.add_argument("--engine", choices=("cycles", "eevee"), default="cycles", help="of --output; --passes are by Cycles")
+    parser.add_argument("--engine", choices=("cycles", "eevee"), default="cycles",
+                        help="of --output; --passes are by Cycles")
     parser.add_argument("--blend", help="save the scene here, too")
     parser.add_argument("--transparent", action="store_true", help="no background")
     parser.add_argument("--verbose", action="store_true", help="what Blender and Cycles print, too")
@@ -134,12 +141,14 @@ def empty_scene():
 
 
 def lamps_of(camera, style, look):
-    """Those of a style; the key light casts the shadows that the file asks for, as dark and as soft: a share of it."""
+    """Returns the lamps of a style. The key light is split so that its shadows have the darkness and softness that the
+    file requests."""
     lamps = LIGHTS[style]
     share, angle = camera.get("meniscus_shadows", 0.0), 2.0 * camera.get("meniscus_shadow_softness", 0.0)
     if look in ("glass", "flat") or style == "flat":
         if share > 0.0:
-            sys.stderr.write("render_mns: note: the scene's shadows are left out: " + ("glass has a light of its own\n" if look == "glass" else "flat has no light\n"))
+            sys.stderr.write("render_mns: note: the scene's shadows are left out: " +
+                             ("glass has a light of its own\n" if look == "glass" else "flat has no light\n"))
         return ((*lamps[0][:2], GLASS_LAMP),) if look == "glass" else lamps
     if share == 0.0:
         return lamps
@@ -156,26 +165,29 @@ def add_lights(scene, camera, style, look):
         compat.cast_shadows(light, bool(angle))
         item = bpy.data.objects.new(light.name, light)
         item.parent = camera
-        item.visible_transmission = look != "glass"  # there it is for highlights: seen through glass a lamp is a grain
+        item.visible_transmission = look != "glass"  # lamps seen through glass make grain, so they make highlights only
         item.rotation_euler = mathutils.Vector(direction).to_track_quat("Z", "Y").to_euler()
         scene.collection.objects.link(item)
     world = bpy.data.worlds.new("Meniscus world")
     tree = compat.node_tree(world)
     background = compat.find_or_add(tree, "BACKGROUND", "ShaderNodeBackground")
-    tree.links.new(background.outputs[0], compat.find_or_add(tree, "OUTPUT_WORLD", "ShaderNodeOutputWorld").inputs["Surface"])
+    tree.links.new(background.outputs[0],
+                   compat.find_or_add(tree, "OUTPUT_WORLD", "ShaderNodeOutputWorld").inputs["Surface"])
     background.inputs["Color"].default_value = (0.85, 0.92, 1.0, 1.0)
     background.inputs["Strength"].default_value = 0.35 if style == "film" else 0.0
     if look == "glass":
         background.inputs["Strength"].default_value = 1.0
         seen = tree.nodes.new("ShaderNodeLightPath").outputs["Is Camera Ray"]
-        tree.links.new(compat.mix_colors(tree, seen, bright_field(tree, camera), (1.0, 1.0, 1.0, 1.0)), background.inputs["Color"])
-    elif look == "flat":  # emits, and needs no light
-        background.inputs["Color"].default_value, background.inputs["Strength"].default_value = (1.0, 1.0, 1.0, 1.0), 1.0
+        tree.links.new(compat.mix_colors(tree, seen, bright_field(tree, camera), (1.0, 1.0, 1.0, 1.0)),
+                       background.inputs["Color"])
+    elif look == "flat":  # it emits, so it needs no light
+        background.inputs["Color"].default_value, background.inputs["Strength"].default_value = (1.0, 1.0, 1.0,
+                                                                                                 1.0), 1.0
     scene.world = world
 
 
 def bright_field(tree, camera):
-    """The colour of BRIGHT_FIELD in a direction."""
+    """Returns the output with the colour of BRIGHT_FIELD in the direction of a ray."""
     toward = tree.nodes.new("ShaderNodeVectorMath")
     toward.operation = "DOT_PRODUCT"
     tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"], toward.inputs[0])
@@ -195,13 +207,17 @@ def our_materials():
 
 
 def apply_style(style):
-    """studio: nothing but diffuse colour, as in the studio style of the other renderers. flat: colours as they are."""
+    """Adapts the materials of imports to a style: diffuse colour only for studio, as in the other renderers, and unlit
+    colours for flat."""
     for material in our_materials() if style != "film" else ():
         shader = materials.shader_of(material)
         specular = compat.principled_input(shader, "Specular IOR Level", "Specular")
-        specular.default_value = 0.0 if style == "flat" or "specular" not in material[materials.MARK] else specular.default_value
+        specular.default_value = (0.0 if style == "flat" or "specular" not in material[materials.MARK] else
+                                  specular.default_value)
         if style == "flat":
-            colors = {link.to_socket.name: link.from_socket for link in material.node_tree.links if link.to_node == shader}
+            colors = {
+                link.to_socket.name: link.from_socket for link in material.node_tree.links if link.to_node == shader
+            }
             color = colors.get("Emission Color") or colors.get("Emission") or colors["Base Color"]
             for link in list(shader.inputs["Base Color"].links):
                 material.node_tree.links.remove(link)
@@ -229,7 +245,7 @@ def apply_look(options):
 
 
 def set_up_look(scene, look):
-    """Rays have to go through glass as often as there is some in their way."""
+    """Sets the number of bounces and the sampling that a look needs."""
     if look == "glass":
         scene.cycles.max_bounces = scene.cycles.transmission_bounces = scene.cycles.glossy_bounces = GLASS_BOUNCES
     if look in THROUGH:
@@ -244,23 +260,23 @@ def render_to(scene, path, file_format, depth):
     if file_format == "PNG":
         settings.color_mode = "RGBA" if scene.render.film_transparent else "RGB"
     root, extension = os.path.splitext(os.path.abspath(path))
-    beside = f"{root}.unfinished-{os.getpid()}{extension}"
-    scene.render.filepath = beside
+    temporary = f"{root}.unfinished-{os.getpid()}{extension}"
+    scene.render.filepath = temporary
     bpy.ops.render.render(write_still=True)
-    if not os.path.exists(beside) or os.path.getsize(beside) == 0:
+    if not os.path.exists(temporary) or os.path.getsize(temporary) == 0:
         raise OSError(f"{path}: the picture was not written")
-    os.replace(beside, path)
+    os.replace(temporary, path)
 
 
 def render_picture(scene, options, path):
-    apply_style(options.style)  # the first frame of a sequence brings its materials
+    apply_style(options.style)  # the first frame of a sequence adds its materials
     apply_look(options)
     set_up_cycles(scene, options.samples)
     set_up_look(scene, options.look)
     if options.engine == "eevee":
         scene.render.engine = compat.eevee()
         compat.set_up_eevee(scene, options.samples)
-    if options.style == "flat":  # a pixel is the mean of what lies in it, as in the ray caster
+    if options.style == "flat":  # the colour of a pixel is the mean over its area, as in the ray caster
         scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", 1.0
     else:
         scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BLACKMAN_HARRIS", 1.5
@@ -274,7 +290,7 @@ def render_picture(scene, options, path):
 def render_passes(scene, path):
     set_up_cycles(scene, 1)
     scene.cycles.pixel_filter_type = "BOX"
-    scene.cycles.filter_width = 0.01  # a ray through each pixel's centre
+    scene.cycles.filter_width = 0.01  # sends a ray through the centre of each pixel
     scene.render.film_transparent = True
     scene.render.use_motion_blur = False
     use_passes(scene, True)
@@ -287,7 +303,8 @@ def use_passes(scene, wanted):
 
 
 def dress(scene, camera, options, items):
-    """Lights, size, style and look; saves the scene when asked to."""
+    """Sets lights, picture size, style and look, and saves the scene if --blend is given. Raises MnsError without a
+    camera."""
     if camera is None:
         raise mns_reader.MnsError(f"{options.file}: the file holds no camera")
     if options.size:
@@ -319,13 +336,13 @@ def run_file(options):
         render_picture(scene, options, options.output)
     if options.passes:
         render_passes(scene, options.passes)
-    say({"file": options.file, "triangles": sum(len(item.data.polygons) for item in made.surfaces),
+    print_result({"file": options.file, "triangles": sum(len(item.data.polygons) for item in made.surfaces),
          "load_s": round(loaded - started, 3), "total_s": round(time.time() - started, 3)})
     return 0
 
 
 class Stage:
-    """A sequence in the scene, in one of the three modes."""
+    """A sequence in the scene in one of the three modes."""
 
     def __init__(self, options, frames):
         self.frames = frames
@@ -347,7 +364,7 @@ class Stage:
         self.camera = scene.camera
 
     def show(self, scene_frame):
-        """Brings one frame to the camera; its triangles."""
+        """Shows one frame and returns its number of triangles. Raises MnsError or OSError."""
         scene = bpy.context.scene
         if self.mode == "driver":
             prepared = self.placement.refill(self.item.data, scene_frame)
@@ -360,18 +377,22 @@ class Stage:
             raise mns_reader.MnsError(self.item["meniscus_error"])
         graph = bpy.context.evaluated_depsgraph_get()
         evaluated = self.item.evaluated_get(graph)
-        # A bake has a mesh of its own, or an instance.
-        shown = [evaluated.data, *(each.object.data for each in graph.object_instances if each.is_instance and each.parent == evaluated)]
+        # The evaluated object of a bake has a mesh of its own or an instance.
+        shown = [
+            evaluated.data,
+            *(each.object.data for each in graph.object_instances if each.is_instance and each.parent == evaluated)
+        ]
         return sum(len(mesh.polygons) for mesh in shown)
 
 
 def numbered(pattern, number):
-    """The path with each run of # replaced by the number, at least as wide."""
+    """Returns a path in which each run of # is replaced by the number, padded to the length of the run."""
     return re.sub("#+", lambda run: str(number).zfill(len(run.group())), pattern)
 
 
 def chosen_frames(options, frames):
-    """Pairs: scene frame, frame of the trajectory."""
+    """Returns pairs of a scene frame and its frame number in the trajectory. Exits with code 2 for an invalid
+    choice."""
     try:
         if options.scene_frames:
             places = sequence_reader.parse_frames(options.scene_frames, range(1, len(frames.frames) + 1))
@@ -389,7 +410,7 @@ def chosen_frames(options, frames):
 
 
 def render_frame(stage, options, scene_frame, number):
-    """Files and triangles of one frame of a sequence."""
+    """Renders one frame of a sequence, and returns its files and its number of triangles."""
     triangles = stage.show(scene_frame)
     if triangles == 0:
         raise mns_reader.MnsError(f"frame {number}: there is nothing to show")
@@ -409,7 +430,7 @@ def run_sequence(options):
     empty_scene()
     frames = sequence_reader.read(options.file)
     if options.shot:
-        frames.look_from(options.shot)
+        frames.set_camera(options.shot)
     chosen = chosen_frames(options, frames)
     for path in (options.output, options.passes):
         if path and "#" not in path and len(chosen) > 1:
@@ -422,12 +443,12 @@ def run_sequence(options):
         line = {"frame": number, "scene_frame": scene_frame}
         try:
             files, triangles = render_frame(stage, options, scene_frame, number)
-            say({**line, "state": "done", "files": files, "triangles": triangles,
+            print_result({**line, "state": "done", "files": files, "triangles": triangles,
                  "ms": round(1e3 * (time.time() - started), 1)})
         except (mns_reader.MnsError, OSError, RuntimeError) as error:
             failure = exit_code(error)
             code = code or failure
-            say({**line, "state": "failed", "exit": failure, "error": str(error)})
+            print_result({**line, "state": "failed", "exit": failure, "error": str(error)})
             sys.stderr.write(f"render_mns: error: {error}\n")
     return code
 
@@ -441,7 +462,7 @@ def fail(code, message):
     sys.exit(code)
 
 
-def say(line):
+def print_result(line):
     RESULTS.write(json.dumps(line) + "\n")
     RESULTS.flush()
 
@@ -450,28 +471,31 @@ def main():
     arguments = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
     options = parse(arguments)
     try:
-        options.shot = camera_reader.read(options.camera) if options.camera else None
+        options.shot = sequence_reader.read_camera(options.camera) if options.camera else None
         code = run_sequence(options) if options.is_sequence else run_file(options)
     except (mns_reader.MnsError, OSError, RuntimeError) as error:
         fail(exit_code(error), error)
     finally:
         sequence.unregister()
         if CHATTER:
-            tell_faults()
+            copy_faults()
     sys.exit(code)
 
 
-def tell_faults():
-    """Passes on errors and warnings that Blender has printed."""
+def copy_faults():
+    """Copies errors and warnings that Blender has printed to standard error."""
     sys.stdout.flush()
-    ctypes.CDLL(None).fflush(None)  # the C library holds lines back
-    said = os.pread(CHATTER.fileno(), 1 << 24, 0)
-    faults = [line for line in said.decode("utf-8", "replace").splitlines(True) if re.search(r"\b(error|warning|failed)\b", line, re.IGNORECASE)]
+    ctypes.CDLL(None).fflush(None)  # the C library buffers lines
+    output = os.pread(CHATTER.fileno(), 1 << 24, 0)
+    faults = [
+        line for line in output.decode("utf-8", "replace").splitlines(True)
+        if re.search(r"\b(error|warning|failed)\b", line, re.IGNORECASE)
+    ]
     sys.stderr.write("".join(faults))
 
 
 RESULTS = os.fdopen(os.dup(1), "w", encoding="utf-8")
-# In a file, since a thread that reads a pipe would crash Blender 3.4. Windows has no pread.
+# Output of Blender goes to a file, because a thread that reads a pipe would crash Blender 3.4. Windows has no pread.
 CHATTER = tempfile.TemporaryFile("a+b") if hasattr(os, "pread") and "--verbose" not in sys.argv else None
 os.dup2(CHATTER.fileno() if CHATTER else 2, 1)
 main()

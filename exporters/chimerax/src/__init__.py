@@ -8,7 +8,7 @@ class _Bundle(BundleAPI):
 
     @staticmethod
     def get_class(class_name):
-        """For sessions, which name the class of a model."""
+        """Returns the class with this name, which sessions store for each model, or None."""
         from .command import ExactSurface
         return ExactSurface if class_name == "ExactSurface" else None
 

@@ -8,14 +8,15 @@ from chimerax.core.models import Surface
 
 
 class ExactSurface(Surface):
-    """A model that sessions save as it is."""
+    """A surface model that sessions save with its geometry."""
     SESSION_SAVE_DRAWING = True
     clip_cap = True
 
 
 def geometry(mesh, colors):
-    """Vertices, normals, triangles and vertex colors of a meniscus.Mesh. Triangles share no vertices, so that colors of
-    atoms meet exactly where patches do, and normals at cusps are exact on both sides."""
+    """Returns vertices, normals, triangles and vertex colors of a meniscus.Mesh. Triangles share no vertices, so that
+    colors of atoms meet exactly where patches do, and normals at cusps are exact on both sides. colors: RGBA per atom.
+    """
     corners = mesh.triangles.ravel()
     normals = mesh.normals[corners]
     normals[mesh.sharp_corners] = mesh.sharp_normals
@@ -25,10 +26,11 @@ def geometry(mesh, colors):
 
 
 def meniscus(session, atoms=None, *, probe_radius=1.4, tolerance=0.05):
-    """One model for each structure that atoms belong to. As in ChimeraX's own surfaces, atoms outside of chains
-    (solvent, ligands, ions) are left out unless there are no others, and atoms that were not given do not count.
+    """Adds one surface model to each structure that the atoms belong to, and returns the models. As in ChimeraX's own
+    surfaces, atoms outside of chains (solvent, ligands, ions) are left out unless there are no others, and other atoms
+    of a structure have no effect.
 
-    probe_radius, tolerance: Å. Returns the models."""
+    probe_radius, tolerance: Å. Raises UserError if there are no atoms or the library refuses them."""
     try:
         import meniscus as library
     except ImportError as error:

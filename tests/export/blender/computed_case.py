@@ -61,4 +61,4 @@ def positions(mesh):
 class ComputedCase(unittest.TestCase):
     def setUp(self):
         start_anew()
-        self.assertNotEqual(computed.working().told()["library"], "", computed.working().told())
+        self.assertNotEqual(computed.working().describe_tools()["library"], "", computed.working().describe_tools())

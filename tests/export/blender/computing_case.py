@@ -22,7 +22,7 @@ from meniscus_import.computing import engines  # noqa: E402
 class Quiet:
     """A task that nobody looks at."""
 
-    def say(self, stage):
+    def report(self, stage):
         pass
 
     def check(self):

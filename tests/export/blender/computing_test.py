@@ -15,7 +15,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import samples  # noqa: E402
 from computing_case import ADDON, PACKAGE, PROGRAM, Quiet, WithFolder  # noqa: E402
 from meniscus_import import mesh_arrays, mns_reader  # noqa: E402
-from meniscus_import.computing import atoms, engines, jobs, molecules, preparation, preparation_table, request, wording  # noqa: E402
+from meniscus_import.computing import atoms, engines, jobs, preparation, preparation_table, request  # noqa: E402
 
 
 def colors_by_library():
@@ -100,9 +100,9 @@ class Molecules(WithFolder):
                 if wanted is None:
                     refused.append((os.path.basename(file), color))
                     with self.assertRaisesRegex(self.library.InputError, "to colour by|choose another"):
-                        molecules.read(self.library, asked)
+                        atoms.read_molecule(self.library, asked)
                     continue
-                found = molecules.read(self.library, asked).atoms
+                found = atoms.read_molecule(self.library, asked).atoms
                 for name in ("positions", "radii", "index"):
                     np.testing.assert_array_equal(getattr(found, name), getattr(wanted.atoms, name), f"{file} {name}")
                 np.testing.assert_allclose(found.colors, wanted.atoms.colors, atol=1e-6, err_msg=f"{file} {color}")
@@ -115,12 +115,12 @@ class Molecules(WithFolder):
         self.assertNotIn(("charged.pqr", "charge"), refused)
 
     def test_frames_are_the_models_of_the_file(self):
-        found = molecules.read(self.library, request.Request(file=samples.UBIQUITIN, selection="resi 1-15", frames="1-5:2", place=1))
+        found = atoms.read_molecule(self.library, request.Request(file=samples.UBIQUITIN, selection="resi 1-15", frames="1-5:2", place=1))
         self.assertEqual(found.numbers, [1, 3, 5])
         for place, number in enumerate(found.numbers, 1):
             model = self.by_program(samples.UBIQUITIN, "--select", "resi 1-15", "--model", str(number + 1))
             np.testing.assert_array_equal(found.frame(place).positions, model.atoms.positions)
-        every = molecules.read(self.library, request.Request(file=samples.UBIQUITIN, place=1))
+        every = atoms.read_molecule(self.library, request.Request(file=samples.UBIQUITIN, place=1))
         self.assertEqual(every.numbers, list(range(10)))
 
     def test_prepared_molecules_are_those_of_the_program(self):
@@ -135,18 +135,18 @@ class Molecules(WithFolder):
                 file.write(atom % values)
             file.write("END\n")
         seen = set()
-        usual = molecules.read(self.library, request.Request(file=odd)).atoms
+        usual = atoms.read_molecule(self.library, request.Request(file=odd)).atoms
         for name, value in (("altloc", "first"), ("altloc", "A"), ("assembly", "1"), ("hydrogens", "drop"), ("hydrogens", "keep"),
                             ("radii", "united"), ("keep_water", True), ("keep_ions", True), ("model", "2")):
             file = samples.UBIQUITIN if name == "model" else odd
-            pairs = preparation.asked(preparation.ROWS, lambda other, n=name, v=value: v if other == n else preparation.default_of(
+            pairs = preparation.changed_fields(preparation.ROWS, lambda other, n=name, v=value: v if other == n else preparation.default_of(
                 next(row for row in preparation.ROWS if preparation.name_of(row) == other)))
             self.assertEqual(pairs, ((name, value),))
-            found = molecules.read(self.library, request.Request(file=file, preparation=pairs)).atoms
+            found = atoms.read_molecule(self.library, request.Request(file=file, preparation=pairs)).atoms
             wanted = self.by_program(file, *preparation.program_words(pairs, False)).atoms
             for key in ("positions", "radii"):
                 np.testing.assert_array_equal(getattr(found, key), getattr(wanted, key), f"{name} {value}")
-            before = usual if file == odd else molecules.read(self.library, request.Request(file=file)).atoms
+            before = usual if file == odd else atoms.read_molecule(self.library, request.Request(file=file)).atoms
             if before.positions.shape != found.positions.shape or not np.array_equal(before.positions, found.positions) or \
                     not np.array_equal(before.radii, found.radii):
                 seen.add(name)
@@ -156,7 +156,7 @@ class Molecules(WithFolder):
         for asked, words in (({"frames": "8-12"}, "Frames: there is no frame 12; there are 10, 0 to 9"), ({"frames": "x"}, "Frames: 'x'"),
                              ({"selection": "within 4 of resi 1"}, "frame 1 has other atoms than the first")):
             with self.assertRaisesRegex(mns_reader.MnsError, words):
-                molecules.read(self.library, request.Request(file=samples.UBIQUITIN, place=1, **asked)).frame(2)
+                atoms.read_molecule(self.library, request.Request(file=samples.UBIQUITIN, place=1, **asked)).frame(2)
 
 
 class Engines(WithFolder):
@@ -307,10 +307,10 @@ class Wording(WithFolder):
     def test_fields_are_those_of_the_panel(self):
         with open(os.path.join(ADDON, "meniscus_import", "settings.py"), encoding="utf-8") as file:
             labels = set(re.findall(r'name="([^"]+)"', file.read())) | set(map(preparation.label_of, preparation.ROWS))
-        self.assertEqual(set(wording.FIELDS.values()) - labels, set())
+        self.assertEqual(set(engines.FIELDS.values()) - labels, set())
         said = "".join(subprocess.run([PROGRAM, *command, "--help-all"], capture_output=True, text=True, check=True).stdout
                        for command in (("export", "atoms"), ("export", "blender"), ("export", "mesh")))
-        for option in wording.FIELDS:
+        for option in engines.FIELDS:
             self.assertRegex(said, rf"{option}\b")
 
     def test_no_text_of_the_program_keeps_an_option(self):
@@ -325,7 +325,7 @@ class Wording(WithFolder):
                             texts += re.findall(r'"((?:[^"\\\n]|\\.)*--[a-z](?:[^"\\\n]|\\.)*)"', file.read())
         self.assertGreater(len(texts), 500)
         for text in texts:
-            self.assertNotRegex(wording.for_panel(text), r"(?<![\w/-])--[a-z]", text)
+            self.assertNotRegex(engines.for_panel(text), r"(?<![\w/-])--[a-z]", text)
 
     def test_options_become_fields_and_others_say_what_they_are(self):
         cases = {"--select: a selection is missing": "Selection: a selection is missing",
@@ -336,7 +336,7 @@ class Wording(WithFolder):
                      '"trim" and "show" cut more (trim, show: options of the program meniscus that this panel does not have)',
                  "/x/my--run.pdb: has no atoms": "/x/my--run.pdb: has no atoms"}
         for text, wanted in cases.items():
-            self.assertEqual(wording.for_panel(text), wanted)
+            self.assertEqual(engines.for_panel(text), wanted)
 
     def test_what_the_library_says_is_worded_too(self):
         self.assertEqual(str(engines.EngineError("out of memory; use --probe or less")), "out of memory; use Probe or less")

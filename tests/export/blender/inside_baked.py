@@ -99,7 +99,7 @@ class Baked(ComputedCase):
             self.assertEqual(bpy.context.scene.frame_current, 3, way)
             self.assertEqual([modifier.name for modifier in item.modifiers], ["Frame", "Fewer"], way)
             self.assertEqual({material.name for material in bpy.data.materials}, before, way)
-            self.assertFalse([key for key in item.keys() if key in bake_run.OF_LIVE], way)
+            self.assertFalse([key for key in item.keys() if key in bake_run.LIVE_PROPERTIES], way)
             self.assertIsNone(bake_run.kind_of(item), way)
             found = self.read_without_add_on(("1", "2", "3") if way == "atoms" else times)
             self.assertEqual(set(found.files), set(live), way)
@@ -173,7 +173,7 @@ class Baked(ComputedCase):
         for way in ("stream", "panel"):
             item = self.make(way)
             sizes = []
-            said = bake_run.told_size(item, bpy.context.scene)
+            said = bake_run.size_lines(item, bpy.context.scene)
             self.assertRegex(", ".join(said), r"^3 frames, [0-9.]+ MB, [0-9.]+ MB compressed$")
             expected = 3 * bake_run.frame_bytes(item.data)
             for steps in (0, 1):

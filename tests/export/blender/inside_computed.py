@@ -190,7 +190,7 @@ class Computed(ComputedCase):
         item = of_file(samples.UBIQUITIN, selection="resi 1-15", is_run=True)
         bpy.context.scene.frame_set(2)
         item.meniscus.probe = 2.0
-        computed.ask(item)
+        computed.update_in_background(item)
         self.assertEqual(threading.enumerate(), [threading.main_thread()])
         computed.wait()
         self.assertEqual(item["meniscus_probe_radius"], 2.0)
@@ -207,16 +207,16 @@ class Computed(ComputedCase):
         item = of_file()
         for probe in (1.5, 1.6, 1.7, 1.8, 1.9, 2.0):
             item.meniscus.probe = probe
-            computed.ask(item)
+            computed.update_in_background(item)
         computed.wait()
         self.assertEqual(measures(item), wanted(TRIPLE, "--probe", "2")[0])
         item.meniscus.probe = 2.2
-        computed.ask(item)
+        computed.update_in_background(item)
         computed.cancel(item)
         computed.wait()
         self.assertEqual(measures(item), wanted(TRIPLE, "--probe", "2")[0])
         item.meniscus.probe = 2.4
-        computed.ask(item)
+        computed.update_in_background(item)
         bpy.data.objects.remove(item)  # nobody is left to take it
         computed.wait()
 
@@ -267,19 +267,19 @@ class Computed(ComputedCase):
     def test_frames_ahead_are_computed_before_they_show(self):
         item = of_file(samples.UBIQUITIN, selection="resi 1-15", is_run=True)
         bpy.context.scene.frame_set(2)
-        self.assertEqual(len(computed._awaited), computed.AHEAD)
+        self.assertEqual(len(computed._ahead), computed.AHEAD)
         while computed.working().is_busy():
             computed._deliver(computed.working().take(1.0))
-        self.assertEqual(computed._awaited, {})
-        with unittest.mock.patch.object(computed.Wanted, "ask", side_effect=AssertionError("it was not ahead")):
+        self.assertEqual(computed._ahead, {})
+        with unittest.mock.patch.object(computed.SurfaceRequest, "submit", side_effect=AssertionError("it was not ahead")):
             with unittest.mock.patch.object(computed, "compute_ahead"):
                 for frame in range(3, 3 + computed.AHEAD):
                     bpy.context.scene.frame_set(frame)
                     self.assertEqual(item["meniscus_error"], "", frame)
         bpy.context.scene.frame_set(3)
         bpy.context.scene.frame_set(9)  # what was asked for before is not wanted any more
-        self.assertEqual({each.key for each in computed._awaited.values()}, set(computed._awaited))
-        self.assertLessEqual(len(computed._awaited), computed.AHEAD)
+        self.assertEqual({each.key for each in computed._ahead.values()}, set(computed._ahead))
+        self.assertLessEqual(len(computed._ahead), computed.AHEAD)
 
     def test_atoms_of_an_object(self):
         for scale in (0.01, 0.1, 1.0):

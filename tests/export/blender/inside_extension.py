@@ -21,7 +21,7 @@ class Extension(unittest.TestCase):
         self.assertEqual(bpy.ops.extensions.package_install_files(filepath=EXTENSION, repo="user_default", enable_on_install=True), {"FINISHED"})
         self.assertIn(NAME, bpy.context.preferences.addons)
         computed = sys.modules[NAME + ".computed"]
-        told = computed.working().told()
+        told = computed.working().describe_tools()
         self.assertTrue(told["library"].startswith(profile), told)
         self.assertEqual(told["program"], "")
 

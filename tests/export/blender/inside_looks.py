@@ -300,13 +300,13 @@ class Looks(unittest.TestCase):
         for look in looks.LOOKS:
             for kind, turn, alpha in (("opaque", 0.0, 1.0), ("translucent", 0.0, 0.25), ("translucent", 60.0, 0.25), ("film", 60.0, 1.0 - 0.75 ** 2)):
                 item = plate(Color=(1.0, 1.0, 1.0), **({} if kind == "opaque" else {"opacity": 0.25}))
-                item.data[materials.ASKED] = {"kind": kind, "fades": 0}
+                item.data[materials.REQUIREMENTS] = {"kind": kind, "fades": 0}
                 item.rotation_euler[0] = np.radians(turn)
                 self.assertEqual(bpy.ops.object.meniscus_look(look=look, coloring="COLOR"), {"FINISHED"})
                 self.assertAlmostEqual(float(picture(256, 3)[16:32, 16:32].mean()), alpha, delta=0.02, msg=f"{look} {kind} {turn}")
                 bpy.data.objects.remove(item)
             item = plate(Color=(1.0, 1.0, 1.0))
-            item.data[materials.ASKED] = {"kind": "opaque", "fades": 1}
+            item.data[materials.REQUIREMENTS] = {"kind": "opaque", "fades": 1}
             item.color[3] = 0.5
             if look == "GLASS":
                 with self.assertRaisesRegex(RuntimeError, "cannot fade"):
@@ -320,7 +320,7 @@ class Looks(unittest.TestCase):
         for look in looks.LOOKS:
             for key, value in (("ambient", 0.6), ("roughness", 0.7), ("shininess", 700.0), ("specular", 0.15)):
                 item = plate(Color=(1.0, 0.2, 0.2))
-                item.data[materials.ASKED] = {"kind": "opaque", "fades": 0, key: value}
+                item.data[materials.REQUIREMENTS] = {"kind": "opaque", "fades": 0, key: value}
                 if look in ("GLASS", "FLAT"):
                     with self.assertRaisesRegex(RuntimeError, f"{look.lower()} has no place for {key}"):
                         bpy.ops.object.meniscus_look(look=look, coloring="COLOR")

@@ -67,7 +67,7 @@ class MolecularNodes(unittest.TestCase):
         addon_utils.enable("meniscus_import", default_set=True)
         preferences = bpy.context.preferences.addons[computed.__package__].preferences
         preferences.package, preferences.program = os.environ["MENISCUS_PACKAGE"], PROGRAM
-        self.assertNotEqual(computed.working().told()["library"], "", computed.working().told())
+        self.assertNotEqual(computed.working().describe_tools()["library"], "", computed.working().describe_tools())
 
     def surface_of(self, atoms, **options):
         bpy.context.view_layer.objects.active = atoms

@@ -60,7 +60,7 @@ class Prepared(ComputedCase):
         self.assertEqual(fine, len(of_file(TRIPLE, detail="FINE").data.polygons))
         item.meniscus.probe = 2.0
         with unittest.mock.patch.object(motion, "REST", 1e6):
-            computed.ask(item, in_motion=True)
+            computed.update_in_background(item, in_motion=True)
         computed.wait()
         proxy = len(item.data.polygons)
         self.assertEqual(measures(item), wanted(TRIPLE, "--probe", "2")[0])
@@ -77,10 +77,10 @@ class Prepared(ComputedCase):
         self.assertGreater(len(item.data.polygons), 2 * proxy)
         self.assertFalse(motion.any_moves())
         item.meniscus.probe = 1.4  # whose fine mesh is kept
-        computed.ask(item, in_motion=True)
+        computed.update_in_background(item, in_motion=True)
         self.assertEqual(len(item.data.polygons), fine)
         item.meniscus.probe = 1.7
-        computed.ask(item, in_motion=True)
+        computed.update_in_background(item, in_motion=True)
         computed.wait()
         self.assertLess(2 * len(item.data.polygons), fine)
         scene = bpy.context.scene
@@ -91,7 +91,7 @@ class Prepared(ComputedCase):
         bpy.ops.render.render()
         self.assertGreater(len(item.data.polygons), 2 * proxy)
         item.meniscus.detail, item.meniscus.probe = "FINE", 1.9
-        computed.ask(item, in_motion=True)
+        computed.update_in_background(item, in_motion=True)
         self.assertFalse(motion.is_moving(compat.identity(item)))
 
     def test_frames_that_play_are_proxies_and_pictures_are_not(self):

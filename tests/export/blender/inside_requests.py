@@ -45,7 +45,7 @@ class Duplicates(ComputedCase):
         item = of_file()
         twin = duplicate(item)
         item.meniscus.probe = twin.meniscus.probe = 2.0
-        computed.ask(item)
+        computed.update_in_background(item)
         computed.wait()
         self.assertEqual(item.data, twin.data)
         self.assertEqual(measures(item), measures(twin))
@@ -93,7 +93,7 @@ class WhileComputing(ComputedCase):
 
     def start(self):
         self.item.meniscus.probe = 2.0
-        computed.ask(self.item)
+        computed.update_in_background(self.item)
         self.assertIsNotNone(computed.progress_of(self.item))
 
     def check(self, item, wanted=None):
@@ -107,7 +107,7 @@ class WhileComputing(ComputedCase):
         self.item.name = "mine"
         self.check(self.item)
         self.item.meniscus.probe = 1.4
-        computed.ask(self.item)
+        computed.update_in_background(self.item)
         self.item.name, self.other.name = "old", first
         self.check(self.item, self.before)
         self.check(self.other, self.others)

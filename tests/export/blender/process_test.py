@@ -28,13 +28,13 @@ class Jobs(unittest.TestCase):
             done.append((task.owner, task.key))
             return task.key
 
-        self.worker.ask(jobs.Task("a", 0, work))
+        self.worker.submit(jobs.Task("a", 0, work))
         while self.worker._waiting:  # until it runs
             time.sleep(0.001)
         for key in range(1, 6):
-            self.worker.ask(jobs.Task("later", key, work, 1))
-            self.worker.ask(jobs.Task("a", key, work))
-            self.worker.ask(jobs.Task("b", key, work))
+            self.worker.submit(jobs.Task("later", key, work, 1))
+            self.worker.submit(jobs.Task("a", key, work))
+            self.worker.submit(jobs.Task("b", key, work))
         gate.set()
         self.finish()
         self.assertEqual(done, [("a", 0), ("a", 5), ("b", 5), ("later", 5)])
@@ -57,12 +57,12 @@ class Jobs(unittest.TestCase):
                 running.remove(task.owner)
 
         for owner in "ab":
-            self.worker.ask(jobs.Task(owner, 0, work))
+            self.worker.submit(jobs.Task(owner, 0, work))
         both_began = time.monotonic() + 10
         while self.worker._waiting and time.monotonic() < both_began:
             time.sleep(0.001)
         for owner in "abcd":
-            self.worker.ask(jobs.Task(owner, 1, work))
+            self.worker.submit(jobs.Task(owner, 1, work))
         self.finish()
         self.assertEqual([task.error for task in self.given], 6 * [None])
         self.assertEqual(most, 2)
@@ -79,7 +79,7 @@ class Jobs(unittest.TestCase):
             return "too late"
 
         task = jobs.Task("a", 0, work)
-        self.worker.ask(task)
+        self.worker.submit(task)
         started.wait(10)
         self.assertTrue(self.worker.cancel("a"))
         self.finish()
@@ -88,7 +88,7 @@ class Jobs(unittest.TestCase):
         self.assertIsNone(task.error)
 
     def test_an_error_comes_with_its_task(self):
-        self.worker.ask(jobs.Task("a", 0, lambda task: 1 // 0))
+        self.worker.submit(jobs.Task("a", 0, lambda task: 1 // 0))
         self.finish()
         self.assertIsInstance(self.given[0].error, ZeroDivisionError)
 
@@ -140,10 +140,10 @@ class OtherProcess(WithFolder):
         self.assertFalse(os.path.exists(f"/proc/{number}"))
 
     def test_it_gives_what_this_process_would_compute(self):
-        self.assertIn("libmeniscus", self.process.told()["library"])
-        self.assertEqual(self.process.told()["program"], os.path.abspath(PROGRAM))
+        self.assertIn("libmeniscus", self.process.describe_tools()["library"])
+        self.assertEqual(self.process.describe_tools()["program"], os.path.abspath(PROGRAM))
         about = self.about(probe=1.2)
-        found = self.finished(self.process.ask("a", "k", "surface", about))
+        found = self.finished(self.process.submit("a", "k", "surface", about))
         surface = engines.compute(engines.find_tools(PACKAGE, PROGRAM), request.Request(**about["request"]), None, self.folder, Quiet())
         wanted = mesh_arrays.of_surface(surface, 0.1, False, mesh_arrays.names_of(surface), found["middle"])
         self.assertEqual(found["header"]["area"], surface.header["area"])
@@ -155,14 +155,14 @@ class OtherProcess(WithFolder):
         given = {"positions": np.array([[0.0, 0, 0], [9, 0, 0]]), "radii": np.ones(2), "colors": np.ones((2, 3)), "index": np.arange(2),
                  "numbers": {}, "chain_names": [], "kind_colors": None, "source": "two"}
         own = {"name": "own", "kind": "FLOAT", "domain": "POINT", "values": np.array([[3.0], [7.0]]), "known": np.ones(2, bool)}
-        found = self.finished(self.process.ask("a", "k", "surface", {**self.about(file=""), "atoms": given, "others": [own]}))
+        found = self.finished(self.process.submit("a", "k", "surface", {**self.about(file=""), "atoms": given, "others": [own]}))
         (values,) = [values for name, *_, values in found["arrays"]["attributes"] if name == "own"]
         np.testing.assert_array_equal(values[:, 0], np.where(found["arrays"]["positions"][:, 0] < 0.45, 3.0, 7.0))
         np.testing.assert_array_equal(found["middle"], [4.5, 0, 0])
 
     def test_what_is_newer_comes_instead_of_what_waited(self):
         about = [self.about(probe=probe) for probe in np.linspace(1.0, 2.0, 30)]  # each writes the molecule's file, which the other reads
-        asked = [self.process.ask("a", each["request"]["probe"], "surface", each) for each in about]
+        asked = [self.process.submit("a", each["request"]["probe"], "surface", each) for each in about]
         self.process.wait(asked[-1])
         self.assertFalse(self.process.is_busy())
         done = [job for job in asked if job.is_done]
@@ -171,11 +171,11 @@ class OtherProcess(WithFolder):
 
     def test_errors_come_in_words(self):
         with self.assertRaisesRegex(engines.EngineError, "chain Q"):
-            self.finished(self.process.ask("a", "k", "surface", self.about(selection="chain Q")))
+            self.finished(self.process.submit("a", "k", "surface", self.about(selection="chain Q")))
 
     def test_what_is_stopped_ends_at_once_and_with_what_it_started(self):
         slow = self.slow()
-        job, other = slow.ask("a", "k", "surface", self.about()), slow.ask("b", "k", "surface", self.about())
+        job, other = slow.submit("a", "k", "surface", self.about()), slow.submit("b", "k", "surface", self.about())
         number = self.number_of_program()
         self.assertTrue(slow.stop("a"))
         self.assert_gone(number)
@@ -185,35 +185,35 @@ class OtherProcess(WithFolder):
 
     def test_what_is_dropped_gives_nothing_and_the_next_begins_soon(self):
         slow = self.slow()
-        slow.ask("a", "k", "surface", self.about())
+        slow.submit("a", "k", "surface", self.about())
         self.number_of_program()
         self.assertTrue(slow.drop("a"))
         os.remove(os.path.join(self.folder, "pid"))
-        slow.ask("b", "k", "surface", self.about())
+        slow.submit("b", "k", "surface", self.about())
         self.number_of_program()
 
     def test_if_it_dies_that_is_said_and_it_starts_anew(self):
         slow = self.slow()
-        job = slow.ask("a", "k", "surface", self.about())
+        job = slow.submit("a", "k", "surface", self.about())
         number = self.number_of_program()
         os.kill(slow._child.pid, 9)
         slow.wait(job)
         self.assertIn("signal 9", str(job.error))
         self.assert_gone(number)
         os.remove(os.path.join(self.folder, "pid"))
-        slow.ask("a", "k", "surface", self.about())
+        slow.submit("a", "k", "surface", self.about())
         self.number_of_program()
 
     def test_it_ends_with_the_one_that_asked(self):
         slow = self.slow()
-        slow.ask("a", "k", "surface", self.about())
+        slow.submit("a", "k", "surface", self.about())
         number, child = self.number_of_program(), slow._child
         slow._connection.close()
         self.assertEqual(child.wait(10), -9)
         self.assert_gone(number)
 
     def test_no_thread_of_python_lives_in_this_one(self):
-        job = self.process.ask("a", "k", "surface", self.about())
+        job = self.process.submit("a", "k", "surface", self.about())
         self.assertEqual(threading.enumerate(), [threading.main_thread()])
         self.finished(job)
         self.assertEqual(threading.enumerate(), [threading.main_thread()])

@@ -13,8 +13,8 @@ sys.path[:0] = [os.path.join(ADDON, "meniscus_import"), os.path.dirname(os.path.
 
 import numpy as np  # noqa: E402
 
-import camera_reader  # noqa: E402
 import compat  # noqa: E402
+import header_values  # noqa: E402
 import mns_reader  # noqa: E402
 import samples  # noqa: E402
 import sequence_reader  # noqa: E402
@@ -49,12 +49,12 @@ class SequenceReader(unittest.TestCase):
                             projection, "--save-camera", path, "--force", "--device", "cpu"], check=True)
             with open(path, encoding="utf-8") as file:
                 good = json.load(file)
-            self.assertEqual(camera_reader.read(path), good)
+            self.assertEqual(sequence_reader.read_camera(path), good)
             run = sequence_reader.read(self.manifest)
             size = run.frames[0].camera["size"]
-            run.look_from(good)
+            run.set_camera(good)
             self.assertEqual([frame.camera for frame in run.frames], [{**good, "size": size}] * 3)
-            name = camera_reader.SIZES[projection]
+            name = header_values.SIZES[projection]
             missing = {key: value for key, value in good.items() if key != "up"}
             for wrong, said in ((missing, "up is missing"), ({**good, "projection": "fisheye"}, "projection"), ([1, 2], "projection"),
                                 ({**good, "size": [4, 3]}, "'size' is not a key"), ({**good, name: 0}, f"{name} is 0, not a number above 0"),
@@ -64,15 +64,15 @@ class SequenceReader(unittest.TestCase):
                 with open(path, "w", encoding="utf-8") as file:
                     json.dump(wrong, file)
                 with self.assertRaisesRegex(mns_reader.MnsError, said):
-                    camera_reader.read(path)
+                    sequence_reader.read_camera(path)
         with open(path, "w", encoding="utf-8") as file:
             json.dump({**good, "projection": "perspective", "vertical_fov": 180.0}, file)
         with self.assertRaisesRegex(mns_reader.MnsError, "'height' is not a key"):
-            camera_reader.read(path)
+            sequence_reader.read_camera(path)
         with open(path, "w", encoding="utf-8") as file:
             file.write("set_view (1, 2)")
         with self.assertRaisesRegex(mns_reader.MnsError, "no JSON, such as --save-camera writes"):
-            camera_reader.read(path)
+            sequence_reader.read_camera(path)
 
     def test_times_show_the_nearest_frame(self):
         def places(times, count=3, **options):

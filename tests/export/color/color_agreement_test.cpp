@@ -15,7 +15,7 @@
 #include "core/image/color_space.h"
 #include "core/mesh/tessellate.h"
 #include "core/queries/copies.h"
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/surface/compute_surface.h"
 #include "exporters/blender/surface_file.h"
@@ -42,7 +42,7 @@ struct FlatPicture {
 /// Light is linear in the albedo, so the pictures in black and in white tell the albedo of the one in colour.
 FlatPicture cast(const std::vector<SurfaceObject>& objects, const Camera& camera) {
   static EglContext context;
-  Renderer renderer;
+  GlRenderer renderer;
   RenderSettings settings;
   settings.size = {kWidth, kHeight};
   settings.aovs = true;

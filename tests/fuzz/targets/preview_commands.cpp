@@ -31,7 +31,8 @@ void attempt(Action&& action) {
 
 void check_look(const CommandReader& reader) {
   reader.expect_only(look_keys());
-  const LookRequest plain{.preset = LookPreset::classic};
+  LookRequest plain;
+  plain.preset = LookPreset::classic;
   const auto written = [&](const CommandReader& command) {
     return look_json(look_of(changed_look(plain, command), {960, 960}, glm::vec3(1.0f), Hues::free));
   };

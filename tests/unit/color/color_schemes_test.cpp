@@ -135,8 +135,8 @@ TEST(Colors, RulesPaintTheAtomsMeantAndTheLastCounts) {
   EXPECT_EQ(rules_without_atoms(four_atoms(), wish), std::vector<std::string>{"chain Z"});
   EXPECT_EQ(color_atoms(four_atoms(), wish).atom, coloring.atom);
   Structure with_sticks = four_atoms();
-  with_sticks.beside.push_back(with_sticks.atoms.front());
-  with_sticks.beside.front().chain = "Z";
+  with_sticks.extra_atoms.push_back(with_sticks.atoms.front());
+  with_sticks.extra_atoms.front().chain = "Z";
   EXPECT_TRUE(rules_without_atoms(with_sticks, wish).empty());
 }
 

@@ -210,11 +210,11 @@ TEST(Rainbow, GoesFromTheFirstResidueOfEachChainToItsLast) {
   half.range = {{0.0, 0.5}};
   EXPECT_EQ(color_scale(structure, half).ends[0], "") << "0.5 is no end of a chain";
   // What is drawn beside the surface belongs to the same chain.
-  structure.beside.push_back(structure.atoms[2]);
-  structure.beside.back().residue = 9;
+  structure.extra_atoms.push_back(structure.atoms[2]);
+  structure.extra_atoms.back().residue = 9;
   EXPECT_NEAR(color_scale(structure, scheme("rainbow")).value[2], 2.0 / 3.0, 1e-12);
   for (Atom& atom : structure.atoms) atom.kind = AtomClass::ligand;
-  structure.beside.clear();
+  structure.extra_atoms.clear();
   EXPECT_NE(complaint([&] { colored("rainbow", structure); }).find("no chains of amino acids"), std::string::npos);
 }
 

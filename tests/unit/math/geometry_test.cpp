@@ -155,12 +155,12 @@ TEST(Constants, AreTheDecimalsThatTheyStandFor) {
 
 TEST(ProbesInOnePlace, AreNearAndNotMirroredInThePlaneOfTheirAtoms) {
   const glm::dvec3 apart(0, 0, 8e-7);
-  EXPECT_TRUE(stand_together(apart, 0.5, 0.02));
-  EXPECT_FALSE(stand_together(2.0 * apart, 0.5, 0.02));
-  EXPECT_FALSE(stand_together(apart, 4e-7, 4e-7)) << "one on either side of its atoms";
-  EXPECT_FALSE(may_stand_together(apart, 4e-7, 4e-7)) << "both flat";
-  EXPECT_TRUE(may_stand_together(500.0 * apart, 4e-7, 0.02));
-  EXPECT_FALSE(may_stand_together(1000.0 * apart, 4e-7, 0.02));
+  EXPECT_TRUE(are_coincident(apart, 0.5, 0.02));
+  EXPECT_FALSE(are_coincident(2.0 * apart, 0.5, 0.02));
+  EXPECT_FALSE(are_coincident(apart, 4e-7, 4e-7)) << "one on either side of its atoms";
+  EXPECT_FALSE(may_be_coincident(apart, 4e-7, 4e-7)) << "both flat";
+  EXPECT_TRUE(may_be_coincident(500.0 * apart, 4e-7, 0.02));
+  EXPECT_FALSE(may_be_coincident(1000.0 * apart, 4e-7, 0.02));
   EXPECT_TRUE(touches_atom({0, 0, 3}, 3 + 9e-7));
   EXPECT_FALSE(touches_atom({0, 0, 3}, 3 + 2e-6));
 }

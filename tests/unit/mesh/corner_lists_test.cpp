@@ -25,7 +25,7 @@ TEST(CornerLists, AreAscending) {
 }
 
 bool once_around(const std::vector<Triangle>& triangles, std::uint32_t vertex) {
-  return go_around_once(triangles, CornerLists(triangles, 8).at(vertex));
+  return is_closed_fan(triangles, CornerLists(triangles, 8).at(vertex));
 }
 
 TEST(CornerLists, TellWhetherTrianglesGoAroundAVertexOnce) {

@@ -161,7 +161,7 @@ TEST(CoarseMesh, IsThatOfUbiquitinForSomeProbes) {
 }
 
 BaseMesh expect_contracted_mesh(const Surface& surface) {
-  BaseMesh base = base_mesh(surface, SurfaceWalk(surface), Beginning::contracted, 0.0);
+  BaseMesh base = base_mesh(surface, SurfaceWalk(surface), BaseMeshKind::contracted, 0.0);
   TriangleMesh& mesh = base.mesh;
   for (const std::uint32_t f : mesh.face) mesh.component.push_back(surface.faces[f].component);
   EXPECT_TRUE(measure(mesh).closed);

@@ -29,7 +29,7 @@ const std::vector<Triangle>& octahedron() {
 
 void expect_linked(const HalfEdges& links) {
   for (std::uint32_t half = 0; half < links.half_edge_count(); ++half) {
-    if (!links.lives(half)) continue;
+    if (!links.is_alive(half)) continue;
     const std::uint32_t twin = links.twin(half);
     EXPECT_EQ(links.twin(twin), half);
     EXPECT_EQ(links.from(twin), links.to(half));
@@ -62,7 +62,7 @@ TEST(HalfEdges, UnpokeTakesAPokeBack) {
     HalfEdges copy = links;
     const Triangle old = copy.corners(half / 3);
     copy.unpoke(half);
-    EXPECT_FALSE(copy.vertex_lives(m));
+    EXPECT_FALSE(copy.is_vertex_alive(m));
     for (std::size_t k = 0; k < 3; ++k)
       if (old[k] != m) EXPECT_EQ(copy.corners(half / 3)[k], old[k]);
     expect_linked(copy);
@@ -88,7 +88,7 @@ TEST(HalfEdges, CollapseLeavesAClosedMesh) {
   EXPECT_EQ(common_neighbors(links, 0, 1).common, 2u);
   EXPECT_EQ(common_neighbors(links, 0, 1).sum, 8u);
   links.collapse(half);
-  EXPECT_FALSE(links.vertex_lives(0));
+  EXPECT_FALSE(links.is_vertex_alive(0));
   expect_linked(links);
   EXPECT_EQ(links.compact(), (std::vector<std::uint32_t>{1, 2, 3, 4, 5}));
   EXPECT_EQ(links.triangle_count(), 6u);

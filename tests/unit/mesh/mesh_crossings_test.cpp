@@ -145,7 +145,7 @@ TEST(CrossingGuard, CountsWhatPassesThroughWatchedTriangles) {
   const PlacedTriangle through{{7, 8, 9}, {{{0.2, 0.2, -1}, {0.2, 0.2, 2}, {-3, -3, 0.5}}}};
   const PlacedTriangle beside{{7, 8, 9}, {{{2, 2, -1}, {2, 2, 2}, {3, 3, 0.5}}}};
   EXPECT_EQ(crossings(through, {}), 0u);  // nothing is watched
-  guard.watch_around(std::vector<std::uint32_t>{0});
+  guard.guard_around(std::vector<std::uint32_t>{0});
   EXPECT_EQ(crossings(through, {}), 4u);
   EXPECT_EQ(crossings(through, {0}), 3u);
   EXPECT_GE(guard.crossings({&through, 1}, {}, 2), 2u);
@@ -164,15 +164,15 @@ TEST(CrossingGuard, WatchesVerticesInBallsForGood) {
   const std::vector<glm::dvec3> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   HalfEdges links(std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 4);
   CrossingGuard guard(links, x);
-  guard.watch(std::vector<Ball>{{{1.1, 0, 0}, 0.2}});
+  guard.guard_balls(std::vector<Ball>{{{1.1, 0, 0}, 0.2}});
   guard.release();
-  for (const std::uint32_t v : {0u, 1u, 2u, 3u}) EXPECT_EQ(guard.watches(v), v == 1) << v;
+  for (const std::uint32_t v : {0u, 1u, 2u, 3u}) EXPECT_EQ(guard.is_guarded(v), v == 1) << v;
   guard.add_vertex(1, 2);
   guard.add_vertex(0, 2);
-  EXPECT_TRUE(guard.watches(4));
-  EXPECT_FALSE(guard.watches(5));
+  EXPECT_TRUE(guard.is_guarded(4));
+  EXPECT_FALSE(guard.is_guarded(5));
   guard.merge_vertex(1, 3);
-  EXPECT_TRUE(guard.watches(3));
+  EXPECT_TRUE(guard.is_guarded(3));
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ Structure pocket(bool ligand_beside) {
   for (const double z : {-10.0, 10.0})
     for (const double x : {-2.0, 0.0, 2.0})
       for (const double y : {-2.0, 0.0, 2.0}) add(structure.atoms, "ALA", {x, y, z});
-  std::vector<Atom>& ligand = ligand_beside ? structure.beside : structure.atoms;
+  std::vector<Atom>& ligand = ligand_beside ? structure.extra_atoms : structure.atoms;
   add(ligand, "LIG", {-0.5, 0.0, -1.0});
   add(ligand, "LIG", {0.5, 0.0, 2.0});
   return structure;

@@ -215,15 +215,15 @@ TEST(ShownAtoms, NeedNotBeAtomsOfTheSurface) {
   const Structure plain = read_structure(kToxin, without);
   ASSERT_EQ(structure.atoms.size(), plain.atoms.size());
   EXPECT_EQ(structure.report.sentence(), plain.report.sentence());
-  EXPECT_TRUE(plain.beside.empty());
+  EXPECT_TRUE(plain.extra_atoms.empty());
   EXPECT_EQ(plain.shown_bonds, nullptr);
   std::set<std::int32_t> residues_of_sticks;
   for (const Atom& one : structure.atoms) {
     EXPECT_EQ(one.shown, one.residue_number == 40 ? 1 : 0);
     if (one.shown) residues_of_sticks.insert(one.residue_number);
   }
-  ASSERT_FALSE(structure.beside.empty());
-  for (const Atom& one : structure.beside) {
+  ASSERT_FALSE(structure.extra_atoms.empty());
+  for (const Atom& one : structure.extra_atoms) {
     EXPECT_GT(one.radius, 1.0);
     EXPECT_EQ(one.shown, one.chain == "C" ? 2 : 1);
     if (one.chain == "A") residues_of_sticks.insert(one.residue_number);
@@ -236,7 +236,7 @@ TEST(ShownAtoms, NeedNotBeAtomsOfTheSurface) {
     if (a < own && b >= own) {
       ++across;
       EXPECT_EQ(structure.atoms[a].name, "C");
-      EXPECT_EQ(structure.beside[b - own].name, "N");
+      EXPECT_EQ(structure.extra_atoms[b - own].name, "N");
     }
   EXPECT_EQ(across, 1u);
 }
@@ -254,8 +254,8 @@ TEST(ShownAtoms, ThatAreNoneAreAnError) {
   EXPECT_THROW(read_structure(kUbiquitin, options), InputError);  // it is water, which the expression does not name
   options.shown = {{"spheres", parse_selection("water and within 6 of (resid 40)")}};
   const Structure water = read_structure(kUbiquitin, options);
-  ASSERT_FALSE(water.beside.empty());
-  for (const Atom& one : water.beside) EXPECT_EQ(one.kind, AtomClass::water);
+  ASSERT_FALSE(water.extra_atoms.empty());
+  for (const Atom& one : water.extra_atoms) EXPECT_EQ(one.kind, AtomClass::water);
 }
 
 /// Every edge once in each direction, no triangle without area, normals of length 1 that look where triangles do.

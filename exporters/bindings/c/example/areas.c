@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reads atoms as lines "x y z radius" (Å) and prints the measures of their solvent-excluded surface, in C99.
+/* Reads atoms as lines "x y z radius" (Å) and prints the numbers of their solvent-excluded surface, in C99.
  *
  *   cc areas.c $(pkg-config --cflags --libs meniscus) -o areas && ./areas < molecule.xyzr */
 #include <inttypes.h>
@@ -8,7 +8,7 @@
 
 #include <meniscus/meniscus.h>
 
-/* Rows of x, y, z, radius; grown as they come. */
+/* Reads rows of x, y, z and radius to the end of the standard input. The caller frees the result. */
 static double* read_rows(size_t* count) {
   size_t room = 0;
   double* rows = NULL;
@@ -28,6 +28,7 @@ static double* read_rows(size_t* count) {
   return rows;
 }
 
+/* Prints the numbers of a surface. */
 static meniscus_status print_measures(const meniscus_surface* surface) {
   meniscus_summary summary = {.size = sizeof summary};
   meniscus_array array;

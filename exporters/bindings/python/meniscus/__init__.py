@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Exact solvent-excluded surfaces of molecules: files or arrays in, arrays out.
+"""Exact solvent-excluded surfaces of molecules, computed from files or arrays.
 
     import meniscus
-    s = meniscus.surface(meniscus.read("1ubq.cif"))   # atoms and radii as the program takes them
+    s = meniscus.surface(meniscus.read("1ubq.cif"))   # the atoms and radii that the program uses
     s = meniscus.surface(xyz, radii, probe=1.4)       # Å
     s.area, s.volume, s.atom_areas, s.distance(points), s.mesh().vertices, s.render()
-    s.update(next_xyz)                                # the next frame, same radii
-    meniscus.Scene("1ubq.cif", color="chain", legend=True).render()    # the picture of `meniscus render`
+    s.update(next_xyz)                                # the next frame, with the same radii
+    meniscus.Scene("1ubq.cif", color="chain", legend=True).render()    # as `meniscus render`
 
-All numbers are in Å, Å² and Å³. Arrays that belong to a surface or a mesh are read-only views of the library's own
-memory, which lives as long as any view of it does, whatever becomes of the object that gave it. Examples of a class go
-on in those of its members.
+All numbers are in Å, Å² and Å³. Arrays of a surface or a mesh are read-only views of the library's memory, which is
+freed when the object and all views of it are deleted. The examples of a class are continued by those of its members.
 """
 from __future__ import annotations
 
@@ -28,9 +27,8 @@ from ._mesh import Mesh
 from ._page import Page, page
 from ._picture import Camera, Picture
 from ._pockets import Pocket
-from ._radii import radii_of
 from ._scene import Property, Scene, properties
-from ._structure import Structure, read
+from ._structure import Structure, radii_of, read
 from ._surface import Patches, Surface, surface
 from ._widget import Picked, Widget, widget
 from ._adapters import (frames, from_ase, from_biopython, from_biotite, from_gemmi, from_mdanalysis, from_mdtraj,
@@ -46,6 +44,6 @@ __all__ = [
 
 
 def __getattr__(name: str) -> str:
-    if name == "__version__":  # that of the library, which is opened when it is first needed
+    if name == "__version__":  # the version of the library, which is loaded when it is first used
         return version()
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Surfaces of molecules of other packages, of one frame or of all."""
+"""Computes surfaces of the molecules of other packages, for one frame or for all frames."""
 from __future__ import annotations
 
 import copy
@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, Iterator, Optional
 import numpy as np
 
 from ._errors import InputError
-from ._radii import radii_of
 from ._sources import TAKEN_BY, Source, opened, package_of
+from ._structure import radii_of
 from ._surface import Surface, surface
 from ._types import Rows
 
@@ -19,36 +19,43 @@ if TYPE_CHECKING:
     from ._types import SurfaceOptions
 
 
-def _elements(found: Any, count: int) -> Any:
-    if found is None or len(found) != count or any(not str(symbol).strip() for symbol in found):
+def _checked_elements(elements: Any, count: int) -> Any:
+    """Returns the elements. Raises InputError unless each of `count` atoms has one."""
+    if elements is None or len(elements) != count or any(not str(symbol).strip() for symbol in elements):
         raise InputError("some atoms have no element; give radii")
-    return found
+    return elements
 
 
 def _surfaces(source: Source, radii: Optional[Any], options: SurfaceOptions) -> Iterator[Surface]:
-    made = None
+    """Yields a new surface for each frame of the source. radii: None for those of the elements."""
+    last = None
     for positions in source.frames:
         if positions is None:
             raise InputError("the atoms have no positions")
-        if made is None:
+        if last is None:
             if radii is None:
-                radii = radii_of(_elements(source.elements, len(positions)))
-            made = surface(positions, radii, **options)
+                radii = radii_of(_checked_elements(source.elements, len(positions)))
+            last = surface(positions, radii, **options)
         else:
-            made = copy.copy(made).update(positions)
-        yield made
+            last = copy.copy(last).update(positions)
+        yield last
 
 
-def _first(thing: Any, package: str, radii: Optional[Any], options: SurfaceOptions) -> Surface:
-    if package_of(thing) != package:
-        kind = f"{type(thing).__module__}.{type(thing).__qualname__}"
+def _first(molecule: Any, package: str, radii: Optional[Any], options: SurfaceOptions) -> Surface:
+    """Returns the surface of the current or first frame. Raises InputError for an object of another package."""
+    if package_of(molecule) != package:
+        kind = f"{type(molecule).__module__}.{type(molecule).__qualname__}"
         raise InputError(f"{TAKEN_BY[package]}() does not take a {kind}")
-    return next(_surfaces(opened(thing, package, False), radii, options))
+    return next(_surfaces(opened(molecule, package, False), radii, options))
 
 
 def from_mdanalysis(atoms: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """The surface of an AtomGroup or Universe in its current frame. radii: by element, unless given. options: as
-    surface() has them. For the next frame: s.update(atoms.positions). InputError where an atom has no element.
+    """Returns the surface of an AtomGroup or Universe in its current frame. s.update(atoms.positions) computes another
+    frame.
+
+    radii: van der Waals radii in Å, (n,) or one for all atoms; None for those of the elements. options: those of
+    surface(). Raises InputError if radii is None and an atom has no element; otherwise the errors of surface(). The
+    functions below have the same parameters and errors.
 
     >>> import MDAnalysis
     >>> universe = MDAnalysis.Universe("helix.pdb")
@@ -58,7 +65,8 @@ def from_mdanalysis(atoms: Any, *, radii: Optional[Any] = None, **options: Unpac
 
 
 def from_mdtraj(trajectory: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """The surface of the first frame of an mdtraj.Trajectory: trajectory[7] is the eighth. Its nm become Å.
+    """Returns the surface of the first frame of an mdtraj.Trajectory, whose positions are converted from nm to Å. Pass
+    trajectory[7] for the eighth frame.
 
     >>> import mdtraj
     >>> trajectory = mdtraj.load("helix.pdb")
@@ -68,7 +76,7 @@ def from_mdtraj(trajectory: Any, *, radii: Optional[Any] = None, **options: Unpa
 
 
 def from_prody(atoms: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """The surface of an AtomGroup or Selection with its active coordinates.
+    """Returns the surface of an AtomGroup or Selection with its active coordinate set.
 
     >>> import prody
     >>> meniscus.from_prody(prody.parsePDB("helix.pdb").select("not water"))
@@ -77,7 +85,7 @@ def from_prody(atoms: Any, *, radii: Optional[Any] = None, **options: Unpack[Sur
 
 
 def from_biotite(array: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """The surface of an AtomArray, or of the first model of an AtomArrayStack.
+    """Returns the surface of an AtomArray, or of the first model of an AtomArrayStack.
 
     >>> import biotite.structure.io.pdb
     >>> array = biotite.structure.io.pdb.PDBFile.read("helix.pdb").get_structure(model=1)
@@ -87,8 +95,8 @@ def from_biotite(array: Any, *, radii: Optional[Any] = None, **options: Unpack[S
 
 
 def from_biopython(entity: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """The surface of the first model of a Bio.PDB Structure, of a Model, Chain or Residue, or of a list of atoms, in the
-    order of get_atoms(). Of alternate locations the selected one counts.
+    """Returns the surface of the first model of a Bio.PDB Structure, of a Model, Chain or Residue, or of a list of
+    atoms. The atoms are in the order of get_atoms(), and have their selected alternate location.
 
     >>> import Bio.PDB
     >>> structure = Bio.PDB.PDBParser().get_structure("helix", "helix.pdb")
@@ -98,7 +106,7 @@ def from_biopython(entity: Any, *, radii: Optional[Any] = None, **options: Unpac
 
 
 def from_ase(atoms: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """The surface of an ase.Atoms, or of the first of a list or trajectory of them; periodic copies are left out.
+    """Returns the surface of an ase.Atoms, or of the first one in a list or trajectory. Periodic images are ignored.
 
     >>> import ase.build
     >>> meniscus.from_ase(ase.build.molecule("CH3CH2OH"))
@@ -107,9 +115,9 @@ def from_ase(atoms: Any, *, radii: Optional[Any] = None, **options: Unpack[Surfa
 
 
 def from_rdkit(molecule: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """The surface of the first conformer of a Mol, or of a Conformer: mol.GetConformer(7). Hydrogens count where they are
-    atoms of the molecule (rdkit.Chem.AddHs). InputError where there is no conformer, or only a drawing in two
-    dimensions.
+    """Returns the surface of the first conformer of a Mol, or of a Conformer such as mol.GetConformer(7). Hydrogens are
+    included if they are atoms of the molecule (rdkit.Chem.AddHs). Raises InputError also if there is no conformer, or
+    only a two-dimensional one.
 
     >>> from rdkit import Chem
     >>> molecule = Chem.MolFromPDBFile("helix.pdb", sanitize=False)
@@ -120,8 +128,8 @@ def from_rdkit(molecule: Any, *, radii: Optional[Any] = None, **options: Unpack[
 
 def from_openmm(source: Any, positions: Optional[Any] = None, *, radii: Optional[Any] = None,
                 **options: Unpack[SurfaceOptions]) -> Surface:
-    """The surface of a PDBFile, PDBxFile or Modeller, of a Simulation as it is now, or of a Topology with positions that
-    have a unit.
+    """Returns the surface of a PDBFile, PDBxFile or Modeller, of the current state of a Simulation, or of a Topology
+    and its positions, (n, 3), which must have a unit.
 
     >>> import openmm.app
     >>> file = openmm.app.PDBFile("helix.pdb")
@@ -133,8 +141,9 @@ def from_openmm(source: Any, positions: Optional[Any] = None, *, radii: Optional
 
 
 def from_gemmi(part: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """The surface of the first model of a gemmi.Structure, of a Model, Chain, Residue or span of residues, in the order of
-    Model.all(). A warning says where alternate locations all count: remove_alternative_conformations().
+    """Returns the surface of the first model of a gemmi.Structure, or of a Model, Chain, Residue or span of residues.
+    The atoms are in the order of Model.all(). All alternate locations are included, with a warning;
+    remove_alternative_conformations() removes them.
 
     >>> import gemmi
     >>> structure = gemmi.read_structure("helix.pdb")
@@ -145,8 +154,9 @@ def from_gemmi(part: Any, *, radii: Optional[Any] = None, **options: Unpack[Surf
 
 
 def series(source: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Rows:
-    """The numbers of all frames of what frames() takes, a row each: area (Å²), of kind "ses" also sas_area, volume
-    (Å³), components, cavities, cavity_area, cavity_volume (positive). One surface is in memory at a time.
+    """Returns a structured array with a row for each frame of what frames() takes: area (Å²), volume (Å³), components,
+    cavities, cavity_area (Å²) and cavity_volume (Å³, positive); for kind "ses" also sas_area (Å²). Only one surface is
+    in memory at a time. Errors are those of frames().
 
     >>> import Bio.PDB
     >>> structure = Bio.PDB.PDBParser().get_structure("two", "models.pdb")
@@ -167,8 +177,9 @@ def series(source: Any, *, radii: Optional[Any] = None, **options: Unpack[Surfac
 
 
 def frames(source: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Iterator[Surface]:
-    """One surface after the other for all frames of what the functions above take: frames of trajectories, models of
-    structures, conformers of molecules, a list of ase.Atoms. Each may be kept.
+    """Yields the surface of each frame of what the functions above take: frames of trajectories, models of structures,
+    conformers of molecules, or a list of ase.Atoms. The surfaces are independent of each other. Errors are those of the
+    functions above.
 
     >>> import Bio.PDB
     >>> structure = Bio.PDB.PDBParser().get_structure("two", "models.pdb")

@@ -1,24 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The errors of the library as exceptions, one class for each status."""
+"""The exceptions of the package: one class for each status of meniscus.h."""
 from __future__ import annotations
 
 
 class Error(Exception):
-    """What the library refused or could not do, of which all others are kinds; its text is the library's own.
+    """The base class of all errors of the library. The text is the library's message.
 
     >>> issubclass(meniscus.InputError, meniscus.Error)
     True"""
 
 
 class InternalError(Error):
-    """A fault of the library: please report it.
+    """A bug in the library. Please report it.
 
     >>> issubclass(meniscus.InternalError, meniscus.Error)
     True"""
 
 
 class UsageError(Error, ValueError):
-    """A call that is not valid for any molecule.
+    """A call that is invalid for every molecule, such as an unknown option.
 
     >>> meniscus.surface([[0, 0, 0]], 1.7, kind="lee")
     Traceback (most recent call last):
@@ -27,7 +27,8 @@ class UsageError(Error, ValueError):
 
 
 class InputError(Error, ValueError):
-    """A position, radius, colour or camera that cannot be; the text has its index and value.
+    """An impossible position, radius, colour or camera, or a file that cannot be read. The text has the index and the
+    value.
 
     >>> meniscus.surface([[0, 0, float("nan")]], 1.7)
     Traceback (most recent call last):
@@ -36,21 +37,21 @@ class InputError(Error, ValueError):
 
 
 class GpuError(Error, RuntimeError):
-    """No usable GL or GPU, or one that left work undone.
+    """There is no usable GL or GPU, or it dropped work.
 
     >>> issubclass(meniscus.GpuError, RuntimeError)
     True"""
 
 
 class CapacityError(Error, MemoryError):
-    """Out of memory or threads, or more than indices can count.
+    """There is not enough memory or threads, or there are more items than an index can count.
 
     >>> issubclass(meniscus.CapacityError, MemoryError)
     True"""
 
 
 class OutputError(Error, OSError):
-    """A file cannot be written, or is there already.
+    """A file cannot be written, or it exists already.
 
     >>> meniscus.surface([[0, 0, 0]], 1.7).mesh(0.5).save("no/folder.stl")
     Traceback (most recent call last):
@@ -59,11 +60,11 @@ class OutputError(Error, OSError):
 
 
 class NotClosedError(Error):
-    """The surface or mesh is not closed, so there is none.
+    """The surface or mesh would not be closed, so it is not returned.
 
     >>> issubclass(meniscus.NotClosedError, meniscus.Error)
     True"""
 
 
 for _class in (Error, *Error.__subclasses__()):
-    _class.__module__ = "meniscus"  # as programs and tracebacks name them
+    _class.__module__ = "meniscus"  # tracebacks print the public name

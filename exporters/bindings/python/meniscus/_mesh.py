@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Closed triangle meshes of a surface, and their conversion for other packages."""
+"""Closed triangle meshes of a surface, and their conversion to objects of other packages."""
 from __future__ import annotations
 
 import copy
 import ctypes
 import importlib
-import os
 from typing import Any, Optional, Protocol
 
 import numpy as np
 
+from . import _header as header
 from . import _library as lib
-from ._arrays import put_colors, view
-from ._errors import InputError
+from ._arguments import file_name, flag, text
+from ._arrays import atom_colors, view
 from ._types import AnyArray, Bytes, Floats, Indices, MeshFormat, Path
 
 
 class Computed(Protocol):
-    """A computed Surface, as far as its meshes need it."""
+    """The parts of a Surface that its meshes use."""
 
     _handle: lib.Handle
 
@@ -25,8 +25,10 @@ class Computed(Protocol):
 
 
 class Mesh:
-    """Closed triangles, which Surface.mesh() makes: (n,) of vertices, (m,) of triangles. All vertices lie on the exact
-    surface; seen from the solvent triangles are counter-clockwise.
+    """A closed triangle mesh, which Surface.mesh() makes. It never changes, and all threads may use it at once.
+
+    All vertices lie on the exact surface. Triangles are counter-clockwise as seen from the solvent. In the shapes of
+    arrays, n is the number of vertices and m that of triangles; the arrays are read-only views.
 
     >>> mesh = meniscus.surface([[0, 0, 0], [3, 0, 0]], 1.7).mesh(0.1)
     >>> mesh
@@ -36,21 +38,21 @@ class Mesh:
 
     def __init__(self, surface: Computed, tolerance: float, split_colors: bool, density: Optional[float],
                  even: bool) -> None:
-        options = lib.default("mesh_options", lib.MeshOptions())
-        options.tolerance, options.split_colors = tolerance, lib.flag("split_colors", split_colors)
-        options.method = lib.MESH_EVEN if lib.flag("even", even) else lib.MESH_BY_PATCH
+        options = lib.default("mesh_options", header.MeshOptions())
+        options.tolerance, options.split_colors = tolerance, flag("split_colors", split_colors)
+        options.method = header.MESH_EVEN if flag("even", even) else header.MESH_BY_PATCH
         if density is not None:
-            options.method, options.density = lib.MESH_BY_DENSITY, density
-        self._surface = copy.copy(surface)  # of this frame
+            options.method, options.density = header.MESH_BY_DENSITY, density
+        self._surface = copy.copy(surface)  # because update() changes the original
         self._handle = lib.Handle("mesh", "surface_mesh", self._surface._handle.pointer, ctypes.byref(options))
         self._options = (tolerance, split_colors, density, even)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickles hold the atoms and the options; what is read from one is made again, to the same bits."""
+        """Pickles have the atoms and the options. Unpickling computes the mesh again, with bitwise equal results."""
         return Mesh, (self._surface, *self._options)
 
     def __copy__(self) -> Mesh:
-        """Itself, for it never changes."""
+        """Returns this object, because it never changes."""
         return self
 
     def __deepcopy__(self, memo: Any) -> Mesh:
@@ -61,118 +63,125 @@ class Mesh:
 
     @property
     def vertices(self) -> Floats:
-        """(n, 3) Å.
+        """The positions of the vertices in Å, (n, 3).
 
         >>> mesh.vertices.shape
         (184, 3)"""
-        return self._table(lib.MESH_POSITIONS, np.float64, 3)
+        return self._table(header.MESH_POSITIONS, np.float64, 3)
 
     @property
     def normals(self) -> Floats:
-        """(n, 3), unit, exact; at cusps a mean.
+        """The exact unit normals at the vertices, (n, 3); at cusps their mean.
 
         >>> np.allclose(np.linalg.norm(mesh.normals, axis=1), 1)
         True"""
-        return self._table(lib.MESH_NORMALS, np.float64, 3)
+        return self._table(header.MESH_NORMALS, np.float64, 3)
 
     @property
     def triangles(self) -> Indices:
-        """(m, 3) indices of vertices.
+        """The vertices of each triangle, (m, 3).
 
         >>> len(mesh.triangles) == 2 * len(mesh.vertices) - 4
         True"""
-        return self._table(lib.MESH_TRIANGLES, np.uint32, 3)
+        return self._table(header.MESH_TRIANGLES, np.uint32, 3)
 
     @property
     def triangle_atoms(self) -> Indices:
-        """(m,) the touched atom that is nearest.
+        """The atom of each triangle, (m,): the atom whose contact point is nearest.
 
         >>> np.bincount(mesh.triangle_atoms).tolist()
         [182, 182]"""
-        return self._table(lib.MESH_TRIANGLE_ATOMS, np.uint32)
+        return self._table(header.MESH_TRIANGLE_ATOMS, np.uint32)
 
     @property
     def triangle_kinds(self) -> Bytes:
-        """(m,) 0 convex, 1 toroidal, 2 concave.
+        """The kind of patch of each triangle, (m,): 0 convex, 1 toroidal, 2 concave.
 
         >>> np.bincount(mesh.triangle_kinds).tolist()
         [252, 112]"""
-        return self._table(lib.MESH_TRIANGLE_KINDS, np.uint8)
+        return self._table(header.MESH_TRIANGLE_KINDS, np.uint8)
 
     @property
     def triangle_faces(self) -> Indices:
-        """(m,) rows of Surface.faces.
+        """The row of Surface.faces of each triangle, (m,).
 
         >>> int(mesh.triangle_faces.max())
         2"""
-        return self._table(lib.MESH_TRIANGLE_FACES, np.uint32)
+        return self._table(header.MESH_TRIANGLE_FACES, np.uint32)
 
     @property
     def triangle_patches(self) -> Indices:
-        """(m,) rows of the patches of that kind.
+        """The patch of each triangle, (m,): a row of the patches of its kind in Surface.patches.
 
         >>> int(mesh.triangle_patches.max())
         1"""
-        return self._table(lib.MESH_TRIANGLE_PATCHES, np.uint32)
+        return self._table(header.MESH_TRIANGLE_PATCHES, np.uint32)
 
     @property
     def triangle_components(self) -> Indices:
-        """(m,) rows of Surface.components.
+        """The row of Surface.components of each triangle, (m,).
 
         >>> int(mesh.triangle_components.max())
         0"""
-        return self._table(lib.MESH_TRIANGLE_COMPONENTS, np.uint32)
+        return self._table(header.MESH_TRIANGLE_COMPONENTS, np.uint32)
 
     @property
     def vertex_atoms(self) -> Indices:
-        """(n,) the touched atom that is nearest.
+        """The atom of each vertex, (n,): the atom whose contact point is nearest.
 
         >>> np.bincount(mesh.vertex_atoms).tolist()
         [103, 81]"""
-        return self._table(lib.MESH_VERTEX_ATOMS, np.uint32)
+        return self._table(header.MESH_VERTEX_ATOMS, np.uint32)
 
     @property
     def sharp_corners(self) -> Indices:
-        """Corners (3 * triangle + 0, 1, 2) at cusps, ascending; their exact normals are sharp_normals.
+        """The corners of triangles at cusps, (k,), as 3 * triangle + 0, 1 or 2, in ascending order.
 
         >>> mesh.sharp_corners.tolist()
         []"""
-        return self._table(lib.MESH_SHARP_CORNERS, np.uint32)
+        return self._table(header.MESH_SHARP_CORNERS, np.uint32)
 
     @property
     def sharp_normals(self) -> Floats:
-        """(n, 3), unit: the exact normals at sharp_corners.
+        """The exact unit normals at sharp_corners, (k, 3).
 
         >>> mesh.sharp_normals.shape
         (0, 3)"""
-        return self._table(lib.MESH_SHARP_NORMALS, np.float64, 3)
+        return self._table(header.MESH_SHARP_NORMALS, np.float64, 3)
 
     def __repr__(self) -> str:
         return f"<meniscus.Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles>"
 
-    def save(self, path: Path, *, format: Optional[MeshFormat] = None, colors: Optional[Any] = None, attributes: str = "usual",
-             scale: float = 1.0, replace: bool = False) -> None:
-        """Writes a file, whole or not at all: "stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms", "ply",
-        "ply-ascii", "usda", "usdz" or "py", a script for PyMOL, by the ending of the path unless `format` says which. colors: one (3,), or one per atom (n, 3), in [0, 1]. attributes:
-        of vertices in GLB, PLY, VTP and USD, with commas between; "vdw_radii", "atom_index", "ses_kind", "ses_component" are
-        the usual ones, "mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature",
-        "atom_area", "accessible_area", "patch_area", "open_sky" and "atom_open_sky" the others; "all" but the last two, "none". scale:
-        length in the file of 1 Å. Edges shorter than 0.001 Å and triangles without area in single precision are welded in the file. OutputError
-        where the path cannot be written, or is there already and not to be replaced.
+    def save(self, path: Path, *, format: Optional[MeshFormat] = None, colors: Optional[Any] = None,
+             attributes: str = "usual", scale: float = 1.0, replace: bool = False) -> None:
+        """Writes the mesh to a file, completely or not at all. Edges shorter than 0.001 Å and triangles without area in
+        single precision are welded in the file.
+
+        format: "stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms", "ply", "ply-ascii", "usda", "usdz" or "py", a
+        script for PyMOL; None for that of the path's extension. colors: sRGB in [0, 1], (3,) or one per atom.
+        attributes: numbers of vertices in GLB, PLY, VTP and USD files, separated by commas. "usual" means "vdw_radii",
+        "atom_index", "ses_kind" and "ses_component"; the others are "mean_curvature", "gaussian_curvature",
+        "smooth_mean_curvature", "smooth_gaussian_curvature", "atom_area", "accessible_area", "patch_area", "open_sky"
+        and "atom_open_sky". "all" means all but the last two, and "none" none. scale: the length of 1 Å in the file.
+        replace: whether an existing file is replaced.
+
+        Raises OutputError if the file cannot be written, or exists and is not replaced; UsageError for an unknown
+        format or attribute; InputError for impossible colours; NotClosedError if "smesh" finds no point inside a
+        component.
 
         >>> mesh.save("pair.ply", colors=(0.9, 0.6, 0.3))
         """
-        name = os.fsencode(path)
-        if b"\0" in name:
-            raise InputError(f"path {path!r} has a zero in it, which no file's name may have")
-        file = lib.default("mesh_file", lib.MeshFile())
-        file.format, file.attributes = lib.text("format", format), lib.text("attributes", attributes)
-        file.scale, file.replace = scale, lib.flag("replace", replace)
-        put_colors(file, colors, len(self._surface))
+        name = file_name("path", path)
+        file = lib.default("mesh_file", header.MeshFile())
+        file.format, file.attributes = text("format", format), text("attributes", attributes)
+        file.scale, file.replace = scale, flag("replace", replace)
+        if colors is not None:
+            of_atoms = atom_colors(colors, len(self._surface))
+            file.atom_colors = of_atoms.ctypes.data
         lib.call("mesh_save", self._handle.pointer, name, ctypes.byref(file))
 
     def to_trimesh(self) -> Any:
-        """A trimesh.Trimesh, with `atom`, `kind` and `component` in its face_attributes.
+        """Returns a trimesh.Trimesh with "atom", "kind" and "component" in its face_attributes.
 
         >>> import trimesh
         >>> mesh.to_trimesh().is_watertight
@@ -185,7 +194,7 @@ class Mesh:
                                                 "component": np.array(self.triangle_components)})
 
     def to_pyvista(self) -> Any:
-        """A pyvista.PolyData, with "Normals" of its points and "atom", "kind", "component" of its cells.
+        """Returns a pyvista.PolyData with "Normals" as point data and "atom", "kind" and "component" as cell data.
 
         >>> import pyvista
         >>> mesh.to_pyvista().n_open_edges
@@ -202,7 +211,7 @@ class Mesh:
         return mesh
 
     def to_open3d(self) -> Any:
-        """An open3d.geometry.TriangleMesh with vertex normals.
+        """Returns an open3d.geometry.TriangleMesh with vertex normals.
 
         >>> import open3d
         >>> mesh.to_open3d().is_watertight()
@@ -210,5 +219,5 @@ class Mesh:
         open3d = importlib.import_module("open3d")
         mesh = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(np.array(self.vertices)),
                                             open3d.utility.Vector3iVector(np.array(self.triangles, dtype=np.int32)))
-        mesh.vertex_normals = open3d.utility.Vector3dVector(np.array(self.normals))  # copies: it wants them writeable
+        mesh.vertex_normals = open3d.utility.Vector3dVector(np.array(self.normals))  # Open3D needs writeable arrays
         return mesh

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Web pages of one file in which readers turn the exact surface, and their frames in other pages."""
+"""Web pages of one file, in which readers can rotate the exact surface, and their frames in other pages."""
 from __future__ import annotations
 
 import ctypes
@@ -9,16 +9,18 @@ import tempfile
 from typing import Any, Optional, Protocol, Union
 
 from . import _library as lib
+from ._arguments import flag, positive
 from ._errors import InputError, OutputError
 from ._types import Path
 
-#: What a page may do in a frame: run its script, and save a PNG. It does not get at the page around it.
+#: The permissions of a page in a frame: to run its script, and to save a PNG file. It cannot access the outer page.
 _MAY = "allow-scripts allow-downloads"
 
 
 class Page:
-    """What Scene.show() and Surface.show() give: a notebook shows it in a frame of `height` CSS pixels, in which it turns.
-    It fetches nothing and needs no kernel, so it still turns in a notebook that was saved; the notebook holds all of it.
+    """A web page, which Scene.show() and Surface.show() return. A notebook shows it in a frame of `height` CSS pixels.
+
+    The page loads nothing and needs no kernel, so it also works in a saved notebook, which contains all of it.
 
     >>> page = meniscus.Scene("helix.pdb", color="chain").show()
     >>> page.height, page.title
@@ -28,11 +30,11 @@ class Page:
 
     def __init__(self, html: str, height: int = 480) -> None:
         self._html = html
-        self._height = lib.positive("height", height)
+        self._height = positive("height", height)
 
     @property
     def html(self) -> str:
-        """The text of its file.
+        """The text of the file.
 
         >>> page.html.startswith("<!DOCTYPE html>")
         True"""
@@ -40,7 +42,7 @@ class Page:
 
     @property
     def height(self) -> int:
-        """CSS pixels of its frame.
+        """The height of the frame in CSS pixels.
 
         >>> page.height
         480"""
@@ -48,7 +50,7 @@ class Page:
 
     @property
     def title(self) -> str:
-        """As its file has it, escaped.
+        """The title of the page, escaped for HTML.
 
         >>> page.title
         'helix.pdb'"""
@@ -56,33 +58,36 @@ class Page:
         return found[1] if found else ""
 
     def save(self, path: Path, *, replace: bool = False) -> None:
-        """Writes its file, completely or not at all. replace: an existing file, else OutputError.
+        """Writes the page to a file, completely or not at all. replace: whether an existing file is replaced. Raises
+        OutputError if the file cannot be written, or exists and is not replaced.
 
         >>> page.save("helix.html", replace=True)"""
         target = os.fsdecode(path)
-        if not lib.flag("replace", replace) and os.path.lexists(target):
+        if not flag("replace", replace) and os.path.lexists(target):
             raise OutputError(f"{target}: exists already; replace=True replaces it")
         try:
-            handle, beside = tempfile.mkstemp(suffix=".part", dir=os.path.dirname(target) or ".")
+            handle, temporary = tempfile.mkstemp(suffix=".part", dir=os.path.dirname(target) or ".")
             try:
                 with open(handle, "w", encoding="utf-8", newline="\n") as file:
                     file.write(self._html)
-                os.chmod(beside, 0o666 & ~_umask())
-                os.replace(beside, target)
+                os.chmod(temporary, 0o666 & ~_umask())
+                os.replace(temporary, target)
             except BaseException:
-                os.unlink(beside)
+                os.unlink(temporary)
                 raise
         except OSError as error:
             raise OutputError(f"{target}: cannot be written: {error.strerror}") from None
 
     def frame(self, src: Optional[str] = None, *, height: Optional[int] = None) -> str:
-        """The <iframe> of another page, as wide as there is room, in which this one turns. src: the address of its saved
-        file as that page sees it; None: all of it is in the frame's text.
+        """Returns an <iframe> with this page for another page.
+
+        src: the address of the saved page, relative to the other page; None: the frame contains the whole page. height:
+        CSS pixels; None for that of the page. The frame is as wide as the other page allows.
 
         >>> page.frame("helix.html", height=300)
         '<iframe title="helix.pdb" width="100%" height="300" frameborder="0" loading="lazy" \
 sandbox="allow-scripts allow-downloads" allowfullscreen src="helix.html"></iframe>'"""
-        tall = self._height if height is None else lib.positive("height", height)
+        tall = self._height if height is None else positive("height", height)
         shown = f'srcdoc="{_quoted(self._html)}"' if src is None else f'src="{_quoted(src)}"'
         title = self.title.replace('"', "&quot;")
         return (f'<iframe title="{title}" width="100%" height="{tall}" frameborder="0" loading="lazy" sandbox="{_MAY}" '
@@ -96,13 +101,13 @@ sandbox="allow-scripts allow-downloads" allowfullscreen src="helix.html"></ifram
 
 
 class Shown(Protocol):
-    """Has a page of its own: a Scene or a Surface."""
+    """An object that can make a page: a Scene or a Surface."""
 
     def show(self) -> Page: ...
 
 
 def _quoted(text: str) -> str:
-    """As the value of an attribute between double quotes."""
+    """Returns a text as the value of an HTML attribute in double quotes."""
     return text.replace("&", "&amp;").replace('"', "&quot;")
 
 
@@ -113,8 +118,9 @@ def _umask() -> int:
 
 
 def made(make: str, *arguments: Any, height: int) -> Page:
-    """The page that meniscus_MAKE makes."""
-    lib.positive("frame_height", height)
+    """Returns the page that meniscus_MAKE makes. arguments: those of meniscus_MAKE without the last. height: CSS
+    pixels."""
+    positive("frame_height", height)
     handle = lib.Handle("page", make, *arguments)
     html, size = ctypes.c_char_p(), ctypes.c_size_t()
     lib.call("page_html", handle.pointer, ctypes.byref(html), ctypes.byref(size))
@@ -122,7 +128,7 @@ def made(make: str, *arguments: Any, height: int) -> Page:
 
 
 def page_of(shown: Any) -> Page:
-    """Of a scene or a surface; a page is one."""
+    """Returns the page of a scene or a surface, or the page itself. Raises InputError for other objects."""
     show = getattr(shown, "show", None)
     whole = shown if isinstance(shown, Page) else show() if show else None
     if not isinstance(whole, Page):
@@ -132,9 +138,11 @@ def page_of(shown: Any) -> Page:
 
 def page(shown: Union[Page, Shown], path: Optional[Path] = None, *, src: Optional[str] = None,
          height: Optional[int] = None, replace: bool = False) -> str:
-    """The <iframe> of a scene, a surface or a page for Quarto, Sphinx and static sites: what a cell or a directive of raw
-    HTML puts into their pages. path: where the page is saved, which is its address in the frame, too, unless `src` is;
-    None: all of it is in the frame's text. height: of the frame, CSS pixels. Errors are those of show() and Page.save().
+    """Returns an <iframe> of a scene, a surface or a page, for raw HTML in Quarto, Sphinx and static sites.
+
+    path: the file to which the page is saved; None: the frame contains the whole page. src: the address of the file in
+    the frame; None for the path. height: the height of the frame in CSS pixels. replace: whether an existing file is
+    replaced. Raises the errors of show() and Page.save().
 
     >>> scene = meniscus.Scene("helix.pdb")
     >>> meniscus.page(scene, "helix.html", height=300, replace=True).startswith("<iframe ")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures, their cameras, and the renderers that draw them."""
+"""Pictures, cameras, and the renderers that draw pictures."""
 from __future__ import annotations
 
 import atexit
@@ -12,14 +12,19 @@ from typing import Any, Optional
 
 import numpy as np
 
+from . import _header as header
+from ._arguments import number, word
 from ._arrays import atom_colors, real_array
 from ._errors import InputError
+from ._library import Handle, call
 from ._types import AnyArray, Bytes, Projection
-from ._library import DEVICES, ORTHOGRAPHIC, PROJECTIONS, CameraStruct, Handle, call, number, word
+
+DEVICES = {"cpu": header.CPU, "auto": header.AUTO, "gpu": header.GPU, "software": header.SOFTWARE}
+_PROJECTIONS = {"perspective": header.PERSPECTIVE, "orthographic": header.ORTHOGRAPHIC}
 
 
 class _Sealed:
-    """Has the fields of its dataclass and takes no others."""
+    """A base class that refuses attributes other than the fields of the dataclass."""
 
     def __setattr__(self, name: str, value: Any) -> None:
         fields = getattr(self, "__dataclass_fields__")
@@ -30,10 +35,11 @@ class _Sealed:
 
 @dataclass
 class Camera(_Sealed):
-    """Where a picture is taken from, at position, towards target, both in Å; up points to its upper edge.
+    """A camera.
 
-    projection: "perspective" or "orthographic". vertical_fov: degrees between the picture's lower and upper edge;
-    perspective only. height: Å between them; orthographic only.
+    position, target: the point from which and the point to which the camera looks, in Å. up: a direction that points to
+    the upper edge of the picture. projection: "perspective" or "orthographic". vertical_fov: degrees between the lower
+    and the upper edge of the picture; perspective only. height: Å between these edges; orthographic only.
 
     >>> camera = meniscus.surface([[0, 0, 0]], 1.7).camera(projection="orthographic")
     >>> camera.height = 10.0
@@ -46,15 +52,16 @@ class Camera(_Sealed):
     vertical_fov: float = 30.0
     height: float = 1.0
 
-    def _struct(self) -> CameraStruct:
-        struct = CameraStruct(ctypes.sizeof(CameraStruct))
+    def _struct(self) -> header.Camera:
+        struct = header.Camera(ctypes.sizeof(header.Camera))
         struct.position, struct.target = _three(self.position, "position", 1), _three(self.target, "target", 1)
         struct.up, struct.vertical_fov, struct.height = _three(self.up, "up"), self.vertical_fov, self.height
-        struct.projection = word("projection", self.projection, PROJECTIONS)
+        struct.projection = word("projection", self.projection, _PROJECTIONS)
         return struct
 
 
 def _three(values: Any, name: str, power: Optional[int] = None) -> tuple[float, float, float]:
+    """Returns three numbers, converted to Å to this power if they have a unit. Raises InputError for other shapes."""
     array = real_array(values, name, power)
     if array.shape != (3,):
         raise InputError(f"{name} has the shape {array.shape}; it has to be (3,)")
@@ -63,18 +70,20 @@ def _three(values: Any, name: str, power: Optional[int] = None) -> tuple[float, 
 
 
 def framed(surface: Handle, aspect: float, projection: Projection) -> Camera:
-    """The camera that shows all of a surface."""
-    c = CameraStruct(ctypes.sizeof(CameraStruct))
-    call("surface_camera", surface.pointer, number("aspect", aspect), word("projection", projection, PROJECTIONS),
+    """Returns the camera that shows all atoms of a surface. aspect: width / height of the picture."""
+    c = header.Camera(ctypes.sizeof(header.Camera))
+    call("surface_camera", surface.pointer, number("aspect", aspect), word("projection", projection, _PROJECTIONS),
          ctypes.byref(c))
     return Camera(_three(c.position, "position"), _three(c.target, "target"), _three(c.up, "up"),
-                  "orthographic" if c.projection == ORTHOGRAPHIC else "perspective", c.vertical_fov, c.height)
+                  "orthographic" if c.projection == header.ORTHOGRAPHIC else "perspective", c.vertical_fov, c.height)
 
 
 @dataclass
 class Picture(_Sealed):
-    """What was drawn; a notebook shows it. pixels: (height, width, 4) bytes in sRGB, red, green, blue and alpha, which is
-    not multiplied in; rows from the top.
+    """A picture, which a notebook shows.
+
+    pixels: bytes, (height, width, 4), rows from the top: sRGB red, green and blue, and alpha, which is not
+    premultiplied.
 
     >>> picture = meniscus.surface([[0, 0, 0]], 1.7).render(size="80x60", device="cpu")
     >>> picture.pixels.shape, picture.pixels.dtype
@@ -85,7 +94,7 @@ class Picture(_Sealed):
         return np.array(self.pixels, dtype=dtype) if copy or dtype else self.pixels
 
     def png(self) -> bytes:
-        """The bytes of a PNG file.
+        """Returns the bytes of a PNG file.
 
         >>> picture.png()[1:4]
         b'PNG'"""
@@ -94,7 +103,7 @@ class Picture(_Sealed):
         def chunk(name: bytes, content: bytes) -> bytes:
             return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
 
-        rows = np.zeros((height, 1 + 4 * width), dtype=np.uint8)  # each begins with its filter: none
+        rows = np.zeros((height, 1 + 4 * width), dtype=np.uint8)  # each row begins with the number of its filter, 0
         rows[:, 1:] = self.pixels.reshape(height, 4 * width)
         return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)) +
                 chunk(b"sRGB", b"\0") + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)) + chunk(b"IEND", b""))
@@ -108,11 +117,11 @@ class Picture(_Sealed):
 
 _renderers: dict[str, Handle] = {}
 _renderers_lock = threading.Lock()
-atexit.register(_renderers.clear)  # while there is still a thread to end
+atexit.register(_renderers.clear)  # before Python ends, so that threads of renderers end regularly
 
 
 def renderer(device: str) -> Handle:
-    """One for all pictures: kernels are compiled once."""
+    """Returns the renderer of a device. Each device has one, so that kernels are compiled once."""
     kind = word("device", device, DEVICES)
     with _renderers_lock:
         if device not in _renderers:
@@ -121,14 +130,14 @@ def renderer(device: str) -> Handle:
 
 
 def blank(scene: Handle) -> Picture:
-    """Of the size of a scene."""
+    """Returns a transparent picture of the size of a scene."""
     width, height = ctypes.c_int32(), ctypes.c_int32()
     call("scene_size", scene.pointer, ctypes.byref(width), ctypes.byref(height))
     return Picture(np.zeros((height.value, width.value, 4), dtype=np.uint8))
 
 
-def of_picture(colors: Any, atom_count: int, camera: Optional[Camera]) -> tuple[Any, Optional[CameraStruct]]:
-    """As meniscus_render() takes them."""
+def of_picture(colors: Any, atom_count: int, camera: Optional[Camera]) -> tuple[Any, Optional[header.Camera]]:
+    """Returns the colours of atoms and the camera as arguments of meniscus_render(); None stays None."""
     if camera is not None and not isinstance(camera, Camera):
         raise InputError(f"camera is a {type(camera).__name__}, not a meniscus.Camera")
     return None if colors is None else atom_colors(colors, atom_count), None if camera is None else camera._struct()
@@ -136,7 +145,7 @@ def of_picture(colors: Any, atom_count: int, camera: Optional[Camera]) -> tuple[
 
 def painted(surface: Handle, atom_count: int, scene: Handle, colors: Any, camera: Optional[Camera],
             device: str) -> Picture:
-    """See Surface.render."""
+    """Returns a picture of a surface, as Surface.render() does."""
     of_atoms, seen_by = of_picture(colors, atom_count, camera)
     picture = blank(scene)
     call("render", renderer(device).pointer, surface.pointer, scene.pointer, ctypes.byref(seen_by) if seen_by else None,

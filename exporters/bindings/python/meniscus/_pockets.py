@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pockets, tunnels and cavities between the atoms of a surface."""
+"""Pockets, tunnels and cavities of a surface."""
 from __future__ import annotations
 
 import ctypes
@@ -7,20 +7,22 @@ from typing import NamedTuple
 
 import numpy as np
 
+from . import _header as header
 from . import _library as lib
 from ._arrays import view
 from ._types import AnyArray, Floats, Indices, PocketKind
 
 
 class Pocket(NamedTuple):
-    """One connected part of what the probe can fill of the solid that a large one rolls over. Arrays are read-only.
+    """A pocket, tunnel or cavity: a connected space that the probe can fill inside the surface of a large probe. Arrays
+    are read-only.
 
-    volume: Å³. volume_excess: Å³ by which that is too large at most, to first order, for mouths lie outside.
-    area: Å² of its whole border. mouth_areas: (n,) Å², the largest first.
-    depth: Å, of the deepest probe at rest below the large probe's surface.
-    middle: (3,) Å, the mean of the probes at rest.
-    atoms: (n,) those that line it, which the probe in it can touch; ascending.
-    probes: (n, 3) Å, centres of the probe at rest in it, where it touches three atoms or more.
+    volume: Å³. volume_excess: Å³; to first order, the volume is too large by at most this, because mouths lie slightly
+    outside. area: Å² of the whole boundary. mouth_areas: Å², (k,), in descending order.
+    depth: Å; the distance of the deepest fixed probe from the large probe's surface.
+    middle: the mean of the centres of fixed probes in Å, (3,).
+    atoms: the indices of the atoms that the probe can touch in the pocket, (k,), in ascending order.
+    probes: the centres in Å of fixed probes, which touch three atoms or more, (k, 3).
 
     >>> pocket = meniscus.surface(meniscus.read("helix.pdb")).pockets()[0]
     >>> round(pocket.volume, 2), round(pocket.depth, 2), len(pocket.atoms)
@@ -36,7 +38,7 @@ class Pocket(NamedTuple):
 
     @property
     def kind(self) -> PocketKind:
-        """"cavity" without a mouth, "pocket" with one, "tunnel" with more.
+        """The kind: "cavity" without a mouth, "pocket" with one, and "tunnel" with more.
 
         >>> pocket.kind
         'cavity'"""
@@ -45,7 +47,7 @@ class Pocket(NamedTuple):
 
     @property
     def wall_area(self) -> float:
-        """Å² of its border that is not one of its mouths.
+        """The area of the boundary in Å², without the mouths.
 
         >>> round(pocket.wall_area, 2)
         386.13"""
@@ -54,14 +56,15 @@ class Pocket(NamedTuple):
 
 def pockets_of(surface: lib.Handle, large_probe: float, trim: float, min_volume: float,
                mouth_tolerance: float) -> list[Pocket]:
-    options = lib.default("pocket_options", lib.PocketOptions())
+    """Returns the pockets of a surface. Parameters and errors are those of Surface.pockets()."""
+    options = lib.default("pocket_options", header.PocketOptions())
     options.large_probe_radius, options.trim = large_probe, trim
     options.min_volume, options.mouth_tolerance = min_volume, mouth_tolerance
     handle = lib.Handle("pockets", "surface_pockets", surface.pointer, ctypes.byref(options))
     rows, mouths, atoms, probes = (
         view(handle, "pockets_table", table, row, columns)
-        for table, row, columns in ((lib.POCKETS, lib.PocketRow, 0), (lib.POCKET_MOUTHS, np.float64, 0),
-                                    (lib.POCKET_ATOMS, np.uint32, 0), (lib.POCKET_PROBES, np.float64, 3)))
+        for table, row, columns in ((header.POCKETS, header.Pocket, 0), (header.POCKET_MOUTHS, np.float64, 0),
+                                    (header.POCKET_ATOMS, np.uint32, 0), (header.POCKET_PROBES, np.float64, 3)))
 
     def part(all_rows: AnyArray, first: int, count: int) -> AnyArray:
         return all_rows[first:first + count]

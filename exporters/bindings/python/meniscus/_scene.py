@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scenes: everything that can be chosen of a picture, by the names of the program's table of properties."""
+"""Scenes: all settings of a picture, by the names of the program's properties."""
 from __future__ import annotations
 
 import ctypes
@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
 
 import numpy as np
 
+from . import _header as header
 from . import _library as lib
+from ._arguments import plain
 from ._errors import InputError, UsageError
 from ._page import Page, made
 from ._picture import Picture, blank, renderer
 from ._types import Device, Path
-from ._units import plain
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -25,13 +26,13 @@ Value = Union[bool, int, float, str]
 
 
 class Property(NamedTuple):
-    """What can be set in a scene.
+    """A property of scenes.
 
-    name: "depth_cue". key: of scene files, "look.depth_cue". value: what the help calls the value, "WIDTH".
-    help: what it does, in its unit. words: all that there are, or some that are usual. initial: the default, in words.
-    lowest, highest: of numbers and of lengths in pixels; equal where any is possible.
-    type: meniscus_value_type of meniscus.h. repeatable: whether scenes have a list of it.
-    of_surface: whether Surface.render() has it, too.
+    name: such as "depth_cue". key: the key in scene files, such as "look.depth_cue". value: the placeholder for the
+    value in the help, such as "WIDTH". help: the sentence of the help. words: all values of a property that is a word,
+    or usual values. initial: the default in the help. lowest, highest: the range of numbers and of lengths in pixels;
+    equal for any number. type: a meniscus_value_type of meniscus.h. repeatable: whether the property has a list of
+    values. of_surface: whether Surface.render() has the property, too.
 
     >>> known = {p.name: p for p in meniscus.properties()}
     >>> known["depth_cue"].key, known["depth_cue"].highest
@@ -50,24 +51,26 @@ class Property(NamedTuple):
 
 
 def properties() -> list[Property]:
-    """All that can be set in a scene, in the order of the program's help.
+    """Returns all properties of scenes, in the order of the program's help.
 
     >>> [p.name for p in meniscus.properties() if p.of_surface][:3]
     ['color', 'preset', 'light']"""
-    array = lib.Array()
+    array = header.Array()
     lib.call("scene_properties", ctypes.byref(array))
 
-    def told(row: lib.Property) -> Property:
+    def property_of(row: header.Property) -> Property:
         texts = [getattr(row, field).decode() for field in ("name", "key", "value", "help", "words", "initial")]
         words = [word for word in texts.pop(4).split("|") if word]
-        name, key, value, explained, initial = texts
-        return Property(name, key, value, explained, words, initial, row.lowest, row.highest, row.type,
+        name, key, value, help_text, initial = texts
+        return Property(name, key, value, help_text, words, initial, row.lowest, row.highest, row.type,
                         bool(row.repeatable), bool(row.of_surface))
 
-    return [told(lib.Property.from_address(array.data + n * array.stride)) for n in range(array.count)]
+    return [property_of(header.Property.from_address(array.data + n * array.stride)) for n in range(array.count)]
 
 
 def _text_of(name: str, value: Any) -> bytes:
+    """Returns a value of a property as the text that the program takes. Raises InputError for other types, for a value
+    with a unit, and for a text with a zero byte."""
     if isinstance(value, (bool, np.bool_)):
         return b"true" if value else b"false"
     if isinstance(value, (str, bytes, os.PathLike)):
@@ -83,14 +86,16 @@ def _text_of(name: str, value: Any) -> bytes:
     return repr(float(number)).encode()
 
 
-#: Bytes of a page that a scene shows unasked.
-_MOST_IN_NOTEBOOK = 15_000_000
+#: The size in bytes of the largest page that a notebook shows for a scene; for larger ones it shows a picture.
+_LARGEST_SHOWN = 15_000_000
 
 
 class Scene:
-    """A scene of the program, with its defaults: Scene("1ubq.cif", color="chain", legend=True).render(). Values
-    are read and set by their names or keys, scene["look.depth_cue"], or as attributes, scene.depth_cue. None is the
-    default; a list where there may be several. UsageError begins with the name of what cannot be.
+    """All settings of a picture, with the defaults of the program: Scene("1ubq.cif", color="chain", legend=True).
+
+    Properties are read and set as attributes, scene.depth_cue, or by their names or keys, scene["look.depth_cue"]. None
+    means the default. A repeatable property has a list of values. An unknown name or an invalid value raises
+    UsageError, whose text begins with the name.
 
     >>> scene = meniscus.Scene("helix.pdb", color="chain", size="80x60")
     >>> scene["look.depth_cue"] = 0.5
@@ -107,8 +112,8 @@ class Scene:
 
     @classmethod
     def read(cls, path: Path) -> Scene:
-        """A scene file of the program. Paths in it do not lead out of its folder, for it may come from anybody; InputError
-        names the place in the file.
+        """Reads a scene file of the program. Paths in the file must not lead out of its folder, because a scene may
+        come from anyone. Raises InputError for an invalid file, with the line or the key.
 
         >>> _ = open("scene.json", "w").write(scene.json())
         >>> meniscus.Scene.read("scene.json").color
@@ -117,7 +122,8 @@ class Scene:
 
     @classmethod
     def parse(cls, json: str) -> Scene:
-        """The text of a scene file. Paths are seen from the working directory. InputError names the place of a fault.
+        """Reads the text of a scene file. Paths are relative to the working directory. Raises InputError for an invalid
+        text, with the line or the key.
 
         >>> meniscus.Scene.parse(scene.json()).size
         '80x60'"""
@@ -130,11 +136,11 @@ class Scene:
         return scene
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickles and copies hold the text of its scene file, with paths as seen from the working directory."""
+        """Pickles and copies have the text of the scene file, with paths relative to the working directory."""
         return Scene.parse, (self.json(),)
 
     def set(self, **values: Unpack[SceneValues]) -> Scene:
-        """Sets several values, and returns the scene. UsageError where a name or a value cannot be.
+        """Sets several properties, and returns this scene. Raises UsageError for an unknown name or an invalid value.
 
         >>> scene.set(preset="flat", samples=4).samples
         4"""
@@ -156,13 +162,14 @@ class Scene:
         known = next(p for p in properties() if name in (p.name, p.key))
         if known.repeatable:
             return texts
-        if known.type == lib.VALUE_FLAG:
+        if known.type == header.VALUE_FLAG:
             return texts[0] == "true"
-        if known.type == lib.VALUE_COUNT:
+        if known.type == header.VALUE_COUNT:
             return int(texts[0])
-        return float(texts[0]) if known.type == lib.VALUE_NUMBER else texts[0]
+        return float(texts[0]) if known.type == header.VALUE_NUMBER else texts[0]
 
     def _texts(self, name: str) -> Iterator[str]:
+        """Yields the values of a property as texts."""
         text = ctypes.c_char_p()
         n = 0
         while True:
@@ -176,7 +183,7 @@ class Scene:
         self[name] = value
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):  # of Python's own protocols
+        if name.startswith("_"):  # such as __deepcopy__
             raise AttributeError(name)
         try:
             return self[name]
@@ -187,8 +194,8 @@ class Scene:
         return [*super().__dir__(), *(known.name for known in properties())]
 
     def json(self, folder: Optional[Path] = None) -> str:
-        """As a scene file has it: what is not the default. folder: from which its paths are seen; None: the working
-        directory.
+        """Returns the text of a scene file, without the properties that have their defaults. folder: paths in the text
+        are relative to this folder; None: to the working directory.
 
         >>> "depth_cue" in scene.json()
         True"""
@@ -198,8 +205,11 @@ class Scene:
         return (text.value or b"").decode("utf-8", "replace")
 
     def render(self, device: Device = "auto") -> Picture:
-        """The picture that `meniscus render` makes of it, byte for byte. device: where all is computed and drawn: "auto", a
-        hardware GPU if there is one, else "cpu"; GpuError where "gpu" or "software" is asked for and there is no GL.
+        """Returns the picture that `meniscus render` draws of the scene, byte for byte.
+
+        device: "cpu", "gpu", "software" (GL on the CPU), or "auto", a hardware GPU if one works, else the CPU. Raises
+        UsageError if the scene has no molecule or values that contradict each other, InputError if a file cannot be
+        read, and GpuError if the device needs GL and there is none.
 
         >>> scene.render(device="cpu")
         <meniscus.Picture: 80x60>"""
@@ -209,8 +219,10 @@ class Scene:
         return picture
 
     def show(self, *, frame_height: int = 480) -> Page:
-        """The page that `meniscus export page` makes of it: a notebook shows it in a frame of so many CSS pixels, in which
-        it turns. UsageError for what pages do not show.
+        """Returns the page that `meniscus export page` makes of the scene. A notebook shows it.
+
+        frame_height: the height of the page in a notebook, in CSS pixels. Raises UsageError for properties that pages
+        do not show, and the errors of render().
 
         >>> scene.show().save("turns.html", replace=True)"""
         return made("scene_page", self._handle.pointer, height=frame_height)
@@ -219,10 +231,10 @@ class Scene:
         if self["file"] is None:
             return None
         try:
-            shown = self.show()
+            page = self.show()
         except UsageError:
-            return None  # the picture will do
-        return shown._repr_html_() if len(shown.html) <= _MOST_IN_NOTEBOOK else None
+            return None  # a notebook shows _repr_png_() then
+        return page._repr_html_() if len(page.html) <= _LARGEST_SHOWN else None
 
     def _repr_png_(self) -> Optional[bytes]:
         return None if self["file"] is None else self.render().png()

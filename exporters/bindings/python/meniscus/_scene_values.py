@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The types of a scene's values, written by scripts/check/scene_values.py from the table of properties."""
+"""The types of the values of scenes, written by scripts/check/scene_values.py from the properties of the library."""
 from __future__ import annotations
 
 import os
@@ -11,7 +11,7 @@ Text = Union[str, float]
 
 
 class SurfaceValues(TypedDict, total=False):
-    """Of the picture of a surface: look and size."""
+    """The properties of a picture of a surface: its look and its size."""
     #: SCHEME: Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker),
     #: chain, copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's
     #: confidence), snfg (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor,
@@ -102,7 +102,7 @@ class SurfaceValues(TypedDict, total=False):
 
 
 class SceneValues(SurfaceValues, total=False):
-    """Of a scene."""
+    """The properties of a scene."""
     #: Molecule
     file: Path
     #: FILE: Add the atoms of another molecule file, as model 2, 3 ... of the first. Repeatable

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Elements and positions of the molecules of other packages, none of which is imported here."""
+"""Reads elements and positions from the molecules of other packages, without importing these packages."""
 from __future__ import annotations
 
 import warnings
@@ -9,15 +9,20 @@ import numpy as np
 
 from ._errors import InputError
 
+#: The functions of _adapters.py that take the objects of each package.
 TAKEN_BY = {"MDAnalysis": "from_mdanalysis", "mdtraj": "from_mdtraj", "prody": "from_prody", "biotite": "from_biotite",
-         "Bio": "from_biopython", "ase": "from_ase", "rdkit": "from_rdkit", "openmm": "from_openmm",
-         "gemmi": "from_gemmi"}
+            "Bio": "from_biopython", "ase": "from_ase", "rdkit": "from_rdkit", "openmm": "from_openmm",
+            "gemmi": "from_gemmi"}
 
 
 class Source(NamedTuple):
-    elements: Any            # symbols or atomic numbers, one per atom
-    frames: Iterator[Any]    # positions, in Å or with their unit; the frame at hand first
-    altlocs: Any = ()        # letters of alternate locations, where atoms of all may be there
+    """The atoms of a molecule of another package.
+
+    elements: symbols or atomic numbers, (n,), or None. frames: positions, (n, 3), in Å or with a unit, of one frame
+    after the other. altlocs: the letters of alternate locations, if several may be present."""
+    elements: Any
+    frames: Iterator[Any]
+    altlocs: Any = ()
 
 
 def _mdanalysis(atoms: Any, every: bool) -> Source:
@@ -28,7 +33,7 @@ def _mdanalysis(atoms: Any, every: bool) -> Source:
 
 def _mdtraj(trajectory: Any, every: bool) -> Source:
     elements = [atom.element.symbol if atom.element else "" for atom in trajectory.topology.atoms]
-    return Source(elements, (np.multiply(frame, 10.0, dtype=np.float64) for frame in trajectory.xyz))  # nm
+    return Source(elements, (np.multiply(frame, 10.0, dtype=np.float64) for frame in trajectory.xyz))  # nm to Å
 
 
 def _prody(atoms: Any, every: bool) -> Source:
@@ -79,7 +84,7 @@ def _rdkit(molecule: Any, every: bool) -> Source:
 
 
 def _openmm(source: Any, every: bool) -> Source:
-    """Positions that have no unit are refused: they would be nm in OpenMM, and Å here."""
+    """Refuses positions without a unit, which are nm in OpenMM but Å here."""
     def frames() -> Iterator[Any]:
         if isinstance(source, tuple):
             yield source[1]
@@ -115,20 +120,22 @@ _READERS: dict[str, Callable[[Any, bool], Source]] = {
     "rdkit": _rdkit, "openmm": _openmm, "gemmi": _gemmi}
 
 
-def package_of(thing: Any) -> str:
-    """Which of those packages a thing, or the first thing of a list, belongs to; "" if none."""
-    if isinstance(thing, (list, tuple)):
-        return package_of(thing[0]) if thing else ""
-    names = (kind.__module__.split(".")[0] for kind in type(thing).__mro__)
+def package_of(value: Any) -> str:
+    """Returns the package that defines an object, or the first object of a list; "" for packages that are not
+    supported."""
+    if isinstance(value, (list, tuple)):
+        return package_of(value[0]) if value else ""
+    names = (kind.__module__.split(".")[0] for kind in type(value).__mro__)
     return next((name for name in names if name in _READERS), "")
 
 
-def opened(thing: Any, package: str, every: bool) -> Source:
-    """What a package's thing holds. every: all frames of it."""
+def opened(molecule: Any, package: str, every: bool) -> Source:
+    """Returns the atoms of a molecule of a package. every: whether the source has all frames, not only the current one.
+    Raises InputError if the object has no atoms."""
     try:
-        source = _READERS[package](thing, every)
+        source = _READERS[package](molecule, every)
     except (AttributeError, IndexError, TypeError) as error:
-        raise InputError(f"a {package}.{type(thing).__name__} has no atoms that {TAKEN_BY[package]}() takes: "
+        raise InputError(f"a {package}.{type(molecule).__name__} has no atoms that {TAKEN_BY[package]}() takes: "
                          f"{error}") from error
     letters = {str(letter).strip(" .\0") for letter in source.altlocs} - {""}
     if len(letters) > 1:

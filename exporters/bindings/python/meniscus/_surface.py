@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The surface of some atoms: its measures, patches, meshes, distances and pictures."""
+"""The surface of atoms: its area and volume, patches, meshes, distances and pictures."""
 from __future__ import annotations
 
 import ctypes
@@ -8,27 +8,33 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union, ove
 
 import numpy as np
 
+from . import _header as header
 from . import _library as lib
+from ._arguments import flag, warn_of_nanometres, word
 from ._arrays import doubles, numbers, real_array, view
 from ._errors import GpuError, InputError
 from ._mesh import Mesh
 from ._page import Page, made
-from ._picture import Camera, Picture, framed, of_picture, painted
+from ._picture import DEVICES, Camera, Picture, framed, of_picture, painted
 from ._pockets import Pocket, pockets_of
 from ._scene import Scene
 from ._structure import Structure
 from ._types import AnyArray, Bytes, Device, Floats, Indices, Kind, Projection, Quantity, Rows
-from ._units import warn_of_nanometres
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._scene_values import SurfaceValues
 
+_KINDS = {"ses": header.SES, "sas": header.SAS, "vdw": header.VDW}
+_GRADIENTS = {"area": header.GRADIENT_AREA, "volume": header.GRADIENT_VOLUME, "sas_area": header.GRADIENT_SAS_AREA,
+              "sas_volume": header.GRADIENT_SAS_VOLUME}
+_COUNTS = [name for name, kind in header.Summary._fields_ if kind is ctypes.c_uint64]
+
 
 class Patches(NamedTuple):
-    """The analytic patches: structured arrays convex, toroidal, concave and planes, whose rows meniscus.h describes, and
-    contacts and cuts, (n,), which they index.
+    """The analytic patches of a surface. convex, toroidal, concave and planes are structured arrays, whose rows
+    meniscus.h describes; contacts and cuts are arrays of indices, (k,), to which these rows refer.
 
     >>> patches = meniscus.surface([[0, 0, 0], [3, 0, 0]], 1.7).patches
     >>> len(patches.convex), len(patches.toroidal), len(patches.concave)
@@ -44,15 +50,25 @@ class Patches(NamedTuple):
 
 
 def _radii_of(radii: Any) -> AnyArray:
-    """A copy; of no dimension where one counts for all."""
-    given = real_array(radii, "radii", power=1)
-    return np.array(given, dtype=np.float64) if given.ndim == 0 else np.array(numbers(given, "radii")[0])
+    """Returns a copy of the radii in Å: (n,), or () if one radius is that of all atoms."""
+    array = real_array(radii, "radii", power=1)
+    return np.array(array, dtype=np.float64) if array.ndim == 0 else np.array(numbers(array, "radii")[0])
+
+
+def _summary_of(handle: lib.Handle) -> header.Summary:
+    """Returns the numbers of a surface."""
+    summary = header.Summary(ctypes.sizeof(header.Summary))
+    lib.call("surface_summary", handle.pointer, ctypes.byref(summary))
+    summary.owner = handle  # which owns the text in summary.device
+    return summary
 
 
 class Surface:
-    """The exact, closed surface of some atoms; surface() and its like make it. Arrays are read-only views, and n counts
-    atoms. May be used by many threads at once: update() replaces what the others get from then on, never what they
-    have.
+    """The exact, closed surface of atoms, which surface() and the from_...() functions compute.
+
+    In the shapes of arrays, n is the number of atoms; arrays are read-only views. Many threads may use a surface at
+    once: after update(), they get the arrays of the new frame, while the arrays that they have remain those of the old
+    one.
 
     >>> s = meniscus.surface([[0, 0, 0], [1.5, 0, 0], [2.3, 1.3, 0], [6, 0, 0]], [1.7, 1.7, 1.52, 1.7])
     >>> s
@@ -62,12 +78,12 @@ class Surface:
 
     def __init__(self, xyz: Any, radii: Any, probe: float, kind: Kind, device: Device, threads: int,
                  verify: bool) -> None:
-        options = lib.default("options", lib.Options())
-        options.probe_radius, options.threads, options.verify = probe, threads, lib.flag("verify", verify)
-        options.kind = lib.word("kind", kind, lib.KINDS)
+        options = lib.default("options", header.Options())
+        options.probe_radius, options.threads, options.verify = probe, threads, flag("verify", verify)
+        options.kind = word("kind", kind, _KINDS)
         if options.probe_radius == 0 and kind != "vdw":
             raise InputError('probe is 0; kind="vdw" is the surface without a probe')
-        options.device = lib.word("device", device, lib.DEVICES)
+        options.device = word("device", device, DEVICES)
         self._kind: Kind = kind
         self._options = (float(options.probe_radius), kind, device, int(options.threads), bool(options.verify))
         self._computer = lib.Handle("computer", "computer_new", ctypes.byref(options))
@@ -78,16 +94,19 @@ class Surface:
         positions, positions_type = numbers(xyz, "xyz", 3, power=1)
         if radii.ndim == 1 and len(radii) != len(positions):
             raise InputError(f"there are {len(positions)} positions and {len(radii)} radii")
-        radii_type = lib.FLOAT if radii.dtype == np.float32 else lib.DOUBLE
-        atoms = lib.Atoms(ctypes.sizeof(lib.Atoms), len(positions), positions.ctypes.data, radii.ctypes.data,
+        radii_type = header.FLOAT if radii.dtype == np.float32 else header.DOUBLE
+        atoms = header.Atoms(ctypes.sizeof(header.Atoms), len(positions), positions.ctypes.data, radii.ctypes.data,
                           positions.strides[0], 0, positions_type, radii_type, int(radii.ndim == 0), 0)
         handle = lib.Handle("surface", "compute", self._computer.pointer, ctypes.byref(atoms))
         warn_of_nanometres(positions)
         return handle
 
     def update(self, xyz: Any, radii: Optional[Any] = None) -> Surface:
-        """The next frame: other positions, and radii where they change too. Returns itself. Arrays that were taken
-        before keep the frame they belong to. Errors are those of surface(), and leave the frame before.
+        """Computes the surface of the next frame in this object, and returns the object. Arrays that exist already
+        remain those of the previous frame.
+
+        xyz: the new positions, (n, 3) Å. radii: the new radii in Å, (n,) or one for all atoms; None if they do not
+        change. Raises the errors of surface(); the object then remains at the previous frame.
 
         >>> round(s.update([[0, 0, 0], [1.5, 0, 0], [2.3, 1.3, 0], [9, 0, 0]]).area, 2)
         99.87"""
@@ -99,11 +118,11 @@ class Surface:
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickles hold the atoms and the options; what is read from one is computed again, to the same bits."""
+        """Pickles have the atoms and the options. Unpickling computes the surface again, with bitwise equal results."""
         return Surface, (np.array(self.balls["center"]), self._radii, *self._options)
 
     def __copy__(self) -> Surface:
-        """The same frame, which update() of the other leaves as it is; nothing is computed for it."""
+        """Returns a surface of the same frame without computing it again. update() of one does not change the other."""
         other = Surface.__new__(Surface)
         other._computer, other._handle, other._kind = self._computer, self._handle, self._kind
         other._options, other._radii = self._options, self._radii
@@ -112,18 +131,14 @@ class Surface:
     def __deepcopy__(self, memo: Any) -> Surface:
         return self.__copy__()
 
-    # ---- measures
+    # ---- numbers
 
-    def _summary(self) -> lib.Summary:
-        summary = lib.Summary(ctypes.sizeof(lib.Summary))
-        handle = self._handle
-        lib.call("surface_summary", handle.pointer, ctypes.byref(summary))
-        summary.owner = handle  # of its text
-        return summary
+    def _summary(self) -> header.Summary:
+        return _summary_of(self._handle)
 
     @property
     def area(self) -> float:
-        """Å² of all components.
+        """The area of all components in Å².
 
         >>> round(s.area, 2)
         100.83"""
@@ -131,7 +146,7 @@ class Surface:
 
     @property
     def volume(self) -> float:
-        """Å³ of the solid: outer components less cavities.
+        """The volume of the solid in Å³: of outer components without cavities.
 
         >>> round(s.volume, 2)
         67.39"""
@@ -139,7 +154,7 @@ class Surface:
 
     @property
     def probe(self) -> float:
-        """Å; 0 of kind "vdw".
+        """The radius of the probe in Å; 0 for kind "vdw".
 
         >>> s.probe
         1.4"""
@@ -147,7 +162,7 @@ class Surface:
 
     @property
     def kind(self) -> Kind:
-        """"ses", "sas" or "vdw".
+        """The kind of surface: "ses", "sas" or "vdw".
 
         >>> s.kind
         'ses'"""
@@ -155,7 +170,7 @@ class Surface:
 
     @property
     def device(self) -> str:
-        """What computed it: "cpu (16 threads)", or GL renderer and version.
+        """The device that computed the surface: "cpu (16 threads)", or the GL renderer and version.
 
         >>> s.device.startswith("cpu")
         True"""
@@ -163,7 +178,7 @@ class Surface:
 
     @property
     def grown_by(self) -> float:
-        """Å by which radii were grown at most to tell ties apart; 0 as a rule.
+        """The largest amount in Å by which radii were increased to resolve ties; usually 0.
 
         >>> s.grown_by
         0.0"""
@@ -171,7 +186,8 @@ class Surface:
 
     @property
     def exact_within(self) -> float:
-        """Å: the surface is exact for radii that differ from the given ones by so much at most; 0: for the given ones.
+        """A distance in Å: the surface is exact for radii that differ from the given ones by at most this. It is 0 if
+        the surface is exact for the given radii.
 
         >>> s.exact_within
         0.0"""
@@ -179,12 +195,13 @@ class Surface:
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many atoms, patches of each kind, faces, borders, vertices, components, cavities.
+        """The numbers of atoms, patches of each kind, faces, borders, vertices, components and cavities, by their names
+        in meniscus_summary of meniscus.h.
 
         >>> s.counts["atoms"], s.counts["cavities"]
         (4, 0)"""
         summary = self._summary()
-        return {name: getattr(summary, name) for name in lib.COUNTS}
+        return {name: getattr(summary, name) for name in _COUNTS}
 
     def __len__(self) -> int:
         return int(self._summary().atoms)
@@ -196,96 +213,102 @@ class Surface:
 
     @property
     def components(self) -> Rows:
-        """Rows of kind (0 outer, 1 cavity), area, volume (signed: a cavity has the negative of its own, so that the sum is
-        the solid's), euler; outer ones first.
+        """A structured array with a row per component, outer ones first: kind (0 outer, 1 cavity), area in Å², volume
+        in Å³ (negative for cavities, so that the sum is that of the solid), and euler, the Euler characteristic.
 
         >>> s.components["area"].round(2).tolist()
         [100.83]"""
-        return self._table(lib.COMPONENTS, lib.Component)
+        return self._table(header.COMPONENTS, header.Component)
 
     @property
     def atom_areas(self) -> Floats:
-        """(n,) Å²: what of the surface is nearest to the contact of each atom; the sum is the area.
+        """The areas of the atoms in Å², (n,): for each atom, the area of the part of the surface whose nearest contact
+        point is on the atom. The sum is the area of the surface.
 
         >>> s.atom_areas.round(2).tolist()
         [26.13, 17.92, 19.86, 36.92]"""
-        return self._table(lib.ATOM_AREAS, np.float64)
+        return self._table(header.ATOM_AREAS, np.float64)
 
     @property
     def atom_sas_areas(self) -> Floats:
-        """(n,) Å² of the solvent-accessible surface, atom by atom; UsageError of kinds other than "ses".
+        """The solvent-accessible areas of the atoms in Å², (n,). Raises UsageError unless the kind is "ses".
 
         >>> s.atom_sas_areas.round(2).tolist()
         [72.11, 34.64, 43.29, 98.04]"""
-        return self._table(lib.ATOM_SAS_AREAS, np.float64)
+        return self._table(header.ATOM_SAS_AREAS, np.float64)
 
     @property
     def patches(self) -> Patches:
-        """The analytic patches and what they index.
+        """The analytic patches, with the tables to which they refer.
 
         >>> s.patches.convex["atom"].tolist()
         [0, 1, 2, 3]"""
         handle = self._handle
-        tables = ((lib.CONVEX, lib.Convex), (lib.TOROIDAL, lib.Toroidal), (lib.CONCAVE, lib.Concave),
-                  (lib.PLANES, lib.Plane), (lib.CONTACTS, np.uint32), (lib.CUTS, np.uint32))
+        tables = ((header.CONVEX, header.Convex), (header.TOROIDAL, header.Toroidal), (header.CONCAVE, header.Concave),
+                  (header.PLANES, header.Plane), (header.CONTACTS, np.uint32), (header.CUTS, np.uint32))
         return Patches(*(view(handle, "surface_table", table, row) for table, row in tables))
 
     @property
     def balls(self) -> Rows:
-        """(n,) rows of center and radius, Å: what was computed.
+        """A structured array, (n,), with the center and the radius of each atom in Å; for kind "sas", the radius
+        includes the probe's.
 
         >>> s.balls["radius"].tolist()
         [1.7, 1.7, 1.52, 1.7]"""
-        return self._table(lib.ATOMS, lib.Ball)
+        return self._table(header.ATOMS, header.Ball)
 
     @property
     def faces(self) -> Rows:
-        """Connected pieces of patches: kind (0 convex, 1 toroidal, 2 concave), patch, loops, component, tip, area.
+        """A structured array with a row per connected piece of a patch: kind (0 convex, 1 toroidal, 2 concave), patch,
+        loops, component, tip, and area in Å². meniscus.h describes the rows, also those of the tables below.
 
         >>> round(float(s.faces["area"].sum()), 2)
         100.83"""
-        return self._table(lib.FACES, lib.Face)
+        return self._table(header.FACES, header.Face)
 
     @property
     def borders(self) -> Rows:
-        """Arcs of circles where two faces meet.
+        """A structured array with a row per arc where two faces meet.
 
         >>> s.borders["radius"].round(2).tolist()[:3]
         [1.65, 1.65, 1.4]"""
-        return self._table(lib.BORDERS, lib.Border)
+        return self._table(header.BORDERS, header.Border)
 
     @property
     def half_borders(self) -> Indices:
-        """(m,) twice the row of a border, and 1 more if it is walked backwards.
+        """The half-borders, (m,): 2 * border, plus 1 if the border is traversed backwards.
 
         >>> len(s.half_borders) == 2 * len(s.borders)
         True"""
-        return self._table(lib.HALF_BORDERS, np.uint32)
+        return self._table(header.HALF_BORDERS, np.uint32)
 
     @property
     def loops(self) -> Rows:
-        """Closed chains of half_borders with their face on the left.
+        """A structured array with a row per closed chain of half_borders, which have their face to the left.
 
         >>> int(s.loops["half_border_count"].sum()) == len(s.half_borders)
         True"""
-        return self._table(lib.LOOPS, lib.Loop)
+        return self._table(header.LOOPS, header.Loop)
 
     @property
     def vertices(self) -> Floats:
-        """(m, 3) Å, where borders end.
+        """The ends of borders in Å, (m, 3).
 
         >>> s.vertices.shape
         (12, 3)"""
-        return self._table(lib.VERTICES, np.float64, 3)
+        return self._table(header.VERTICES, np.float64, 3)
 
-    # ---- what is made of it
+    # ---- computations with the surface
 
     def mesh(self, tolerance: float = 0.01, *, split_colors: bool = True, density: Optional[float] = None,
              even: bool = False) -> Mesh:
-        """Triangles that are nowhere farther than `tolerance` (Å) from the surface; with split_colors cut where the
-        nearest contact changes. With `even` nearly equilateral ones, which reach over borders of patches; with a
-        `density` as many of these as make that many vertices per Å² (0.1: about a triangle an atom), whatever the
-        distance. InputError where such a mesh cannot be, CapacityError where it does not fit into memory.
+        """Returns a triangle mesh of the surface.
+
+        tolerance: the largest distance of the mesh from the surface, 0.00001 to 1 Å. split_colors: whether triangles
+        are cut where the nearest contact point changes to another atom; without `even` and `density` only. even:
+        whether triangles are nearly equilateral and cross borders of patches. density: None, or the number of vertices
+        per Å² of nearly equilateral triangles, 0.005 to 1,000, instead of a tolerance. Raises InputError for numbers
+        outside of these ranges, and CapacityError if the mesh does not fit into memory.
 
         >>> s.mesh(0.05)
         <meniscus.Mesh: 481 vertices, 958 triangles>
@@ -301,58 +324,68 @@ class Surface:
     def distance(self, points: Any, *, nearest: bool) -> Union[Floats, tuple[Floats, Floats]]: ...
 
     def distance(self, points: Any, *, nearest: bool = False) -> Union[Floats, tuple[Floats, Floats]]:
-        """Å to the nearest point of the surface, above 0 in the solvent, below 0 in the solid; exact everywhere. With
-        `nearest` these points, too. points: (m, 3) Å; distances are (m,), nearest points (m, 3). InputError where a
-        point is not finite.
+        """Returns the exact distances of points from the surface in Å, (m,): above 0 in the solvent, below 0 in the
+        solid.
+
+        points: (m, 3) Å. nearest: whether the nearest points of the surface, (m, 3) Å, are returned, too. Raises
+        InputError for points that are not finite.
 
         >>> s.distance([[0, 0, 0], [6, 0, 3]]).round(2).tolist()
         [-1.7, 1.3]
         >>> distances, feet = s.distance([[6, 0, 3]], nearest=True)
         >>> feet.round(2).tolist()
         [[6.0, 0.0, 1.7]]"""
-        given = doubles(points, "points", 3, power=1)
-        distances = np.empty(len(given))
-        feet = np.empty((len(given), 3)) if lib.flag("nearest", nearest) else None
+        array = doubles(points, "points", 3, power=1)
+        distances = np.empty(len(array))
+        feet = np.empty((len(array), 3)) if flag("nearest", nearest) else None
         handle = self._handle
-        lib.call("surface_distance", handle.pointer, len(given), given.ctypes.data, distances.ctypes.data,
+        lib.call("surface_distance", handle.pointer, len(array), array.ctypes.data, distances.ctypes.data,
                  None if feet is None else feet.ctypes.data)
         return distances if feet is None else (distances, feet)
 
     def gradient(self, of: Quantity = "area", weights: Optional[Any] = None) -> Floats:
-        """The exact derivative by the position of each atom, (n, 3), Å²/Å or Å³/Å. of: "area", "volume"; of kind "ses"
-        also "sas_area", "sas_volume". weights, (n,): by which the accessible areas of atoms count, for "sas_area", and
-        for "area" of the kinds "sas" and "vdw". InputError where a probe touches more than three atoms at once: then
-        "area" and "volume" of kind "ses" have none.
+        """Returns the exact derivative of a quantity with respect to the position of each atom, (n, 3), in Å²/Å or
+        Å³/Å.
+
+        of: "area" or "volume"; for kind "ses" also "sas_area" or "sas_volume". weights: None, or factors of the
+        accessible areas of the atoms, (n,), for "sas_area", and for "area" of the kinds "sas" and "vdw". Raises
+        UsageError for other quantities and weights, and InputError for the area and the volume of kind "ses" if a probe
+        touches more than three atoms at once, because they are not differentiable then.
 
         >>> s.gradient("sas_area").shape
         (4, 3)
         >>> np.allclose(s.gradient("volume").sum(axis=0), 0)
         True"""
         handle = self._handle
-        quantity = lib.word("of", of, lib.GRADIENTS)
-        summary = lib.Summary(ctypes.sizeof(lib.Summary))
-        lib.call("surface_summary", handle.pointer, ctypes.byref(summary))
-        given = None if weights is None else doubles(weights, "weights")
-        if given is not None and given.shape != (summary.atoms,):
-            raise InputError(f"weights has the shape {given.shape}; it has to be ({summary.atoms},)")
+        quantity = word("of", of, _GRADIENTS)
+        summary = _summary_of(handle)
+        factors = None if weights is None else doubles(weights, "weights")
+        if factors is not None and factors.shape != (summary.atoms,):
+            raise InputError(f"weights has the shape {factors.shape}; it has to be ({summary.atoms},)")
         gradient = np.empty((summary.atoms, 3))
-        lib.call("surface_gradient", handle.pointer, quantity, None if given is None else given.ctypes.data,
+        lib.call("surface_gradient", handle.pointer, quantity, None if factors is None else factors.ctypes.data,
                  gradient.ctypes.data)
         return gradient
 
     def pockets(self, large_probe: float = 4.0, *, trim: float = 1.0, min_volume: float = 30.0,
                 mouth_tolerance: float = 0.1) -> list[Pocket]:
-        """Pockets, tunnels and cavities, the largest volume first: the connected parts of what the surface's probe can
-        fill of the solid that a large one of this radius (Å) rolls over, begun `trim` (Å) below its surface. Smaller
-        ones than min_volume (Å³) are left out. mouth_tolerance: Å by which a mouth may lie outside of where it should
-        be. In closed form, on the CPU. UsageError of kinds other than "ses", InputError where a number cannot be.
+        """Returns pockets, tunnels and cavities in order of descending volume: the connected spaces that the probe can
+        fill inside the surface of a large probe. They are computed in closed form, on the CPU.
+
+        large_probe: the radius of the large probe in Å, above that of the surface's probe and at most 100. trim: 0 to
+        100 Å; pockets begin this far below the large probe's surface. min_volume: Å³; smaller pockets are ignored.
+        mouth_tolerance: 0.001 to 1 Å; the largest error of the position of a mouth. Raises UsageError unless the kind
+        is "ses", and InputError for numbers outside of these ranges.
 
         >>> meniscus.surface(meniscus.read("helix.pdb")).pockets(min_volume=100)[0].kind
         'cavity'"""
         return pockets_of(self._handle, large_probe, trim, min_volume, mouth_tolerance)
 
     def camera(self, aspect: float = 4 / 3, projection: Projection = "perspective") -> Camera:
-        """The camera that shows everything. aspect: width / height.
+        """Returns the camera that shows all atoms, with their widest side across the picture.
+
+        aspect: width / height of the picture. projection: "perspective" or "orthographic". Raises InputError for an
+        aspect of which there is no picture.
 
         >>> s.camera(projection="orthographic").projection
         'orthographic'"""
@@ -360,15 +393,17 @@ class Surface:
 
     def render(self, *, colors: Optional[Any] = None, camera: Optional[Camera] = None, device: Device = "auto",
                **values: Unpack[SurfaceValues]) -> Picture:
-        """A picture with the program's look: size="800x600", background="white" and what else
-        SurfaceValues has are the values of a Scene. colors: one (3,), or one per atom (n, 3), in [0, 1]. device: "auto", a
-        hardware GPU if there is one, else "cpu"; GpuError where "gpu" or "software" is asked for and there is no GL.
+        """Returns a picture of the surface with the program's look.
+
+        colors: sRGB in [0, 1], (3,) or one per atom. camera: None for that of camera(). device: "cpu", "gpu",
+        "software" (GL on the CPU), or "auto", a hardware GPU if one works, else the CPU. values: properties of a Scene
+        that concern the look and the image, such as size="800x600" and background="white". Raises UsageError for other
+        properties, and GpuError if the device needs GL and there is none.
 
         >>> s.render(size="80x60", background="white", device="cpu")
         <meniscus.Picture: 80x60>"""
         handle = self._handle
-        summary = lib.Summary(ctypes.sizeof(lib.Summary))
-        lib.call("surface_summary", handle.pointer, ctypes.byref(summary))
+        summary = _summary_of(handle)
         scene = Scene()
         for name, value in values.items():
             scene[name] = value
@@ -376,9 +411,11 @@ class Surface:
 
     def show(self, *, structure: Optional[Structure] = None, colors: Optional[Any] = None,
              camera: Optional[Camera] = None, frame_height: int = 480, **values: Unpack[SurfaceValues]) -> Page:
-        """A page in which it turns, as Scene.show() makes it; a notebook shows it. structure: what names the atoms that
-        readers pick, in the same order, such as read() gave; its schemes of colours can be chosen there, too. The rest is
-        that of render(): color="#80c0ff", colors=structure.colors("chain").
+        """Returns a web page in which readers can rotate the surface. A notebook shows it.
+
+        structure: None, or the Structure of the atoms, in the same order: then the page shows the names of atoms, and
+        its readers can choose colour schemes. frame_height: the height of the page in a notebook, in CSS pixels. The
+        other parameters and the errors are those of render().
 
         >>> s.show(color="teal").title
         'Surface of 4 atoms'
@@ -388,17 +425,17 @@ class Surface:
         names = None if structure is None else structure._handle
         if structure is not None and names is None:
             raise InputError("structure: one that was read, not one that was unpickled; read the file again")
-        asked = Scene(**values)
+        scene = Scene(**values)
         of_atoms, seen_by = of_picture(colors, len(self), camera)
         return made("surface_page", self._handle.pointer, names.pointer if names else None,
-                    asked._handle.pointer, ctypes.byref(seen_by) if seen_by else None,
+                    scene._handle.pointer, ctypes.byref(seen_by) if seen_by else None,
                     None if of_atoms is None else of_atoms.ctypes.data, height=frame_height)
 
     def _repr_png_(self) -> Optional[bytes]:
         try:
             return self.render(size="640x480").png()
         except GpuError:
-            return None  # the text below will do
+            return None  # a notebook shows __repr__() then
 
     def __repr__(self) -> str:
         s = self._summary()
@@ -416,13 +453,18 @@ def surface(xyz: Any, radii: Any, probe: float = 1.4, *, kind: Kind = "ses", dev
 
 def surface(xyz: Any, radii: Optional[Any] = None, probe: float = 1.4, *, kind: Kind = "ses", device: Device = "cpu",
             threads: int = 0, verify: bool = False) -> Surface:
-    """The surface of a Structure that read() gave, or of atoms at xyz, (n, 3) Å, with van der Waals radii, (n,) or one
-    for all. What carries a unit, of OpenMM, pint, astropy or unyt, is converted; a warning tells where positions look
-    like nanometres.
+    """Computes the surface of a Structure, or of atoms with positions and radii.
 
-    kind: "ses", solvent-excluded; "sas", solvent-accessible; "vdw", without a probe. device: "cpu"; "gpu"; "auto", a
-    hardware GPU if one works, else the CPU; "software", GL on the CPU. threads: of the CPU, 0 for all. verify: compute
-    on the other device, too, and compare everything.
+    xyz: a Structure of read(), or positions in Å, (n, 3). radii: van der Waals radii in Å, (n,) or one for all atoms;
+    None for those of the Structure. probe: the radius of the probe, 0.001 to 100 Å. Values with a unit of OpenMM, pint,
+    astropy or unyt are converted. A UserWarning says if positions look like nanometres.
+
+    kind: "ses" (solvent-excluded), "sas" (solvent-accessible) or "vdw" (van der Waals, without a probe). device: "cpu",
+    "gpu", "software" (GL on the CPU), or "auto", a hardware GPU if one works, else the CPU. threads: the number of CPU
+    threads; 0 for all. verify: whether the surface is also computed on the other device, and compared.
+
+    Raises InputError for impossible atoms, UsageError for invalid options, NotClosedError if the surface would not be
+    closed, GpuError if the device needs GL and there is none, and CapacityError if memory does not suffice.
 
     >>> round(meniscus.surface([[0, 0, 0], [3, 0, 0]], [1.7, 1.52], probe=1.4).area, 2)
     60.71

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Names of types for signatures: arrays, and the words of options."""
+"""Type aliases of signatures: arrays, and the words of options."""
 from __future__ import annotations
 
 import os
@@ -14,7 +14,7 @@ Bytes = NDArray[np.uint8]
 Indices = NDArray[np.uint32]
 Numbers = NDArray[np.int32]
 Texts = NDArray[np.str_]
-Rows = NDArray[np.void]  # of a structured array
+Rows = NDArray[np.void]  # a structured array
 AnyArray = NDArray[Any]
 
 Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
@@ -31,7 +31,7 @@ UnknownElement = Literal["halt", "guess", "skip"]
 
 
 class SurfaceOptions(TypedDict, total=False):
-    """As surface() has them."""
+    """The keyword arguments of surface()."""
     probe: float
     kind: Kind
     device: Device

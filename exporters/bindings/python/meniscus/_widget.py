@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A page in a notebook that Python goes on talking to: its camera, what readers pick, and colours by numbers."""
+"""A page in a notebook that is connected to Python: its camera, the atoms that readers pick, and colours by numbers."""
 from __future__ import annotations
 
 import importlib
@@ -13,9 +13,9 @@ from ._errors import InputError
 from ._page import Page, page_of
 from ._picture import Camera
 
-# The page in a frame, from which nothing gets out but what messages.js of exporters/page tells.
+#: Shows the page in a frame. The frame isolates it, except for the messages of messages.js in exporters/page.
 _SCRIPT = """
-const kEvery = 100;  // ms between what Python is told of a motion
+const kEvery = 100;  // ms between messages to Python while the camera moves
 
 function render({ model, el }) {
   const frame = document.createElement("iframe");
@@ -31,7 +31,7 @@ function render({ model, el }) {
     return view.byteLength ? { colors: new Uint8Array(view.buffer.slice(view.byteOffset, view.byteOffset + view.byteLength)), label: model.get("label") }
       : { scheme: 0 };
   };
-  const camera = () => { const asked = model.get("camera"); return asked && JSON.stringify(asked) !== heard ? { camera: asked } : {}; };
+  const camera = () => { const value = model.get("camera"); return value && JSON.stringify(value) !== heard ? { camera: value } : {}; };
   const show_camera = () => { if (ready) say(camera()); };
   const show_colors = () => { if (ready) say(colors()); };
   const hear = ({ source, data }) => {
@@ -67,8 +67,8 @@ export default { render };
 
 
 class Picked(NamedTuple):
-    """What a reader clicked at. atom: its index; of a Scene among the atoms that are used or shown. name: "A LYS 48 NZ".
-    point: Å, on the surface.
+    """An atom that a reader clicked. atom: its index; for a Scene, among the atoms that are used or shown. name: such
+    as "A LYS 48 NZ". point: the point of the surface in Å.
 
     >>> meniscus.Picked(3, "A LYS 48 NZ", (1.0, 2.0, 3.0)).atom
     3"""
@@ -78,7 +78,8 @@ class Picked(NamedTuple):
 
 
 def _model(shown: Page) -> Any:
-    """What a notebook synchronises with its views."""
+    """Returns the anywidget, whose traits the notebook synchronises with its views. Raises ImportError without
+    anywidget."""
     try:
         anywidget, traitlets = importlib.import_module("anywidget"), importlib.import_module("traitlets")
     except ImportError as error:
@@ -101,19 +102,20 @@ def _model(shown: Page) -> Any:
     return type("MeniscusWidget", (anywidget.AnyWidget,), traits)()
 
 
-def _camera_of(told: dict[str, Any]) -> Camera:
+def _camera_of(trait: dict[str, Any]) -> Camera:
     def point(key: str) -> tuple[float, float, float]:
-        x, y, z = told[key]
+        x, y, z = trait[key]
         return x, y, z
 
-    return Camera(point("position"), point("target"), point("up"), told["projection"], told["vertical_fov"], told["height"])
+    return Camera(point("position"), point("target"), point("up"), trait["projection"], trait["vertical_fov"],
+                  trait["height"])
 
 
 class Widget:
-    """What widget() gives; a notebook shows it. Python sees the camera that readers turn and the atoms that they click,
-    and changes the camera and the colours of what is already there.
+    """A page that is connected to Python, which widget() returns. A notebook shows it. Python can read the camera and
+    the atoms that readers click, and can change the camera and the colours.
 
-    model: the anywidget itself, for layouts of ipywidgets.
+    model: the anywidget, for layouts of ipywidgets.
 
     >>> import anywidget
     >>> w = meniscus.widget(meniscus.Scene("helix.pdb", color="chain"))
@@ -125,27 +127,28 @@ class Widget:
 
     @property
     def camera(self) -> Optional[Camera]:
-        """Where readers look from, Å; None before the page was shown. It can be set: what is shown then moves there.
+        """The camera of the page, in Å; None before the page is shown. Setting it moves the camera of the page. Raises
+        InputError if it is set to anything but a possible Camera.
 
         >>> import anywidget
         >>> w.camera = meniscus.Camera((0, 0, 50), (0, 0, 0), (0, 1, 0))
         >>> w.camera.position
         (0.0, 0.0, 50.0)"""
-        told = self.model.camera
-        return None if told is None else _camera_of(told)
+        trait = self.model.camera
+        return None if trait is None else _camera_of(trait)
 
     @camera.setter
     def camera(self, camera: Camera) -> None:
         if not isinstance(camera, Camera):
             raise InputError(f"camera is a {type(camera).__name__}, not a meniscus.Camera")
-        given = camera._struct()  # numbers of any kind are plain ones here
-        self.model.camera = {"position": list(given.position), "target": list(given.target), "up": list(given.up),
-                             "projection": camera.projection, "vertical_fov": given.vertical_fov,
-                             "height": given.height}
+        plain = camera._struct()  # checks and converts all numbers
+        self.model.camera = {"position": list(plain.position), "target": list(plain.target), "up": list(plain.up),
+                             "projection": camera.projection, "vertical_fov": plain.vertical_fov,
+                             "height": plain.height}
 
     @property
     def picked(self) -> Optional[Picked]:
-        """What was clicked at last; None: nothing yet, or the background.
+        """The atom that was clicked last; None before the first click and after a click on the background.
 
         >>> import anywidget
         >>> w.picked is None
@@ -153,7 +156,7 @@ class Widget:
         return _picked_of(self.model.picked)
 
     def on_pick(self, call: Callable[[Optional[Picked]], Any]) -> None:
-        """Calls with each new `picked`.
+        """Calls a function with each new value of `picked`.
 
         >>> import anywidget
         >>> w.on_pick(lambda picked: print(picked.name))
@@ -162,7 +165,7 @@ class Widget:
         self.model.observe(lambda change: call(_picked_of(change["new"])), "picked")
 
     def on_camera(self, call: Callable[[Camera], Any]) -> None:
-        """Calls with each new `camera`, at most ten times a second while it moves.
+        """Calls a function with each new value of `camera`, at most ten times a second.
 
         >>> import anywidget
         >>> w.on_camera(lambda camera: print(camera.target))
@@ -172,19 +175,22 @@ class Widget:
 
     def color_by(self, values: Any, *, low: Optional[float] = None, high: Optional[float] = None,
                  ramp: Any = ((0.23, 0.30, 0.75), (0.87, 0.87, 0.87), (0.71, 0.02, 0.15)), label: str = "") -> None:
-        """Colours what is shown by an array: (n,) numbers, one an atom, or (n, 3) sRGB in [0, 1]. Numbers run along `ramp`,
-        (m, 3) colours at even steps from `low` to `high`; None: the least and the greatest of them. NaN is grey. label: what
-        the page writes where the legend was. InputError where there is not one for each atom of a page that is shown.
+        """Colours the surface by an array with a row per atom.
+
+        values: numbers, (n,), or colours, (n, 3), sRGB in [0, 1]. low, high: the numbers at the ends of the ramp; None
+        for the lowest and the highest number. ramp: colours at equal distances between low and high, (m, 3). NaN is
+        grey. label: the text in place of the legend. Raises InputError if the page is shown and has another number of
+        atoms.
 
         >>> import anywidget
         >>> w.color_by([0.0, 5.0, 10.0], ramp=[(0, 0, 0), (1, 1, 1)], label="charge")
         >>> w.model.label, list(w.model.colors)
         ('charge: 0 to 10', [0, 0, 0, 128, 128, 128, 255, 255, 255])"""
-        given = real_array(values, "values")
-        if given.ndim == 1:
-            colors, label = _ramped(given, low, high, ramp, label)
+        array = real_array(values, "values")
+        if array.ndim == 1:
+            colors, label = _ramped(array, low, high, ramp, label)
         else:
-            colors = atom_colors(given, len(given))
+            colors = atom_colors(array, len(array))
         atoms = self.model.atoms
         if atoms and len(colors) != atoms:
             raise InputError(f"values has {len(colors)} rows; the page has {atoms} atoms")
@@ -193,7 +199,7 @@ class Widget:
             self.model.colors = np.rint(255 * np.clip(colors, 0, 1)).astype(np.uint8).tobytes()
 
     def reset_colors(self) -> None:
-        """Back to the colours that the page came with.
+        """Restores the original colours of the page.
 
         >>> import anywidget
         >>> w.reset_colors()
@@ -201,22 +207,22 @@ class Widget:
         b''"""
         self.model.colors = b""
 
-    def _repr_mimebundle_(self, **asked: Any) -> Any:
-        return self.model._repr_mimebundle_(**asked)
+    def _repr_mimebundle_(self, **options: Any) -> Any:
+        return self.model._repr_mimebundle_(**options)
 
     def __repr__(self) -> str:
         return f"<meniscus.Widget of {self.model.title}>"
 
 
-def _picked_of(told: Optional[dict[str, Any]]) -> Optional[Picked]:
-    if told is None:
+def _picked_of(trait: Optional[dict[str, Any]]) -> Optional[Picked]:
+    if trait is None:
         return None
-    x, y, z = told["point"]
-    return Picked(int(told["atom"]), str(told["name"]), (x, y, z))
+    x, y, z = trait["point"]
+    return Picked(int(trait["atom"]), str(trait["name"]), (x, y, z))
 
 
 def _ramped(values: Any, low: Optional[float], high: Optional[float], ramp: Any, label: str) -> tuple[Any, str]:
-    """Colours of numbers, and the label with their range."""
+    """Returns the colours of numbers, (n, 3), and the label with their range."""
     known = values[np.isfinite(values)].astype(np.float64)
     if low is None:
         low = float(known.min()) if len(known) else 0.0
@@ -234,8 +240,11 @@ def _ramped(values: Any, low: Optional[float], high: Optional[float], ramp: Any,
 
 
 def widget(shown: Union[Page, Any], *, height: Optional[int] = None) -> Widget:
-    """A scene, a surface or a page in a notebook, as Scene.show() has it, that Python goes on talking to: see Widget. It
-    needs the package anywidget, and a running kernel. height: CSS pixels. Errors are those of show().
+    """Returns a Widget of a scene, a surface or a page: a page in a notebook that is connected to Python. It needs the
+    package anywidget and a running kernel.
+
+    height: the height of the page in CSS pixels; None for that of show(). Raises the errors of show(), and ImportError
+    without anywidget.
 
     >>> import anywidget
     >>> w = meniscus.widget(meniscus.Scene("helix.pdb"), height=300)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender add-on: imports surfaces and sequences of them, and computes surfaces itself. Pure Python and numpy, Blender 3.4 on."""
+"""Blender add-on that imports surfaces and sequences of them, and computes surfaces. It consists of Python with numpy
+only, and runs in Blender 3.4 and later."""
 
 bl_info = {
     "name": "Meniscus",
@@ -16,7 +17,8 @@ import os
 import bpy
 from bpy_extras.io_utils import ImportHelper
 
-from . import bake_run, build, compat, computed, mns_reader, panel, scene_import, sequence, sequence_reader, settings, storyboard
+from . import (bake_run, build, compat, computed, mns_reader, panel, scene_import, sequence, sequence_reader, settings,
+               storyboard)
 
 
 class Looks:
@@ -26,25 +28,30 @@ class Looks:
         name="Crisp colours", description="Colours change at edges; otherwise they blend between vertices",
         default=True)
     own_materials: bpy.props.BoolProperty(
-        name="Own materials", description="New materials for this import; otherwise those that all imports share", default=False)
+        name="Own materials", description="New materials for this import; otherwise those that all imports share",
+        default=False)
     center: bpy.props.BoolProperty(
-        name="Centre", description="Puts the middle of the molecule to the origin, or where an earlier import put it, so that a "
+        name="Centre",
+        description="Puts the middle of the molecule to the origin, or where an earlier import put it, so that a "
         "surface and its trajectory overlay; otherwise coordinates are those of the molecule's file", default=False)
     import_camera: bpy.props.BoolProperty(
         name="Camera", description="Import the camera of the file", default=True)
-    use_camera: bpy.props.BoolProperty(
-        name="Use camera", description="Make it the camera of the scene, and take the size of its picture", default=True)
-    standard_view: bpy.props.BoolProperty(
-        name="Standard view transform", description="Show colours as they are; Filmic and AgX make them paler", default=False)
+    use_camera: bpy.props.BoolProperty(name="Use camera",
+                                       description="Make it the camera of the scene, and take the size of its picture",
+                                       default=True)
+    standard_view: bpy.props.BoolProperty(name="Standard view transform",
+                                          description="Show colours as they are; Filmic and AgX make them paler",
+                                          default=False)
 
-    def tell(self, context):
-        """Shows colours in solid views, and says what makes them look different."""
+    def report_view_transform(self, context):
+        """Shows colours in solid views, and reports a view transform that changes them."""
         compat.color_solid_views(context)
         view = context.scene.view_settings
         if self.standard_view:
             view.view_transform = "Standard"
         elif view.view_transform not in ("Standard", "Raw"):
-            self.report({"INFO"}, f"The view transform {view.view_transform} changes colours; Standard shows them as they are")
+            self.report({"INFO"},
+                        f"The view transform {view.view_transform} changes colours; Standard shows them as they are")
 
 
 class IMPORT_SCENE_OT_meniscus(Looks, bpy.types.Operator, ImportHelper):
@@ -63,11 +70,12 @@ class IMPORT_SCENE_OT_meniscus(Looks, bpy.types.Operator, ImportHelper):
         name="Scale", description="Blender units per ångström; 0.1 makes a nanometre one unit", default=0.1,
         min=1e-6, soft_min=0.01, soft_max=1.0, precision=4)
     parts: bpy.props.BoolProperty(
-        name="Cavities apart", description="One object for the outer surface and one for the cavities, whose faces look into "
+        name="Cavities apart",
+        description="One object for the outer surface and one for the cavities, whose faces look into "
         "them: Recalculate Outside would turn these", default=False)
 
     def invoke(self, context, event):
-        if self.filepath and hasattr(self, "invoke_popup"):  # a file that was dropped
+        if self.filepath and hasattr(self, "invoke_popup"):  # a file was dropped into the window
             return self.invoke_popup(context)
         return ImportHelper.invoke(self, context, event)
 
@@ -84,7 +92,7 @@ class IMPORT_SCENE_OT_meniscus(Looks, bpy.types.Operator, ImportHelper):
                 self.report({"ERROR"}, str(error))
         if not imported:
             return {"CANCELLED"}
-        self.tell(context)
+        self.report_view_transform(context)
         return {"FINISHED"}
 
 
@@ -100,12 +108,15 @@ class IMPORT_SCENE_OT_meniscus_sequence(Looks, bpy.types.Operator, ImportHelper)
     filepath: bpy.props.StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
     mode: bpy.props.EnumProperty(
         name="Frames", default="BAKE",
-        items=(("BAKE", "In this file", "All frames become part of the .blend file, which then renders anywhere without add-on"),
-               ("STREAM", "Read when shown", "One frame in memory; the file needs this add-on and the exported folder")))
+        items=(("BAKE", "In this file",
+                "All frames become part of the .blend file, which then renders anywhere without add-on"),
+               ("STREAM", "Read when shown",
+                "One frame in memory; the file needs this add-on and the exported folder")))
     scale: bpy.props.FloatProperty(
         name="Scale", description="Blender units per ångström; 0 takes that of the sequence", default=0.0, min=0.0,
         soft_max=1.0, precision=4)
-    start: bpy.props.FloatProperty(name="Start", description="The frame of the scene that shows the first of the run", default=1.0)
+    start: bpy.props.FloatProperty(name="Start", description="The frame of the scene that shows the first of the run",
+                                   default=1.0)
     speed: bpy.props.FloatProperty(
         name="Speed", description="Frames of the run in a frame of the scene", default=1.0, min=1e-4, soft_max=10.0)
     outside: bpy.props.EnumProperty(
@@ -115,7 +126,7 @@ class IMPORT_SCENE_OT_meniscus_sequence(Looks, bpy.types.Operator, ImportHelper)
     set_time: bpy.props.BoolProperty(
         name="Set frame range and rate", description="The scene gets the range and the rate of the run", default=True)
 
-    @build.tells_errors
+    @build.reports_errors
     def execute(self, context):
         options = {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
                                                           "use_camera", "set_time")}
@@ -131,7 +142,7 @@ class IMPORT_SCENE_OT_meniscus_sequence(Looks, bpy.types.Operator, ImportHelper)
                 sequence.stream(self.filepath, context, **options)
         finally:
             window.progress_end()
-        self.tell(context)
+        self.report_view_transform(context)
         return {"FINISHED"}
 
 
@@ -149,18 +160,20 @@ class IMPORT_SCENE_OT_meniscus_storyboard(Looks, bpy.types.Operator, ImportHelpe
         name="Scale", description="Blender units per ångström; 0 takes that of the storyboard", default=0.0, min=0.0,
         soft_max=1.0, precision=4)
     set_time: bpy.props.BoolProperty(
-        name="Set frame range and rate", description="The scene gets the range and the rate of the film, and a marker for each of its "
+        name="Set frame range and rate",
+        description="The scene gets the range and the rate of the film, and a marker for each of its "
         "scenes", default=True)
     set_background: bpy.props.BoolProperty(
-        name="Background", description="The camera sees the colours of the film where there is no object; what lights the scene stays",
+        name="Background",
+        description="The camera sees the colours of the film where there is no object; what lights the scene stays",
         default=True)
 
-    @build.tells_errors
+    @build.reports_errors
     def execute(self, context):
         options = {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
                                                           "use_camera", "set_time", "set_background")}
         storyboard.import_file(self.filepath, context, scale=self.scale or None, **options)
-        self.tell(context)
+        self.report_view_transform(context)
         return {"FINISHED"}
 
 
@@ -176,7 +189,7 @@ class OBJECT_OT_meniscus_reload(bpy.types.Operator):
         item = context.active_object
         return item is not None and item.mode == "OBJECT" and "meniscus_file" in item and item.data.library is None
 
-    @build.tells_errors
+    @build.reports_errors
     def execute(self, context):
         build.reload(context.active_object, context)
         return {"FINISHED"}
@@ -194,7 +207,10 @@ def object_menu_entry(self, context):
         self.layout.operator(OBJECT_OT_meniscus_reload.bl_idname)
 
 
-CLASSES = [IMPORT_SCENE_OT_meniscus, IMPORT_SCENE_OT_meniscus_sequence, IMPORT_SCENE_OT_meniscus_storyboard, OBJECT_OT_meniscus_reload]
+CLASSES = [
+    IMPORT_SCENE_OT_meniscus, IMPORT_SCENE_OT_meniscus_sequence, IMPORT_SCENE_OT_meniscus_storyboard,
+    OBJECT_OT_meniscus_reload
+]
 
 if compat.can_drop_files():
 

@@ -1,38 +1,44 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Copies attributes that a user gave to a mesh to other triangles of the same atoms."""
+"""Copies attributes that a user added to a mesh to other triangles of the same atoms."""
 
 import numpy as np
 
 from . import compat
 
-#: Types that can be carried: the field of a value, its columns, its numpy type.
+#: Types of attributes that can be copied: the field of a value, its columns, its numpy type.
 TYPES = {
-    "FLOAT": ("value", 1, np.float32), "INT": ("value", 1, np.int32), "BOOLEAN": ("value", 1, bool),
-    "FLOAT_VECTOR": ("vector", 3, np.float32), "FLOAT2": ("vector", 2, np.float32), "FLOAT_COLOR": ("color", 4, np.float32),
+    "FLOAT": ("value", 1, np.float32),
+    "INT": ("value", 1, np.int32),
+    "BOOLEAN": ("value", 1, bool),
+    "FLOAT_VECTOR": ("vector", 3, np.float32),
+    "FLOAT2": ("vector", 2, np.float32),
+    "FLOAT_COLOR": ("color", 4, np.float32),
     "BYTE_COLOR": ("color", 4, np.float32),
 }
 DOMAINS = ("POINT", "FACE", "CORNER")
-#: What tells atoms apart, copies of one, too; in scenes of 0.1.0 it was the second.
+#: Attributes that identify atoms, also among copies of one; scenes of 0.1.0 have the second only.
 KEYS = ("ses_atom", "atom_index")
-#: What Blender itself, or the import, keeps in attributes.
+#: Attributes in which Blender itself or the import stores its data.
 BLENDERS = {"position", "material_index", "sharp_edge", "sharp_face", "custom_normal", "crease_edge", "crease_vert"}
 
-_of_user = {}  # identity of a mesh -> (whose atoms, the attributes of the user by atom)
+_of_user = {}  # identity of a mesh -> (source of its atoms, the user's attributes by atom)
 
 
 class Kept:
-    """An attribute by atom: values, and for which atoms they are known."""
+    """An attribute by atom. values: (atoms, columns). known: (atoms,), True if the atom has a value."""
 
     def __init__(self, name, kind, domain, values, known):
         self.name, self.kind, self.domain, self.values, self.known = name, kind, domain, values, known
 
     def with_older(self, older):
-        """Atoms that the surface did not show keep the values they had."""
+        """Returns this attribute with the values of an earlier one for atoms that the surface did not show."""
         if older is None or (older.kind, older.domain) != (self.kind, self.domain):
             return self
         count = max(len(self.known), len(older.known))
         for kept in (self, older):
-            kept.values = np.concatenate([kept.values, np.zeros((count - len(kept.values), kept.values.shape[1]), kept.values.dtype)])
+            kept.values = np.concatenate(
+                [kept.values,
+                 np.zeros((count - len(kept.values), kept.values.shape[1]), kept.values.dtype)])
             kept.known = np.concatenate([kept.known, np.zeros(count - len(kept.known), dtype=bool)])
         self.values[~self.known] = older.values[~self.known]
         self.known |= older.known
@@ -40,7 +46,8 @@ class Kept:
 
 
 def keep(mesh, ours, older=()):
-    """The attributes of a mesh, but Blender's and those named in `ours`, as a list of Kept. older: of an earlier call."""
+    """Returns the attributes of a mesh as a list of Kept, except those of Blender and those named in `ours`. older: the
+    result of an earlier call."""
     before = {kept.name: kept for kept in older}
     key = next((name for name in KEYS if name in mesh.attributes), None)
     if key is None or not len(mesh.polygons):
@@ -67,15 +74,16 @@ def keep(mesh, ours, older=()):
 
 
 def keep_through(mesh, ours, source):
-    """Returns what keep() does for a mesh that shows the frames of `source` in turn, with attributes of atoms that are hidden now."""
+    """Returns the attributes of a mesh that shows the frames of `source` in turn, like keep(). Atoms that are hidden in
+    this frame keep their values."""
     of, older = _of_user.get(compat.identity(mesh), (None, ()))
     kept = keep(mesh, ours, older if of == source else ())
     _of_user[compat.identity(mesh)] = source, kept
     return kept
 
 
-def hand_on(mesh, other):
-    """Has another mesh keep what this one keeps."""
+def copy_kept(mesh, other):
+    """Copies the attributes that were kept for a mesh to another mesh."""
     if compat.identity(mesh) in _of_user:
         _of_user[compat.identity(other)] = _of_user[compat.identity(mesh)]
 
@@ -84,14 +92,15 @@ def forget():
     _of_user.clear()
 
 
-def give_back(mesh, kept, arrays):
-    """Adds them to a mesh that has been filled with mesh_arrays.MeshArrays."""
+def restore(mesh, kept, arrays):
+    """Adds the Kept attributes to a mesh that has been filled with mesh_arrays.MeshArrays."""
     for each in kept:
         add(mesh, each.name, each.kind, each.domain, spread(each, arrays))
 
 
 def spread(kept, arrays):
-    """Values of a Kept for the elements of mesh_arrays.MeshArrays, a row each; atoms without a value get zero."""
+    """Returns the values of a Kept for the elements of mesh_arrays.MeshArrays, one row per element. Atoms without a
+    value get zero."""
     atom = arrays.ses_atom
     table = np.zeros((max(len(kept.values), atom.max(initial=0) + 1), kept.values.shape[1]), dtype=kept.values.dtype)
     table[:len(kept.values)] = kept.values
@@ -107,13 +116,13 @@ def spread(kept, arrays):
 
 
 def add(mesh, name, kind, domain, values):
-    """A new attribute. values: one row per element, in the type that Blender stores."""
+    """Adds an attribute to a mesh. values: one row per element, in the type that Blender stores."""
     attribute = mesh.attributes.new(name, kind, domain)
     attribute.data.foreach_set(TYPES[kind][0], np.ascontiguousarray(values).ravel())
 
 
 def read(mesh, name, kind):
-    """Values of an attribute, (elements, columns)."""
+    """Returns the values of an attribute, (elements, columns)."""
     field, columns, dtype = TYPES[kind]
     data = mesh.attributes[name].data
     values = np.empty(len(data) * columns, dtype=dtype)

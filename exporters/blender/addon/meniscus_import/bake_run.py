@@ -1,27 +1,34 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bakes what an object shows while the timeline plays into the file: a mesh for each frame, which needs neither this add-on nor other files."""
+"""Bakes the surfaces that an object shows while the timeline plays into the file: a mesh for each frame, which needs
+neither this add-on nor other files."""
 
 import bpy
 
-from . import attributes, build, compat, computed, frame_picker, libraries, mesh_arrays, mns_reader, sequence, sequence_reader, showing
+from . import (attributes, build, compat, computed, frame_picker, libraries, mesh_arrays, mns_reader, sequence,
+               sequence_reader, showing)
 
-#: Bytes of a value of an attribute.
-VALUE_BYTES = {"FLOAT": 4, "INT": 4, "INT8": 1, "BOOLEAN": 1, "BYTE_COLOR": 4, "FLOAT_COLOR": 16, "FLOAT_VECTOR": 12, "FLOAT2": 8}
+#: Bytes per value of an attribute, by its type.
+VALUE_BYTES = {
+    "FLOAT": 4, "INT": 4, "INT8": 1, "BOOLEAN": 1, "BYTE_COLOR": 4, "FLOAT_COLOR": 16, "FLOAT_VECTOR": 12, "FLOAT2": 8
+}
 #: Bytes of a vertex, an edge, a corner and a face, without attributes.
 ELEMENT_BYTES = (12, 8, 12, 8)
-#: What compression leaves of them in a .blend.
+#: The share of these bytes that remains in a compressed .blend.
 COMPRESSED = 0.3
-#: Attributes that are among the elements.
+#: Attributes whose bytes ELEMENT_BYTES includes.
 IN_ELEMENTS = {"position", "material_index"}
-#: Custom properties of a stream, and of what shows one frame alone.
-OF_LIVE = ("meniscus_stream", "meniscus_start", "meniscus_speed", "meniscus_outside", "meniscus_by_hand", "meniscus_frame", "meniscus_frames",
-           "meniscus_frames_of", "meniscus_area", "meniscus_volume", libraries.ERROR)
+#: Custom properties of streams and of objects that show a single frame, which baked objects do not have.
+LIVE_PROPERTIES = ("meniscus_stream", "meniscus_start", "meniscus_speed", "meniscus_outside", "meniscus_by_hand",
+           "meniscus_frame", "meniscus_frames", "meniscus_frames_of", "meniscus_area", "meniscus_volume",
+           libraries.ERROR)
 
 
 class Stream:
-    """Frames of files that are read while the timeline plays."""
+    """An object that shows frames of files, which are read while the timeline plays."""
 
-    TIMES = {f'["meniscus_{name.lower()}"]': name for name in (frame_picker.START, frame_picker.SPEED, frame_picker.FRAME)}
+    TIMES = {
+        f'["meniscus_{name.lower()}"]': name for name in (frame_picker.START, frame_picker.SPEED, frame_picker.FRAME)
+    }
     TIMES['["meniscus_by_hand"]'] = frame_picker.BY_HAND
 
     def __init__(self, item, scene):
@@ -38,7 +45,7 @@ class Stream:
 
 
 class Panel:
-    """Frames that are computed while the timeline plays."""
+    """An object that shows frames of a run, which are computed while the timeline plays."""
 
     TIMES = {f"meniscus.{name}": socket for name, socket in (
         ("start", frame_picker.START), ("speed", frame_picker.SPEED), ("outside", frame_picker.OUTSIDE),
@@ -59,7 +66,8 @@ class Panel:
 
 
 class Followed:
-    """Atoms of another object, which something else moves: each frame of the scene is one of the run."""
+    """An object that shows the surface of another object's atoms, which something else moves. Each frame of the scene
+    is a frame of the run."""
 
     TIMES = {}
     by_hand, frame = False, 1.0
@@ -78,7 +86,8 @@ class Followed:
 
 
 def kind_of(item):
-    """Returns the class of how the mesh of an object follows the timeline; None if it does not, or belongs to a library."""
+    """Returns the class that describes how the mesh of an object follows the timeline: Stream, Panel or Followed.
+    Returns None if it does not follow, or if the object belongs to a library."""
     if item is None or item.type != "MESH" or item.library is not None or item.override_library is not None:
         return None
     if item.get("meniscus_stream"):
@@ -91,38 +100,42 @@ def kind_of(item):
 
 
 def frame_bytes(mesh):
-    """Estimates the bytes of a mesh to within a fifth, in memory and in a file that is not compressed."""
+    """Estimates the bytes of a mesh in memory and in an uncompressed file, to within 20 %."""
     parts = zip(ELEMENT_BYTES, (mesh.vertices, mesh.edges, mesh.loops, mesh.polygons))
     own = [each for each in mesh.attributes if each.name not in IN_ELEMENTS and not each.name.startswith(".")]
-    return sum(size * len(part) for size, part in parts) + sum(VALUE_BYTES.get(each.data_type, 4) * len(each.data) for each in own)
+    return sum(size * len(part)
+               for size, part in parts) + sum(VALUE_BYTES.get(each.data_type, 4) * len(each.data) for each in own)
 
 
-def told_size(item, scene):
-    """Short lines: how many frames, and how large they are if all are like the one that shows."""
+def size_lines(item, scene):
+    """Returns short lines about the number of frames and their size, if all of them are like the one that shows."""
     try:
         count = kind_of(item)(item, scene).count
     except (mns_reader.MnsError, OSError):
-        count = 0  # as before it was read
+        count = 0  # the same as for a run that was not read yet
     size = count * frame_bytes(item.data) / 1e6
-    return (f"{count:,} frames, {_rounded(size)}", f"{_rounded(COMPRESSED * size)} compressed") if size else ("Frames of unknown size",)
+    return (f"{count:,} frames, {_rounded(size)}",
+            f"{_rounded(COMPRESSED * size)} compressed") if size else ("Frames of unknown size",)
 
 
 def _rounded(megabytes):
-    return f"{megabytes / 1000:.1f} GB" if megabytes >= 1000 else f"{megabytes:.0f} MB" if megabytes >= 10 else f"{megabytes:.1f} MB"
+    return (f"{megabytes / 1000:.1f} GB" if megabytes >= 1000 else
+            f"{megabytes:.0f} MB" if megabytes >= 10 else f"{megabytes:.1f} MB")
 
 
 def bake(item, scene):
-    """Yields the number of frames that are done and of all. At the end the object shows meshes of the file. If it is closed before, or ends
-    with MnsError or OSError, nothing has changed."""
+    """Bakes the run of an object, and yields the number of finished frames and of all frames after each. At the end the
+    object shows meshes of the file. If the generator is closed earlier, or raises MnsError or OSError, nothing has
+    changed."""
     if kind_of(item) is Panel:
         computed.count_frames(item)
     live = kind_of(item)(item, scene)
     frames = frame_picker.Frames(item.name)
-    stand_in = item.copy()  # in no scene: what the object itself shows stays
+    stand_in = item.copy()  # it is in no scene, so that the object itself does not change
     stand_in.data = item.data.copy()
     try:
         stand_in.data.animation_data_clear()
-        attributes.hand_on(item.data, stand_in.data)
+        attributes.copy_kept(item.data, stand_in.data)
         for place in range(1, live.count + 1):
             live.show(stand_in, place)
             frames.add(_frame_of(stand_in.data, item))
@@ -133,11 +146,11 @@ def bake(item, scene):
         raise
     finally:
         live.end(stand_in)
-        bpy.data.meshes.remove(stand_in.data)  # with the object
+        bpy.data.meshes.remove(stand_in.data)  # removes the object, too
 
 
 def _frame_of(shown, item):
-    """A mesh with what shows, for all times, with the materials of the object."""
+    """Returns a copy of the shown mesh that does not change with time, with the materials of the object."""
     mesh = shown.copy()
     mesh.animation_data_clear()
     for key in (showing.SHOWN, "meniscus_moves"):
@@ -149,13 +162,13 @@ def _frame_of(shown, item):
 
 
 def _replace(item, stand_in, live, frames):
-    """Has the object show the frames instead: its place, parents, modifiers, and keys of its times stay."""
+    """Makes the object show the baked frames. Its place, parents, modifiers and keys of its times remain."""
     before = item.data
     item.data = bpy.data.meshes.new(item.name)
     modifier = frames.show_in(item, live.timing, live.by_hand, live.frame)
     compat.rename_curves(item, {path: compat.input_path(modifier, socket) for path, socket in live.TIMES.items()})
     build.set_names(item, {attribute: stand_in.get(key, ()) for attribute, (_, key) in mesh_arrays.NAMES.items()})
-    for key in OF_LIVE:
+    for key in LIVE_PROPERTIES:
         if key in item:
             del item[key]
     item.meniscus.source = "NONE"
@@ -175,7 +188,8 @@ class OBJECT_OT_meniscus_bake(bpy.types.Operator):
         return kind_of(context.active_object) is not None and context.active_object.mode == "OBJECT"
 
     def invoke(self, context, _event):
-        """Bakes in steps while the window shows the progress. It holds back all other events: an undo would remove what is being made."""
+        """Bakes in steps while the window shows the progress. All other events are blocked, because an undo would
+        remove the new data."""
         self.steps = bake(context.active_object, context.scene)
         self.timer = context.window_manager.event_timer_add(0.01, window=context.window)
         context.window_manager.modal_handler_add(self)
@@ -190,7 +204,7 @@ class OBJECT_OT_meniscus_bake(bpy.types.Operator):
         result = self.step(context)
         return result if result == {"RUNNING_MODAL"} else self.end(context, result)
 
-    @build.tells_errors
+    @build.reports_errors
     def step(self, context):
         for done, count in self.steps:
             context.workspace.status_text_set(f"Frame {done:,} of {count:,} is baked; Esc cancels")
@@ -202,7 +216,7 @@ class OBJECT_OT_meniscus_bake(bpy.types.Operator):
         context.workspace.status_text_set(None)
         return result
 
-    @build.tells_errors
+    @build.reports_errors
     def execute(self, context):
         for _ in bake(context.active_object, context.scene):
             pass
@@ -210,11 +224,11 @@ class OBJECT_OT_meniscus_bake(bpy.types.Operator):
 
 
 def draw(layout, context):
-    """The button, and how large the file becomes."""
+    """Draws the button and the estimated size of the file."""
     item = context.active_object
     if kind_of(item) is not None:
         layout.operator("object.meniscus_bake", icon="RENDER_ANIMATION")
-        for line in told_size(item, context.scene):
+        for line in size_lines(item, context.scene):
             layout.label(text=line)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Turns a checked surface into Blender data, completely or not at all: on an error everything is removed."""
+"""Turns a checked surface into Blender data, completely or not at all: after an error, everything new is removed."""
 
 import contextlib
 import functools
@@ -14,17 +14,23 @@ import numpy as np
 from . import attributes, compat, frames, joined, libraries, looks, materials, mns_reader
 from .mesh_arrays import NAMES, OURS, names_of, of_surface
 
-#: Two molecules with as many atoms are the same one if they have so many.
+#: Two molecules with equal numbers of atoms are taken for the same if they have at least this many.
 MANY_ATOMS = 100
-#: Of a surface that is seen through, along one ray.
+#: The greatest number of layers of translucent surfaces along one ray.
 MOST_LAYERS = 256
 
 
 class Options:
-    """How surfaces come into a scene. scale: Blender units per Å. crisp_colors: they change at edges, not between vertices.
-    own_materials: not those that all imports share. parts: an object for what is outside and one for the cavities.
-    center: moved by the origin of the scene (scene_origin). import_camera: the file's; use_camera: as the scene's, with the
-    size of its picture. camera: a dict, instead of the file's."""
+    """The options of an import. Raises MnsError if the scale is not a positive number.
+
+    scale: Blender units per Å.
+    crisp_colors: True if colours change at edges, False if they blend between vertices.
+    own_materials: True for new materials, False for those that all imports share.
+    parts: True for one object for the outer surface and one for the cavities.
+    center: True if coordinates are relative to the origin of the scene (scene_origin()).
+    import_camera: True to import the camera of the file.
+    use_camera: True to make it the camera of the scene, with the size of its picture.
+    camera: a dict that replaces the camera of the file, or None."""
 
     def __init__(self, scale=0.1, crisp_colors=True, own_materials=False, parts=False, center=False, import_camera=True,
                  use_camera=True, camera=None):
@@ -36,7 +42,8 @@ class Options:
 
 
 class Import:
-    """What one import made: the collection, an object for every copy of every surface, the camera's object or None."""
+    """The result of an import: the collection, an object for every copy of every surface, and the camera's object or
+    None."""
 
     def __init__(self):
         self.collection = None
@@ -46,7 +53,7 @@ class Import:
 
 @contextlib.contextmanager
 def whole_or_nothing():
-    """Removes what came into the file meanwhile if an exception ends it."""
+    """Removes all data that was added to the file within the context if an exception ends it."""
     before = {store: set(store) for store in (bpy.data.objects, bpy.data.meshes, bpy.data.cameras, bpy.data.collections,
                                               bpy.data.materials, bpy.data.node_groups, bpy.data.actions)}
     try:
@@ -58,28 +65,29 @@ def whole_or_nothing():
         raise
 
 
-def tells_errors(execute):
-    """Has an operator report what a file or the engine says, and end as cancelled."""
+def reports_errors(execute):
+    """Decorates an operator's function so that it reports MnsError and OSError, and ends as cancelled."""
 
     @functools.wraps(execute)
-    def told(operator, context):
+    def reporting(operator, context):
         try:
             return execute(operator, context)
         except (mns_reader.MnsError, OSError) as error:
             operator.report({"ERROR"}, str(error))
             return {"CANCELLED"}
 
-    return told
+    return reporting
 
 
 def import_file(path, context=None, **options):
-    """Reads a .mns file into a new collection; options: of Options. After mns_reader.MnsError or OSError it
-    leaves nothing in the scene."""
+    """Reads a .mns file into a new collection, and returns an Import. options: arguments of Options. After
+    mns_reader.MnsError or OSError nothing is left in the scene."""
     context = context or bpy.context
     file = mns_reader.read(path)
     options = Options(**options)
     source, atoms = source_of(file.header), sum(len(surface["atom.center"]) for surface in file.objects)
-    origin = scene_origin(context.scene, lambda: middle_of(frames.points_of(file)), source, atoms) if options.center else np.zeros(3)
+    origin = scene_origin(context.scene, lambda: middle_of(frames.points_of(file)), source,
+                          atoms) if options.center else np.zeros(3)
     stem = os.path.splitext(os.path.basename(path))[0]
     made = Import()
     shot = {**file.header.get("camera", {}), **(options.camera or {})}
@@ -90,7 +98,7 @@ def import_file(path, context=None, **options):
         for key, surface in parts_of(file, options.parts):
             name = f"{stem}.{key if len(file.objects) > 1 or options.parts else 'surface'}"
             meshes.append(build_mesh(surface, name, options, new_materials, fps_of(context.scene), names))
-            for copy in surface.copies:  # linked: all copies share one mesh
+            for copy in surface.copies:  # all copies share one mesh
                 made.surfaces.append(add_copy(meshes[-1], copy, surface, path, file, options, origin, key))
                 made.collection.objects.link(made.surfaces[-1])
         if options.import_camera and shot:
@@ -109,7 +117,8 @@ def import_file(path, context=None, **options):
 
 
 def add_copy(mesh, copy, surface, path, file, options, origin, part=None):
-    """An object for a copy of a surface of a file, which Reload finds by `part`: its name, as parts_of has it."""
+    """Returns a new object for a copy of a surface of a file. Reload finds the surface by `part`, its name in
+    parts_of()."""
     item = bpy.data.objects.new(mesh.name, mesh)
     item.matrix_world = placement(copy, options.scale, origin)
     set_provenance(item, surface, options, names_of(*file.objects))
@@ -122,7 +131,8 @@ def add_copy(mesh, copy, surface, path, file, options, origin, part=None):
 
 
 def parts_of(file, apart):
-    """Pairs: a name that tells a mesh from the others of its file, and its surface. apart: cavities by themselves."""
+    """Yields pairs of a name, which is unique in the file, and a surface. apart: True to separate cavities from outer
+    surfaces."""
     for surface in file.objects:
         name = surface.name if len(file.objects) > 1 else "surface"
         if not apart:
@@ -133,14 +143,15 @@ def parts_of(file, apart):
 
 
 def reload(item, context=None):
-    """Reads the file of an imported object again into its mesh: all that was done to the object and its mesh remains, attributes
-    of the user go with their atoms. Raises mns_reader.MnsError or OSError and then changes nothing."""
+    """Reads the file of an imported object again into its mesh. All changes to the object and its mesh remain, and the
+    user's attributes follow their atoms. Raises mns_reader.MnsError or OSError, and then changes nothing."""
     context = context or bpy.context
     if item is None or "meniscus_file" not in item:
         raise mns_reader.MnsError("the active object was not imported from a .mns file")
     path = libraries.path_of(item, "meniscus_file")
     file = mns_reader.read(path)
-    options = Options(scale=item["meniscus_scale"], crisp_colors=bool(item["meniscus_crisp"]), parts=bool(item["meniscus_parts"]))
+    options = Options(scale=item["meniscus_scale"], crisp_colors=bool(item["meniscus_crisp"]),
+                      parts=bool(item["meniscus_parts"]))
     surface = dict(parts_of(file, options.parts)).get(item["meniscus_part"])
     if surface is None:
         raise mns_reader.MnsError(f"{path}: it has no surface {item['meniscus_part']} any more")
@@ -151,8 +162,8 @@ def reload(item, context=None):
     kept = attributes.keep(mesh, OURS)
     clear_geometry(mesh)
     fill_mesh(mesh, arrays, fps_of(context.scene), trusted=True)
-    attributes.give_back(mesh, kept, arrays)
-    mesh[materials.ASKED] = materials.asked_of(surface, materials.asked_by(mesh)[1])
+    attributes.restore(mesh, kept, arrays)
+    mesh[materials.REQUIREMENTS] = materials.requirements_of(surface, materials.stored_requirements(mesh)[1])
     for slot, material in enumerate(dressing):
         if slot == len(mesh.materials):
             mesh.materials.append(None)
@@ -165,7 +176,8 @@ def reload(item, context=None):
 
 
 def check_with_blender(arrays):
-    """Raises mns_reader.MnsError if Blender finds faults in such a mesh, before the one that shows something is touched."""
+    """Raises mns_reader.MnsError if Blender finds faults in a mesh with these arrays. It uses a temporary mesh, so that
+    a shown mesh is not changed."""
     mesh = bpy.data.meshes.new("check")
     try:
         fill_mesh(mesh, arrays, 1.0)
@@ -182,14 +194,15 @@ def remembered_path(path):
 
 
 def middle_of(points):
-    """Of their bounding box."""
+    """Returns the middle of the bounding box of points (n, 3)."""
     return 0.5 * (points.min(axis=0) + points.max(axis=0))
 
 
 def scene_origin(scene, otherwise, source, atoms):
-    """Å: what an earlier import of the same molecule took from all coordinates, so that its surfaces stay together; else
-    otherwise(). It is the same if its file, source, has the same name but for the ending, or if it has as many atoms, enough of
-    them that this is not a chance."""
+    """Returns the origin of coordinates in Å that an earlier import of the same molecule used, so that its surfaces
+    stay together, or otherwise() if there is none. Two molecules are the same if their files (source) have the same
+    name without endings, or if their numbers of atoms agree and are at least MANY_ATOMS, which is unlikely by
+    chance."""
     for item in scene.objects:
         same_name = stem_of(source) and stem_of(source) == stem_of(item.get("meniscus_source", ""))
         is_same = same_name or (atoms >= MANY_ATOMS and atoms == item.get("meniscus_atoms"))
@@ -199,13 +212,14 @@ def scene_origin(scene, otherwise, source, atoms):
 
 
 def stem_of(name):
-    """A file's name without its endings."""
+    """Returns the name of a file without its endings."""
     return os.path.basename(name).split(".")[0]
 
 
 def present(context, items):
-    """Selects them, the first as the active one, and shows their colours in solid views that show those of materials."""
-    context.view_layer.update()  # without objects that have just been removed
+    """Selects objects, makes the first active, and shows their colours in solid views that show colours of
+    materials."""
+    context.view_layer.update()  # drops objects that have just been removed
     for other in context.view_layer.objects:
         other.select_set(False)
     for item in items:
@@ -216,13 +230,15 @@ def present(context, items):
 
 
 def let_rays_through(scene, meshes):
-    """Beyond the number of layers that the scene allows, eight by default, Cycles shows black. The number never becomes smaller."""
+    """Raises the number of transparent layers that Cycles renders, if a mesh has opacities. Cycles shows black after
+    more layers, and allows eight by default. The number never becomes smaller."""
     if any("opacity" in mesh.attributes for mesh in meshes) and hasattr(scene, "cycles"):
         scene.cycles.transparent_max_bounces = max(scene.cycles.transparent_max_bounces, MOST_LAYERS)
 
 
 def placement(copy, scale, origin):
-    """The object's matrix: mesh coordinates are already scaled, so only the translation is. origin: Å, taken away."""
+    """Returns the matrix of an object. Only the translation is scaled, because mesh coordinates are scaled already.
+    origin: the origin of coordinates in Å, which is subtracted."""
     matrix = mathutils.Matrix([[float(value) for value in row] for row in copy] + [[0.0, 0.0, 0.0, 1.0]])
     matrix.translation = (matrix.translation - mathutils.Vector(origin)) * scale
     return matrix
@@ -233,7 +249,7 @@ def fps_of(scene):
 
 
 def build_mesh(surface, name, options, new_materials, fps, names, fades=False):
-    """fades: with materials that fade as the object's colour says."""
+    """Returns a new mesh of a surface. fades: True for materials that fade by the object's colour (fading.py)."""
     mesh = bpy.data.meshes.new(name)
     add_materials(mesh, surface, new_materials, options.own_materials, fades)
     fill_mesh(mesh, of_surface(surface, options.scale, options.crisp_colors, names), fps)
@@ -241,14 +257,16 @@ def build_mesh(surface, name, options, new_materials, fps, names, fades=False):
 
 
 def let_exporters_follow(mesh):
-    """Exporters of Alembic and USD look at a mesh again in later frames only if it has keys, a modifier or the like."""
+    """Adds a key to a mesh. Exporters of Alembic and USD write a mesh again in later frames only if it has keys, a
+    modifier or the like."""
     if mesh.animation_data is None:
         mesh["meniscus_moves"] = 1.0
         mesh.keyframe_insert('["meniscus_moves"]', frame=1.0)
 
 
 def clear_geometry(mesh):
-    """Materials, properties and what animates the mesh remain; the function of Mesh would take the last away."""
+    """Removes the geometry of a mesh. Materials, properties and animation remain; Mesh.clear_geometry() would remove
+    the animation."""
     if mesh.animation_data is None:
         mesh.clear_geometry()
         return
@@ -258,15 +276,16 @@ def clear_geometry(mesh):
 
 
 def fill_mesh(mesh, arrays, fps, trusted=False):
-    """Puts mesh_arrays.MeshArrays into a mesh without geometry. Materials stay. fps: frames of the run a second, for velocities.
-    trusted: they were never in a file, so Blender need not look for faults. On an error the mesh is half filled."""
+    """Puts mesh_arrays.MeshArrays into a mesh without geometry. Materials remain. fps: frames of the run per second,
+    for velocities. trusted: True if the arrays were never in a file, so that Blender need not validate them. After an
+    error the mesh is half filled."""
     mesh.vertices.add(len(arrays.positions))
     mesh.vertices.foreach_set("co", arrays.positions.ravel())
     compat.set_triangles(mesh, arrays.triangles)
     mesh.update(calc_edges=True)
     for each in arrays.attributes:
         attributes.add(mesh, *each)
-    if arrays.velocity is not None:  # Cycles blurs by the attribute of this name: units per second
+    if arrays.velocity is not None:  # Cycles blurs motion by the attribute of this name, in units per second
         attributes.add(mesh, "velocity", "FLOAT_VECTOR", "POINT", arrays.velocity * np.float32(fps))
     mesh.polygons.foreach_set("material_index", arrays.slots)
     if len(arrays.sharp_edges):
@@ -278,15 +297,17 @@ def fill_mesh(mesh, arrays, fps, trusted=False):
 
 
 def add_materials(mesh, surface, new_materials, own=False, fades=False):
-    """own: not those that all imports share. fades: as the object's colour says."""
-    mesh[materials.ASKED] = materials.asked_of(surface, fades)
+    """Adds the materials of a surface to a mesh. own: True for new materials, False for those that all imports share.
+    fades: True for materials that fade by the object's colour."""
+    mesh[materials.REQUIREMENTS] = materials.requirements_of(surface, fades)
     for role, kind in materials.wanted(surface):
-        mesh.materials.append(materials.find_or_make(role, kind, new_materials, own, materials.hatching_of(surface, role),
-                                                     materials.looks_of(surface), fades))
+        mesh.materials.append(
+            materials.find_or_make(role, kind, new_materials, own, materials.hatching_of(surface, role),
+                                   materials.looks_of(surface), fades))
 
 
 def source_of(header):
-    """The name of the molecule's file, "" where the header of a file or a manifest does not say it."""
+    """Returns the name of the molecule's file from the header of a file or a manifest, or "" if it is not there."""
     return str(header.get("source", {}).get("file", ""))
 
 
@@ -305,7 +326,8 @@ def set_provenance(item, surface, options, names):
 
 
 def set_names(item, names):
-    """Custom properties with the names that attributes of a mesh point into; chain_ids as Molecular Nodes has them."""
+    """Sets the custom properties with the lists of names that attributes of a mesh refer to by index. Molecular Nodes
+    uses chain_ids in the same way."""
     for attribute, (_, key) in NAMES.items():
         wanted = list(names.get(attribute, ()))
         if wanted != list(item.get(key, ())):
@@ -313,8 +335,10 @@ def set_names(item, names):
 
 
 def place_camera(item, shot, scale, origin=(0.0, 0.0, 0.0)):
-    """Moves a camera's object to the place of `shot`, the camera of a file. origin: Å, of the scene's coordinates."""
-    item["meniscus_shadows"], item["meniscus_shadow_softness"] = shot.get("shadows", 0.0), shot.get("shadow_softness", 0.0)
+    """Moves a camera's object to the place of `shot`, the camera of a file. origin: the origin of the scene's
+    coordinates in Å."""
+    item["meniscus_shadows"], item["meniscus_shadow_softness"] = shot.get("shadows",
+                                                                          0.0), shot.get("shadow_softness", 0.0)
     position, target, up = (mathutils.Vector(shot[key]) for key in ("position", "target", "up"))
     forward = (target - position).normalized()
     right = forward.cross(up).normalized()
@@ -332,7 +356,8 @@ def place_camera(item, shot, scale, origin=(0.0, 0.0, 0.0)):
 
 
 def reach_all(item, points, scale, origin=(0.0, 0.0, 0.0)):
-    """Sets the clipping of a camera so that none of the atoms at `points` (n, 3) Å is cut off; never brings its end nearer."""
+    """Sets the clipping of a camera so that no atom at `points`, (n, 3) Å, is cut off. The far end never becomes
+    nearer."""
     place = np.array(item.matrix_world.translation) / scale + np.array(origin)
     reach = float(np.linalg.norm(points - place, axis=1).max()) * scale
     item.data.clip_start = max(1e-4 * reach, 1e-6)
@@ -348,7 +373,7 @@ def use_picture_size(scene, shot):
 
 
 def views_of(context):
-    """The 3-D views of all windows."""
+    """Yields the 3-D views of all windows."""
     for window in getattr(context.window_manager, "windows", ()):
         for area in window.screen.areas:
             for space in area.spaces:
@@ -357,7 +382,7 @@ def views_of(context):
 
 
 def show_all_in_viewports(context, item):
-    """Raises clip_end of 3-D views only if the body would be cut off."""
+    """Raises clip_end of 3-D views if they would cut off the object."""
     corners = (item.matrix_world @ mathutils.Vector(corner) for corner in item.bound_box)
     reach = 4.0 * max((corner.length for corner in corners), default=0.0)
     for space in views_of(context):

@@ -1,20 +1,110 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The camera of a storyboard: a child of its target, with key frames at the beginning and the end of each transition."""
+"""The camera of a storyboard: poses and the path from one to the next, and an object with key frames at the beginning
+and the end of each transition."""
 
 import math
 
 import bpy
 import numpy as np
 
-from . import camera_path, curves, keys
+from . import keys
 
-#: What a camera may be off its way, seen from its target, degrees; and of its distance, angle and height, a share.
+#: The tolerance of a camera's path: the angle seen from its target in degrees, and the relative error of its distance,
+#: angle of view and height.
 TURN, SIZE = 0.2, 1e-3
 
 
+class Pose:
+    """The pose of a camera.
+
+    target: the point it looks at, Å.
+    turn: quaternion (w, x, y, z) of the axes right, up, back.
+    distance: from the target, Å.
+    tangent: the tangent of half the vertical angle of view, or None.
+    height: the height of the picture at the target, Å, or None.
+    is_flat: True if the projection is orthographic."""
+
+    def __init__(self, target, turn, distance, tangent, height, is_flat):
+        self.target, self.turn, self.distance = target, turn, distance
+        self.tangent, self.height, self.is_flat = tangent, height, is_flat
+
+
+def pose_of(camera):
+    """Returns the Pose of a camera of a .mns header. The member that its projection does not have is None."""
+    position, target, up = (np.array(camera[key], dtype=np.float64) for key in ("position", "target", "up"))
+    distance = float(np.linalg.norm(target - position))
+    forward = (target - position) / distance
+    right = np.cross(forward, up)
+    right /= np.linalg.norm(right)
+    is_flat = camera["projection"] == "orthographic"
+    return Pose(target, quaternion(np.stack([right, np.cross(right, forward), -forward], axis=1)), distance,
+                None if is_flat else math.tan(math.radians(camera["vertical_fov"]) / 2),
+                camera["height"] if is_flat else None, is_flat)
+
+
+def quaternion(matrix):
+    """Returns the quaternion (w, x, y, z) of a rotation matrix with w >= 0: the eigenvector of the greatest eigenvalue
+    of a symmetric form (I. Y. Bar-Itzhack, 2000)."""
+    (a, b, c), (d, e, f), (g, h, i) = matrix
+    form = np.array([[a + e + i, h - f, c - g, d - b], [h - f, a - e - i, b + d, c + g],
+                     [c - g, b + d, e - a - i, f + h], [d - b, c + g, f + h, i - a - e]])
+    turn = np.linalg.eigh(form)[1][:, -1]
+    return -turn if turn[0] < 0 else turn
+
+
+def complete(poses):
+    """Sets the members of poses that their projections lack, in the same way as the film, and returns the poses in
+    their order. During a transition to another projection the first projection remains, and ends with a picture that
+    agrees with the second in the plane of its target. So an orthographic pose gets the angle of the previous pose, and
+    the distance from which that angle shows the same height. `extra`: the true distance of its camera minus this
+    one."""
+    lens = next((pose.tangent for pose in poses if not pose.is_flat), math.tan(math.radians(15.0)))
+    for number, pose in enumerate(poses):
+        pose.extra = 0.0
+        if not pose.is_flat:
+            pose.height = 2.0 * pose.distance * pose.tangent
+            lens = pose.tangent
+            continue
+        pose.tangent = lens
+        if number and not poses[number - 1].is_flat:
+            own, pose.distance = pose.distance, pose.height / (2.0 * lens)
+            pose.extra = own - pose.distance
+    for before, pose in zip(poses, poses[1:]):  # takes the shorter of both rotations
+        if np.dot(before.turn, pose.turn) < 0.0:
+            pose.turn = -pose.turn
+    return poses
+
+
+def slerp_progress(one, other, share):
+    """Returns the share of a normalized straight line from one quaternion to another (nlerp) at which a `share` of the
+    rotation angle is done (slerp)."""
+    half = math.acos(min(max(float(np.dot(one, other)), -1.0), 1.0))
+    if half < 1e-6:
+        return np.asarray(share, dtype=np.float64)
+    before, after = np.sin((1.0 - share) * half), np.sin(share * half)
+    return after / (before + after)
+
+
+def log_progress(one, other, share):
+    """Returns the share of the difference between two positive numbers at which their logarithm has changed by `share`.
+    """
+    ratio = math.log(other / one)
+    return np.asarray(share, dtype=np.float64) if abs(ratio) < 1e-9 else np.expm1(ratio * share) / math.expm1(ratio)
+
+
+def lens_progress(one, other, share):
+    """Returns the share of the difference between two lenses at which the logarithm of the angle of view has changed by
+    `share`. The lens is 1 / tan(half the angle), and `one` and `other` are tangents of half the angles."""
+    angles = np.arctan([one, other])
+    lens = 1.0 / np.tan(np.exp(np.log(angles[0]) + share * np.log(angles[1] / angles[0])))
+    return np.asarray(share, dtype=np.float64) if abs(one / other -
+                                                      1.0) < 1e-9 else (lens - 1.0 / one) / (1.0 / other - 1.0 / one)
+
+
 def add(collection, board, name, scale, origin):
-    """The camera, whose parent is at the target."""
-    poses = camera_path.complete([camera_path.pose_of(scene.camera) for scene in board.scenes])
+    """Adds the camera of a storyboard to a collection and returns its object. Its parent is an empty object at the
+    target."""
+    poses = complete([pose_of(scene.camera) for scene in board.scenes])
     target = bpy.data.objects.new(f"{name}.target", None)
     target.rotation_mode = "QUATERNION"
     target.empty_display_size = 5.0 * scale
@@ -28,14 +118,17 @@ def add(collection, board, name, scale, origin):
     half = 0.5 * data.sensor_height
     places = [(pose.target - origin) * scale for pose in poses]
     key(board, target, "location", places, target.location)
-    key(board, target, "rotation_quaternion", [pose.turn for pose in poses], target.rotation_quaternion, camera_path.turned,
-        _tolerance_of_turn)
-    key(board, item, "location", [(0.0, 0.0, pose.distance * scale) for pose in poses], item.location, _grown, _tolerance_of_size, (2,))
+    key(board, target, "rotation_quaternion", [pose.turn for pose in poses], target.rotation_quaternion,
+        slerp_progress, _tolerance_of_turn)
+    key(board, item, "location", [(0.0, 0.0, pose.distance * scale) for pose in poses], item.location, _log_progress,
+        _tolerance_of_size, (2,))
     data.lens, data.ortho_scale = half / poses[0].tangent, poses[0].height * scale
     key(board, data, "lens", [(half / pose.tangent,) for pose in poses], None,
-        lambda before, after, share: camera_path.grown_lens(before[0] / half, after[0] / half, share), _tolerance_of_size)
+        lambda before, after, share: lens_progress(before[0] / half, after[0] / half, share),
+        _tolerance_of_size)
     if any(pose.is_flat for pose in poses):
-        key(board, data, "ortho_scale", [(pose.height * scale,) for pose in poses], None, _grown, _tolerance_of_size)
+        key(board, data, "ortho_scale", [(pose.height * scale,) for pose in poses], None, _log_progress,
+            _tolerance_of_size)
     if len({pose.is_flat for pose in poses}) > 1:
         _step(board, data, "type", [float(pose.is_flat) for pose in poses])
     if any(pose.extra for pose in poses):
@@ -44,14 +137,15 @@ def add(collection, board, name, scale, origin):
 
 
 def reach_all(item, board, points_of_scenes, scale):
-    """Has the camera see all that any scene shows. points_of_scenes: (n, 3) Å for each."""
+    """Sets the clipping of the camera so that it shows everything in all scenes. points_of_scenes: the atoms of each
+    scene, (n, 3) Å."""
     reach = max(float(np.linalg.norm(points - np.array(scene.camera["position"]), axis=1).max())
                 for scene, points in zip(board.scenes, points_of_scenes)) * scale
     item.data.clip_start, item.data.clip_end = max(1e-4 * reach, 1e-6), 4.0 * reach
 
 
-def _grown(before, after, share):
-    return camera_path.grown(before[0], after[0], share)
+def _log_progress(before, after, share):
+    return log_progress(before[0], after[0], share)
 
 
 def _tolerance_of_turn(before, after):
@@ -64,26 +158,31 @@ def _tolerance_of_size(before, after):
 
 
 def transitions(board):
-    """Pairs of scenes, one after the other, and whether there is a picture between them."""
+    """Returns each pair of successive scenes, and True if there is a picture between them."""
     return [(before, after, after.first > before.last + 1) for before, after in zip(board.scenes, board.scenes[1:])]
 
 
-def key(board, owner, path, values, now, way=lambda before, after, share: share, tolerance=lambda before, after: 1e-6, channels=None):
-    """Keys of a property of a data block. values: of each scene, those of all channels. now: the property, which gets those of the
-    first; None: it has no channels, and its value. way(before, after, share): how much of the straight way between the values of two
-    scenes is done. tolerance(before, after): keys.follow. channels: those to be keyed, if not all."""
+def key(board, owner, path, values, now, way=lambda before, after, share: share, tolerance=lambda before, after: 1e-6,
+        channels=None):
+    """Adds key frames to a property of a data block.
+
+    values: the values of all channels for each scene.
+    now: the property, which gets the values of the first scene; None for a property without channels.
+    way(before, after, share): returns how much of the straight line between the values of two scenes is done.
+    tolerance(before, after): the tolerance of keys.follow().
+    channels: the channels to key; None for all."""
     channels = tuple(range(len(values[0]))) if channels is None else channels
     values = [[float(value[channel]) for channel in channels] for value in values]
     ways = [keys.Way(board.scenes[0].last, part) for part in values[0]]
-    start = curves.SMOOTH if board.is_smooth else curves.EVEN
+    start = keys.SMOOTH if board.is_smooth else keys.EVEN
     for (before, after, dissolves), one, other in zip(transitions(board), values, values[1:]):
         for each, part in zip(ways, one):
-            each.go_on(before.last, part)
+            each.append(before.last, part)
         if dissolves and one != other:
             keys.follow(ways, (before.last, after.first), (one, other), lambda time: way(one, other, board.share(time)),
                         tolerance(one, other), start)
         for each, part in zip(ways, other):
-            each.go_on(after.first, part, keys.LINEAR if dissolves else keys.CONSTANT)
+            each.append(after.first, part, keys.LINEAR if dissolves else keys.CONSTANT)
     for channel, each in zip(channels, ways):
         if now is not None:
             now[channel] = each.points[0][1]
@@ -91,8 +190,8 @@ def key(board, owner, path, values, now, way=lambda before, after, share: share,
 
 
 def _step(board, owner, path, values, index=-1):
-    """Keys of what stays until the next scene is there."""
+    """Adds key frames to a property that is constant until the next scene begins."""
     way = keys.Way(board.scenes[0].first, values[0])
     for scene, value in zip(board.scenes[1:], values[1:]):
-        way.go_on(scene.first, value, keys.CONSTANT)
+        way.append(scene.first, value, keys.CONSTANT)
     way.insert(owner, path, index)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything that differs between Blender 3.4 and 5.3; run on 3.4.1, and by scripts/check/newer_blenders.sh on the versions that it lists."""
+"""Everything that differs between Blender 3.4 and 5.3. It was run on 3.4.1, and by scripts/check/newer_blenders.sh on
+the versions that it lists."""
 
 import math
 
@@ -7,13 +8,13 @@ import numpy as np
 
 try:
     import bpy
-except ImportError:  # what follows from numbers alone is tested by any Python
+except ImportError:  # functions that need numbers only are tested without Blender
     bpy = None
 
 
 def set_normals(mesh, normals):
-    """Smooth shading with the normals of vertices, (vertices, 3), or of corners, (3 * triangles, 3); float32. Call last, after
-    positions and edges."""
+    """Sets smooth shading with the normals of vertices, (vertices, 3), or of corners, (3 * triangles, 3), as float32.
+    It must be called last, after positions and edges are set."""
     of_corners = len(normals) != len(mesh.vertices)
     if hasattr(mesh, "use_auto_smooth"):  # before 4.1 custom normals are ignored without it
         mesh.polygons.foreach_set("use_smooth", np.ones(len(mesh.polygons), dtype=bool))
@@ -21,7 +22,7 @@ def set_normals(mesh, normals):
         mesh.auto_smooth_angle = math.pi
     else:
         mesh.shade_smooth()
-    if bpy.app.version >= (4, 5, 0):  # before, they are encoded, which takes half of the time of an import
+    if bpy.app.version >= (4, 5, 0):  # earlier versions encode normals, which takes half of the time of an import
         attribute = mesh.attributes.new("custom_normal", "FLOAT_VECTOR", "CORNER" if of_corners else "POINT")
         attribute.data.foreach_set("vector", normals.ravel())
     elif of_corners:
@@ -31,7 +32,7 @@ def set_normals(mesh, normals):
 
 
 def set_triangles(mesh, triangles):
-    """Makes the faces: int array (triangles, 3). loop_total became read-only in 3.6."""
+    """Adds the faces of a mesh. triangles: integers, (triangles, 3). loop_total became read-only in 3.6."""
     count = len(triangles)
     mesh.loops.add(3 * count)
     mesh.polygons.add(count)
@@ -44,7 +45,7 @@ def set_triangles(mesh, triangles):
 
 
 def mark_sharp(mesh, keys):
-    """Marks the edges whose sorted vertex pair a << 32 | b is in `keys` (uint64) as sharp."""
+    """Marks the edges whose sorted vertex pair a << 32 | b is in `keys` (uint64) as sharp, and returns their number."""
     pairs = np.empty(2 * len(mesh.edges), dtype=np.int32)
     mesh.edges.foreach_get("vertices", pairs)
     pairs = np.sort(pairs.reshape(-1, 2), axis=1).astype(np.uint64)
@@ -58,20 +59,20 @@ def mark_sharp(mesh, keys):
 
 
 def node_tree(owner):
-    """Of a new material or world; it is there by itself from 5.0 on."""
+    """Returns the node tree of a material or a world. Before 5.0 new ones have none, and it is added."""
     if owner.node_tree is None:
         owner.use_nodes = True
     return owner.node_tree
 
 
 def find_or_add(tree, kind, name):
-    """The node of a type, by kind as nodes have it ("BACKGROUND") or made by name ("ShaderNodeBackground"): a new tree of 5.x
-    may lack it, and names of nodes are translated."""
+    """Returns a node by its type, such as "BACKGROUND", or adds it by the name of its class, such as
+    "ShaderNodeBackground". A new tree of 5.x may lack it, and labels of nodes are translated, so they identify none."""
     return next((node for node in tree.nodes if node.type == kind), None) or tree.nodes.new(name)
 
 
 def set_format(settings, file_format):
-    """The kind of pictures that a scene renders; 5.0 asks first whether they have layers."""
+    """Sets the file format of rendered pictures. From 5.0 on it must be known first if they have layers."""
     if hasattr(settings, "media_type"):
         settings.media_type = "MULTI_LAYER_IMAGE" if file_format == "OPEN_EXR_MULTILAYER" else "IMAGE"
     settings.file_format = file_format
@@ -80,7 +81,7 @@ def set_format(settings, file_format):
 
 
 def principled_input(node, *names):
-    """The first socket of these names that this version has: 4.0 renamed several."""
+    """Returns the first of the inputs with these names that this version has, or None. 4.0 renamed several inputs."""
     for name in names:
         if name in node.inputs:
             return node.inputs[name]
@@ -88,20 +89,22 @@ def principled_input(node, *names):
 
 
 def let_through(material):
-    """Makes Eevee show Alpha, in whatever order the faces come. 4.2 does so by itself and has these settings no more."""
+    """Makes Eevee show alpha independently of the order of faces. From 4.2 on this is the default, without settings."""
     if not hasattr(material, "surface_render_method"):
         material.blend_method = "HASHED"
         material.shadow_method = "HASHED"
 
 
 def scatter_smoothly(shader):
-    """Before 4.0 the random walk below a surface of saturated colours, the default, leaves grain in all other colours."""
+    """Selects a smooth method of subsurface scattering before 4.0, whose default random walk makes grain below surfaces
+    of saturated colours."""
     if bpy.app.version < (4, 0, 0):
         shader.subsurface_method = "BURLEY"
 
 
 def refract(material):
-    """Makes Eevee show through a transmitting surface, if its scene allows it: the setting has another name since 4.2."""
+    """Makes Eevee refract light in a transmitting surface, if the settings of the scene allow it. The setting has
+    another name since 4.2."""
     for name in ("use_screen_refraction", "use_raytrace_refraction"):
         if hasattr(material, name):
             setattr(material, name, True)
@@ -109,13 +112,14 @@ def refract(material):
 
 
 def eevee():
-    """What Eevee is called as an engine: it had another name from 4.2 to 4.5."""
+    """Returns the identifier of Eevee as an engine, which was another one from 4.2 to 4.5."""
     names = {item.identifier for item in bpy.types.RenderSettings.bl_rna.properties["engine"].enum_items}
     return "BLENDER_EEVEE_NEXT" if "BLENDER_EEVEE_NEXT" in names else "BLENDER_EEVEE"
 
 
 def set_up_eevee(scene, samples):
-    """Samples of a pixel, and that surfaces mirror and refract what the picture shows: settings of other names since 4.2."""
+    """Sets the samples per pixel of Eevee, and screen-space reflection and refraction, which have other names since
+    4.2."""
     scene.eevee.taa_render_samples = samples
     for name in ("use_ssr", "use_ssr_refraction", "use_soft_shadows", "use_gtao", "use_raytracing"):
         if hasattr(scene.eevee, name):
@@ -123,7 +127,7 @@ def set_up_eevee(scene, samples):
 
 
 def denoise(scene):
-    """Has Cycles take the grain out of its pictures by OpenImageDenoise, which Debian's Blender is built without."""
+    """Makes Cycles denoise its pictures by OpenImageDenoise. Debian's Blender is built without it."""
     import _cycles
 
     if _cycles.with_openimagedenoise:
@@ -131,20 +135,20 @@ def denoise(scene):
 
 
 def cast_shadows(light, wanted):
-    """Cycles had a setting of its own before 4.2."""
+    """Sets if a light casts shadows. Cycles had a setting of its own before 4.2."""
     light.use_shadow = wanted
     if hasattr(getattr(light, "cycles", None), "cast_shadow"):
         light.cycles.cast_shadow = wanted
 
 
 def set_active_color(mesh, name):
-    """What solid views and paint modes show of a mesh."""
+    """Sets the colour attribute of a mesh that solid views and paint modes show."""
     colors = mesh.color_attributes
     colors.active_color_index = colors.render_color_index = colors.find(name)
 
 
 def math_node(tree, operation, *operands):
-    """The output of a node that computes with numbers and sockets."""
+    """Adds a node that computes with numbers and sockets, and returns its output."""
     node = tree.nodes.new("ShaderNodeMath")
     node.operation = operation
     for socket, value in zip(node.inputs, operands):
@@ -156,24 +160,25 @@ def math_node(tree, operation, *operands):
 
 
 def can_drop_files():
-    """FileHandler came with 4.1."""
+    """True if files can be dropped into the window. FileHandler was added in 4.1."""
     return hasattr(bpy.types, "FileHandler")
 
 
 def add_geometry_sockets(tree):
-    """One geometry in, one out: 4.0 moved the sockets of a node group to its interface."""
+    """Adds a geometry input and a geometry output to a node group. 4.0 moved its sockets to its interface."""
     if hasattr(tree, "interface"):
         tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
         tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
     else:
         tree.inputs.new("NodeSocketGeometry", "Geometry")
         tree.outputs.new("NodeSocketGeometry", "Geometry")
-    if hasattr(tree, "is_modifier"):  # 4.0 and later offer only such trees to modifiers
+    if hasattr(tree, "is_modifier"):  # from 4.0 on, only such trees can be chosen in modifiers
         tree.is_modifier = True
 
 
 def add_input(tree, name, kind, value):
-    """One input more of a node group; kind: "NodeSocketFloat" and the like. value: None of those that have none."""
+    """Adds an input to a node group. kind: such as "NodeSocketFloat". value: the default value, or None if the kind has
+    none."""
     if hasattr(tree, "interface"):
         socket = tree.interface.new_socket(name, in_out="INPUT", socket_type=kind)
     else:
@@ -183,7 +188,7 @@ def add_input(tree, name, kind, value):
 
 
 def add_output(tree, name, kind):
-    """One output more of a node group."""
+    """Adds an output to a node group."""
     if hasattr(tree, "interface"):
         tree.interface.new_socket(name, in_out="OUTPUT", socket_type=kind)
     else:
@@ -191,7 +196,8 @@ def add_output(tree, name, kind):
 
 
 def hsv_node(tree, saturation, value):
-    """Colour by hue, the first input: 3.3 made one node of those for each space."""
+    """Adds a node that makes a colour from its hue, which is the first input. 3.3 joined the nodes of all colour spaces
+    into one."""
     node = tree.nodes.new("ShaderNodeCombineColor")
     node.mode = "HSV"
     node.inputs[1].default_value, node.inputs[2].default_value = saturation, value
@@ -199,7 +205,8 @@ def hsv_node(tree, saturation, value):
 
 
 def mix_colors(tree, share, color, other):
-    """The output of a node that mixes a socket with a colour, `share` of it: a number or a socket."""
+    """Adds a node that mixes the colour of a socket with `other`, and returns its output. share: the weight of `other`,
+    a number or a socket."""
     node = tree.nodes.new("ShaderNodeMix")
     node.data_type = "RGBA"
     factor, first, second = (next(socket for socket in node.inputs if socket.identifier == name)
@@ -214,8 +221,8 @@ def mix_colors(tree, share, color, other):
 
 
 def line_art(item, name, width):
-    """An object with a Line Art modifier that draws the outlines of another, so many Blender units wide. Blender 4.3 has
-    another grease pencil."""
+    """Returns an object with a Line Art modifier that draws the outlines of `item`. width: Blender units. Blender 4.3
+    replaced the grease pencil."""
     anew = bpy.app.version >= (4, 3, 0)
     store = getattr(bpy.data, "grease_pencils_v3", bpy.data.grease_pencils) if anew else bpy.data.grease_pencils
     drawing = store.new(name)
@@ -225,21 +232,22 @@ def line_art(item, name, width):
     bpy.data.materials.create_gpencil_data(ink)
     drawing.materials.append(ink)
     lines = bpy.data.objects.new(name, drawing)
-    modifier = lines.modifiers.new("Line Art", "LINEART") if anew else lines.grease_pencil_modifiers.new("Line Art", "GP_LINEART")
+    modifier = (lines.modifiers.new("Line Art", "LINEART") if anew else
+                lines.grease_pencil_modifiers.new("Line Art", "GP_LINEART"))
     modifier.source_type, modifier.source_object = "OBJECT", item
     modifier.target_layer = layer.name if anew else layer.info
     modifier.target_material = ink
     for kind in ("use_crease", "use_material", "use_edge_mark", "use_loose", "use_intersection"):
-        setattr(modifier, kind, False)  # contours alone
+        setattr(modifier, kind, False)  # leaves contours only
     if hasattr(modifier, "radius"):
         modifier.radius = 0.5 * width
     else:
-        modifier.thickness, drawing.pixel_factor = 20, width / 0.02  # a unit has a thousand pixels
+        modifier.thickness, drawing.pixel_factor = 20, width / 0.02  # a Blender unit has 1,000 pixels
     return lines
 
 
 def switch_geometry(tree, condition, if_true, otherwise):
-    """The output of a node that chooses between two geometries; None: nothing."""
+    """Adds a node that chooses between two geometries, and returns its output. None stands for an empty geometry."""
     node = tree.nodes.new("GeometryNodeSwitch")
     node.input_type = "GEOMETRY"
     for socket, source in zip((socket for socket in node.inputs if socket.enabled), (condition, otherwise, if_true)):
@@ -249,33 +257,34 @@ def switch_geometry(tree, condition, if_true, otherwise):
 
 
 def keeps_realized_normals():
-    """Whether instances that become a mesh keep their custom normals, which before 4.5 are not an attribute."""
+    """True if realized instances keep their custom normals, which are an attribute from 4.5 on."""
     return bpy.app.version >= (4, 5, 0)
 
 
 def exports_by_mesh_name():
-    """Returns True where Alembic and USD export a new mesh whenever the name of the shown mesh changes."""
+    """True if the exporters of Alembic and USD write a new mesh whenever the name of the shown mesh changes."""
     return bpy.app.version >= (5, 2, 0)
 
 
 def input_identifier(tree, name):
-    """The key of an input in a modifier."""
+    """Returns the identifier of an input of a node group, by which modifiers store its value."""
     sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs
     return next(socket.identifier for socket in sockets if socket.name == name)
 
 
 def identity(item):
-    """A number that tells an object or mesh from all others as long as Blender runs, whatever it is called: through undo, too, since 4.2."""
+    """Returns a number that identifies an object or a mesh while Blender runs, independently of its name. From 4.2 on
+    it survives undo."""
     return item.session_uid if hasattr(item, "session_uid") else item.as_pointer()
 
 
 def of_identity(number):
-    """The object with an identity, or None."""
+    """Returns the object with an identity(), or None."""
     return next((item for item in bpy.data.objects if identity(item) == number), None)
 
 
 def set_input(modifier, name, value):
-    """Sets an input of a node group in its modifier: a custom property before 5.2, then a property of Blender."""
+    """Sets an input of a node group in its modifier. Before 5.2 it is a custom property, then a property of Blender."""
     identifier = input_identifier(modifier.node_group, name)
     if hasattr(modifier, "properties"):
         getattr(modifier.properties.inputs, identifier).value = value
@@ -284,13 +293,15 @@ def set_input(modifier, name, value):
 
 
 def input_path(modifier, name):
-    """The path of such an input from its object, as curves have it."""
-    identifier, modifiers = input_identifier(modifier.node_group, name), f'modifiers["{bpy.utils.escape_identifier(modifier.name)}"]'
-    return f"{modifiers}.properties.inputs.{identifier}.value" if hasattr(modifier, "properties") else f'{modifiers}["{identifier}"]'
+    """Returns the data path of an input of a modifier's node group, relative to its object."""
+    identifier, modifiers = (input_identifier(modifier.node_group, name),
+                             f'modifiers["{bpy.utils.escape_identifier(modifier.name)}"]')
+    return (f"{modifiers}.properties.inputs.{identifier}.value" if hasattr(modifier, "properties") else
+            f'{modifiers}["{identifier}"]')
 
 
 def move_first(item, modifier):
-    """Puts a modifier before all others of its object."""
+    """Moves the last modifier of an object before all others."""
     if hasattr(item.modifiers, "move"):
         item.modifiers.move(len(item.modifiers) - 1, 0)
     elif len(item.modifiers) > 1:
@@ -299,13 +310,16 @@ def move_first(item, modifier):
 
 
 def value_at(item, path, time):
-    """A property at a moment of the scene: keyed by the object's action, or as it is. path: as curves have it, '["name"]'."""
+    """Returns the value of a property at a time of the scene: by its curve in the object's action, or its current
+    value.
+    path: its data path, such as '["name"]'."""
     found = next((curve for curve in action_curves(item) if curve.data_path == path), None)
     return item.path_resolve(path) if found is None else found.evaluate(time)
 
 
 def action_curves(item):
-    """The curves that animate an object: from 4.4 on an action is that of the object and of its mesh, with a bag for each."""
+    """Returns the curves that animate an object. From 4.4 on an object and its mesh share an action, with a channel bag
+    for each."""
     animation = item.animation_data
     if animation is None or animation.action is None:
         return []
@@ -316,31 +330,34 @@ def action_curves(item):
 
 
 def rename_curves(item, paths):
-    """Has what animates a property of an object animate another. paths: from old to new ones."""
+    """Redirects curves and drivers of an object to other properties. paths: old data paths and their new ones."""
     animation = item.animation_data
     if animation is None:
         return
-    if animation.action is not None and animation.action.users > 1 and any(curve.data_path in paths for curve in action_curves(item)):
+    if animation.action is not None and animation.action.users > 1 and any(curve.data_path in paths
+                                                                           for curve in action_curves(item)):
         animation.action = animation.action.copy()
     for curve in (*action_curves(item), *animation.drivers):
         curve.data_path = paths.get(curve.data_path, curve.data_path)
 
 
 def frame_rate(fps):
-    """fps and fps_base of the render settings: the first is a whole number before 5.0."""
+    """Returns fps and fps_base of the render settings for a rate. fps is a whole number before 5.0."""
     whole = max(1, round(fps))
     return whole, whole / fps
 
 
 def show_message(title, text):
-    """A message in the window, if there is one."""
+    """Shows a message in the window, if there is one."""
     if bpy.app.background or not getattr(bpy.context, "window", None):
         return
-    bpy.context.window_manager.popup_menu(lambda menu, _context: menu.layout.label(text=text), title=title, icon="ERROR")
+    bpy.context.window_manager.popup_menu(lambda menu, _context: menu.layout.label(text=text), title=title,
+                                          icon="ERROR")
 
 
 def color_solid_views(context):
-    """Solid views that show the colours of materials, as they do at first, show those of surfaces: their attribute "Color"."""
+    """Makes solid views that show colours of materials, their default, show the attribute "Color" of surfaces
+    instead."""
     for window in getattr(context.window_manager, "windows", ()):
         for area in window.screen.areas:
             shading = area.spaces.active.shading if area.type == "VIEW_3D" else None

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects whose mesh is computed from the request they store: in the background, on the timeline, and again after undo."""
+"""Objects whose mesh is computed from the request that they store: in the background, on the timeline, and again after
+undo."""
 
 import dataclasses
 import time as clock
@@ -11,21 +12,21 @@ from . import compat, libraries, mns_reader, molecular_nodes, motion, showing
 from .computing import process
 from .showing import SHOWN, Shown, _kept, empty, frame_count, is_computed, keep, place_at, show
 
-#: Seconds between two looks at whether something is done.
+#: Seconds between two checks for finished results.
 TICK = 0.005
-#: Seconds between two looks at how far it is.
-TELL = 0.2
-#: Frames that are computed ahead of the one that shows.
+#: Seconds between two updates of the displayed progress.
+REDRAW_INTERVAL = 0.2
+#: The number of frames that are computed ahead of the one that shows.
 AHEAD = 4
 
 _process = None
-_told = 0.0  # when sidebars were last drawn anew
-_awaited = {}  # key -> process.Job of a frame to come
+_last_redraw = 0.0  # time when sidebars were last redrawn
+_ahead = {}  # key -> process.Job of a later frame
 
 
-class Wanted:
-    """One look at an object: the request, the atoms if they come from Blender, with their other attributes, and how they come
-    into a mesh."""
+class SurfaceRequest:
+    """The surface that an object requests at one time: its request, its atoms with their other attributes if they come
+    from Blender, and the scale and colours of its mesh."""
 
     def __init__(self, item, place, in_motion=False):
         settings = item.meniscus
@@ -39,17 +40,19 @@ class Wanted:
         shape = self.request.key(self.atoms, [each.values for each in self.others])
         self.key = f"{shape} {self.scale:.6g} {int(self.crisp)} " + ",".join(each.name for each in self.others)
 
-    def ask(self, owner, urgency=process.NOW):
-        """A process.Job whose result is for Shown."""
-        about = {"request": dataclasses.asdict(self.request), "atoms": self.atoms and vars(self.atoms), "scale": self.scale,
-                 "crisp": self.crisp, "others": [vars(each) for each in self.others]}
-        job = working().ask(owner, self.key, "surface", about, urgency)
+    def submit(self, owner, urgency=process.NOW):
+        """Returns a process.Job whose result becomes a Shown."""
+        about = {
+            "request": dataclasses.asdict(self.request), "atoms": self.atoms and vars(self.atoms), "scale": self.scale,
+            "crisp": self.crisp, "others": [vars(each) for each in self.others]
+        }
+        job = working().submit(owner, self.key, "surface", about, urgency)
         job.make = lambda result: result and Shown(result, self)
         return job
 
 
 def working():
-    """The process that computes, as the preferences want it now."""
+    """Returns the process that computes, with the tools of the current preferences."""
     global _process
     found = bpy.context.preferences.addons.get(__package__)
     chosen = found.preferences if found else None
@@ -61,41 +64,43 @@ def working():
     return _process
 
 
-def look_for_tools():
-    """Looks again, because they may have been installed since. Returns what was found, as works.Tools.told does."""
+def search_tools_again():
+    """Searches for the tools again, because they may have been installed meanwhile. Returns the result of
+    works.Tools.describe_tools()."""
     end()
-    return working().told()
+    return working().describe_tools()
 
 
-def told_tools():
-    """Lines for people."""
+def tool_lines():
+    """Yields lines for the user about the tools that were found."""
     try:
-        found = working().told()
+        found = working().describe_tools()
     except mns_reader.MnsError as error:
         yield str(error)
         return
-    yield f"libmeniscus {found['version']}: {found['library']}" if found["library"] else f"No libmeniscus: {found['missing']}"
+    yield (f"libmeniscus {found['version']}: {found['library']}" if found["library"] else
+           f"No libmeniscus: {found['missing']}")
     yield f"Program: {found['program']}" if found["program"] else "No program meniscus, which only trajectories need"
 
 
 def end():
-    """Ends what computes; it starts again when it is needed."""
+    """Ends the process that computes. It starts again when it is needed."""
     global _process
     if _process is not None:
         _process.end()
         _process = None
-    _awaited.clear()
+    _ahead.clear()
 
 
 def changed(item):
-    """A property changed: the surface follows in the background, if that is switched on."""
+    """Updates the surface in the background after a property of the object changed, if live updates are switched on."""
     if is_computed(item) and item.meniscus.live and not bpy.app.background:
-        ask(item, in_motion=True)
+        update_in_background(item, in_motion=True)
 
 
-def ask(item, in_motion=False):
-    """Has the surface computed in the background; what waits for the same object falls away. in_motion: a proxy, where the object
-    wants that, which a fine mesh follows."""
+def update_in_background(item, in_motion=False):
+    """Requests the surface of an object in the background. Waiting requests of the same object are dropped. in_motion:
+    True to request a proxy first if the settings of the object say so; a fine mesh follows."""
     _wait_for_rest(item, in_motion)
     try:
         if needs_frames(item):
@@ -105,22 +110,22 @@ def ask(item, in_motion=False):
             if place is None:
                 empty(item)
                 return
-            wanted = Wanted(item, place)
+            wanted = SurfaceRequest(item, place)
             if in_motion and item.data.get(SHOWN) != wanted.key and wanted.key not in _kept:
-                wanted = Wanted(item, place, True)
+                wanted = SurfaceRequest(item, place, True)
             if item.data.get(SHOWN) == wanted.key or wanted.key in _kept:
-                working().drop(compat.identity(item))  # what was asked for before an undo
+                working().drop(compat.identity(item))  # drops requests from before an undo
                 _show_kept(item, wanted.key)
                 return
-            wanted.ask(compat.identity(item))
+            wanted.submit(compat.identity(item))
             showing.watch(item)
     except (mns_reader.MnsError, OSError) as error:
         fail(item, error)
         return
-    _go_on_ticking()
+    _start_timer()
 
 
-def _go_on_ticking():
+def _start_timer():
     if not bpy.app.timers.is_registered(_tick):
         bpy.app.timers.register(_tick, first_interval=TICK)
 
@@ -128,23 +133,23 @@ def _go_on_ticking():
 def _wait_for_rest(item, in_motion):
     if in_motion and item.meniscus.detail == "AUTO":
         motion.moves(compat.identity(item))
-        _go_on_ticking()
+        _start_timer()
     else:
         motion.rests(compat.identity(item))
 
 
 def _come_to_rest():
-    """Asks for the fine meshes that are due, once their proxies are there."""
+    """Requests the fine meshes that are due, as soon as their proxies are done."""
     for owner in motion.at_rest():
         item = compat.of_identity(owner)
         if not is_computed(item):
             motion.rests(owner)
         elif working().job_of(owner) is None:
-            ask(item)
+            update_in_background(item)
 
 
 def come_to_rest(item):
-    """Shows its fine mesh now, or says what went wrong."""
+    """Computes and shows the fine mesh of an object, or reports the error."""
     try:
         compute_now(item)
     except (mns_reader.MnsError, OSError) as error:
@@ -161,8 +166,9 @@ def _run_key(item):
 
 
 def _ask_for_frames(item):
-    """How many the run has."""
-    return working().ask(compat.identity(item), _run_key(item), "count", {"request": dataclasses.asdict(item.meniscus.request(1))})
+    """Requests the number of frames of an object's run, and returns the process.Job."""
+    return working().submit(compat.identity(item), _run_key(item), "count",
+                         {"request": dataclasses.asdict(item.meniscus.request(1))})
 
 
 def _take_frames(item, job):
@@ -170,33 +176,35 @@ def _take_frames(item, job):
 
 
 def count_frames(item):
-    """Has its run counted, if that is not known, and waits for it."""
+    """Computes the number of frames of an object's run, if it is not known yet."""
     if needs_frames(item):
         _take_frames(item, _finished(_ask_for_frames(item)))
 
 
 def compute_now(item, time=None, in_motion=False):
-    """The same, and waits for it. Raises MnsError or OSError, and leaves the mesh as it was."""
+    """Computes and shows the surface of an object, and waits for it. Raises MnsError or OSError, and then leaves the
+    mesh unchanged."""
     working().drop(compat.identity(item))
     count_frames(item)
     show_place(item, place_at(item, bpy.context.scene.frame_current_final if time is None else time), in_motion)
 
 
 def show_place(item, place, in_motion=False):
-    """Computes what an object shows at a place of its run, None for nothing, and waits for it."""
+    """Computes and shows the surface of an object at a place of its run, and waits for it. place: None shows
+    nothing."""
     if place is None:
         empty(item)
         libraries.succeed(item)
         return
-    wanted = Wanted(item, place, in_motion)
+    wanted = SurfaceRequest(item, place, in_motion)
     if item.data.get(SHOWN) != wanted.key and wanted.key not in _kept:
-        job = _finished(_awaited.pop(wanted.key, None) or wanted.ask(compat.identity(item)))
+        job = _finished(_ahead.pop(wanted.key, None) or wanted.submit(compat.identity(item)))
         keep(wanted.key, job.make(job.result))
     _show_kept(item, wanted.key)
 
 
 def _show_kept(item, key):
-    """Shows what was computed, unless the object shows it already."""
+    """Shows a kept surface, unless the object shows it already."""
     if item.data.get(SHOWN) == key:
         libraries.succeed(item)
     else:
@@ -204,7 +212,7 @@ def _show_kept(item, key):
 
 
 def _finished(job):
-    """Waits; raises what went wrong."""
+    """Waits for a job and returns it. Raises the error of the job."""
     _deliver([other for other in working().wait(job) if other is not job])
     if job.error is not None:
         raise job.error
@@ -217,7 +225,8 @@ def fail(item, error):
 
 
 def redraw():
-    """Redraws the sidebars, which show the progress; views are drawn again when a mesh has changed, which takes longer."""
+    """Redraws the sidebars, which show the progress. Views are not redrawn, because that takes longer; Blender does it
+    when a mesh changes."""
     for window in getattr(bpy.context.window_manager, "windows", ()):
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
@@ -227,24 +236,24 @@ def redraw():
 
 
 def _tick():
-    """While something is computed."""
-    global _told
+    """Shows finished surfaces. It is a timer that runs while something is computed."""
+    global _last_redraw
     done = working().take()
     _deliver(done)
-    if done or clock.monotonic() - _told > TELL:
-        _told = clock.monotonic()
+    if done or clock.monotonic() - _last_redraw > REDRAW_INTERVAL:
+        _last_redraw = clock.monotonic()
         redraw()
     _come_to_rest()
     return TICK if working().is_busy() or motion.any_moves() else None
 
 
 def _deliver(done):
-    """Shows what was asked for in the background, and keeps what was computed ahead."""
+    """Shows the results of jobs that were requested in the background, and keeps those that were computed ahead."""
     for job in done:
         if job.make is not None and job.error is None:
             keep(job.key, job.make(job.result))
-        if _awaited.get(job.key) is job:
-            del _awaited[job.key]
+        if _ahead.get(job.key) is job:
+            del _ahead[job.key]
             continue
         item = _item_of(job)
         if not is_computed(item):
@@ -253,12 +262,15 @@ def _deliver(done):
             fail(item, job.error)
         elif job.make is None:
             _take_frames(item, job)
-            ask(item, motion.is_moving(compat.identity(item)))
+            update_in_background(item, motion.is_moving(compat.identity(item)))
         elif showing.was_changed(item):
             fail(item, "its mesh was changed while the surface was computed; Update shows it")
         else:
             before = item.data.get(SHOWN)
-            copies = [other for other in bpy.data.objects if other != item and showing.asks_alike(item, other) and other.data.get(SHOWN) == before]
+            copies = [
+                other for other in bpy.data.objects
+                if other != item and showing.requests_same_surface(item, other) and other.data.get(SHOWN) == before
+            ]
             for each in (item, *copies):
                 try:
                     show(each, job.key, _kept[job.key])
@@ -267,20 +279,20 @@ def _deliver(done):
 
 
 def progress_of(item):
-    """Stage and seconds of what is computed for an object, or None."""
+    """Returns the stage and the elapsed seconds of an object's computation, or None."""
     job = _process and _process.job_of(compat.identity(item))
     return None if job is None else (job.stage, clock.monotonic() - job.began)
 
 
 def cancel(item):
-    """At once, whatever is done for it. True if there was something."""
+    """Stops the computation of an object immediately. Returns True if there was one."""
     if not working().stop(compat.identity(item)):
         return False
-    _awaited.clear()
-    for job in working().take():  # they ended with it
+    _ahead.clear()
+    for job in working().take():  # other jobs ended with the process
         other = _item_of(job)
         if is_computed(other):
-            ask(other)
+            update_in_background(other)
     return True
 
 
@@ -289,7 +301,7 @@ def _item_of(job):
 
 
 def wait():
-    """Until nothing is computed any more, and shows it: for scripts and tests."""
+    """Waits until nothing is computed any more, and shows the results. For scripts and tests."""
     while working().is_busy():
         _deliver(working().take(1.0))
 
@@ -297,21 +309,22 @@ def wait():
 # ---- time
 
 def compute_ahead(item, places, in_motion=False):
-    """Has frames of its run computed, and no others. Only its own frames: where atoms that come from Blender will be is not known."""
+    """Requests frames of an object's run in advance, and drops earlier requests for other frames. It works for runs of
+    files only, because later positions of atoms that come from Blender are not known."""
     wanted_keys = set()
     for place in filter(None, places):
-        wanted = Wanted(item, place, in_motion)
+        wanted = SurfaceRequest(item, place, in_motion)
         wanted_keys.add(wanted.key)
-        if wanted.key not in _awaited and wanted.key not in _kept:
-            _awaited[wanted.key] = wanted.ask((compat.identity(item), wanted.key), process.NEXT)
-    for key, job in list(_awaited.items()):
+        if wanted.key not in _ahead and wanted.key not in _kept:
+            _ahead[wanted.key] = wanted.submit((compat.identity(item), wanted.key), process.NEXT)
+    for key, job in list(_ahead.items()):
         if job.owner[0] == compat.identity(item) and key not in wanted_keys:
             working().drop(job.owner)
-            del _awaited[key]
+            del _ahead[key]
 
 
 def follow(scene):
-    """Every computed object shows what its atoms and its request are at the scene's time."""
+    """Makes every computed object of a scene show the surface of its atoms and its request at the scene's time."""
     time, in_motion = scene.frame_current_final, motion.is_playing()
     for item in list(scene.objects):
         if item.type != "MESH" or item.meniscus.source == "NONE" or item.data.is_editmode:
@@ -328,7 +341,7 @@ def follow(scene):
             compute_now(item, time, in_motion)
             if frame_count(item) > 1:
                 compute_ahead(item, [place_at(item, time + step) for step in range(1, AHEAD + 1)], in_motion)
-        except Exception as error:  # a handler that raises changes nothing: Blender goes on and renders
+        except Exception as error:  # Blender ignores exceptions of handlers, and would render a wrong picture
             empty(item)
             fail(item, error)
 
@@ -340,22 +353,22 @@ def on_frame_change(scene, _depsgraph=None):
 
 @persistent
 def on_undo(*_arguments):
-    """The request of before is there again, the mesh perhaps of another."""
+    """Updates objects after undo, which restores their requests but may restore meshes of other requests."""
     if bpy.app.background:
         catch_up()
-    elif not bpy.app.timers.is_registered(catch_up):  # nothing may be changed before undo is done
+    elif not bpy.app.timers.is_registered(catch_up):  # data must not change before undo is complete
         bpy.app.timers.register(catch_up, first_interval=0.0)
 
 
 def catch_up():
     for item in bpy.data.objects:
         if is_computed(item) and (SHOWN in item.data or progress_of(item) is not None):
-            ask(item)
+            update_in_background(item)
 
 
 @persistent
 def on_load(*_arguments):
-    _awaited.clear()
+    _ahead.clear()
     showing.forget()
     motion.forget()
     if _process is not None:
@@ -364,7 +377,7 @@ def on_load(*_arguments):
 
 
 def come_last():
-    """Behind handlers that move atoms; they are called in the order in which they came."""
+    """Moves the handler after handlers that move atoms. Handlers are called in the order in which they were added."""
     handlers = bpy.app.handlers.frame_change_pre
     if on_frame_change in handlers:
         handlers.remove(on_frame_change)
@@ -373,7 +386,7 @@ def come_last():
 
 @persistent
 def on_render(scene, *_arguments):
-    """Computes the fine meshes at once: pictures do not wait for objects to come to rest."""
+    """Computes fine meshes before a render, which does not wait until objects are at rest."""
     motion.set_rendering(True)
     for item in [item for item in scene.objects if motion.is_moving(compat.identity(item)) and is_computed(item)]:
         motion.rests(compat.identity(item))

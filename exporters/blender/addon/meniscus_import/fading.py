@@ -1,21 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects that come and go by one number, the alpha of their colour: 0 not there yet, 1 there, 2 gone again."""
+"""Materials that fade objects in and out by one number, the alpha of the object's colour: 0 before the object appears,
+1 while it is visible, 2 after it has disappeared."""
 
 from . import compat
 
 NAME = "Meniscus fade"
-#: Stripes a pixel, across and down, of which a share is shown: finer than any picture, of no common measure with its rows.
+#: The number of stripes per pixel, across and down, a share of which is shown. They are finer than any picture and
+#: incommensurable with its rows.
 STRIPES = (7.31, 3.17)
-#: Of a picture, in pixels, for which they are so fine; in larger ones they are wider.
+#: The size in pixels of a picture with this number of stripes per pixel. Larger pictures have wider stripes.
 WIDTH, HEIGHT = 4096.0, 4096.0
-#: Å: an object that fades takes no light from what lies so near below it, where two scenes have nearly the same surface.
+#: A fading object casts no shadow on points nearer than this (Å), because two scenes may have nearly the same surface.
 NEAR = 0.1
 
 
 def add(material):
-    """Has a material fade. In Cycles a ray of the camera sees the object or passes, by where in its pixel it lies: so it meets one
-    of two objects that fade into each other, never both, and the mean of a pixel is the blend of their pictures. Other rays, and
-    Eevee, see the object through as much as it is not there."""
+    """Makes a material fade. In Cycles, the position of a camera ray in its pixel determines if the ray sees the object
+    or passes it. So a ray meets exactly one of two objects that fade into each other, and the mean of a pixel is the
+    blend of their pictures. For other rays, and in Eevee, the object becomes transparent."""
     tree = material.node_tree
     output = compat.find_or_add(tree, "OUTPUT_MATERIAL", "ShaderNodeOutputMaterial")
     shader = output.inputs["Surface"].links[0].from_socket
@@ -33,7 +35,7 @@ def add(material):
 
 
 def _group():
-    """The one that all materials share."""
+    """Returns the node group that all fading materials share, and creates it if needed."""
     import bpy
 
     found = bpy.data.node_groups.get(NAME)
@@ -46,18 +48,21 @@ def _group():
     inside, outside = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
     there = tree.nodes.new("ShaderNodeObjectInfo").outputs["Alpha"]
     past = compat.math_node(tree, "SUBTRACT", there, 1.0)
-    opacity = compat.math_node(tree, "SUBTRACT", 1.0, compat.math_node(tree, "MINIMUM", compat.math_node(tree, "ABSOLUTE", past), 1.0))
+    opacity = compat.math_node(tree, "SUBTRACT", 1.0,
+                               compat.math_node(tree, "MINIMUM", compat.math_node(tree, "ABSOLUTE", past), 1.0))
     place = tree.nodes.new("ShaderNodeSeparateXYZ")
     tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["Window"], place.inputs[0])
     across = compat.math_node(tree, "MULTIPLY", place.outputs["X"], STRIPES[0] * WIDTH)
-    stripe = compat.math_node(tree, "FRACT", compat.math_node(tree, "MULTIPLY_ADD", place.outputs["Y"], STRIPES[1] * HEIGHT, across))
+    stripe = compat.math_node(tree, "FRACT",
+                              compat.math_node(tree, "MULTIPLY_ADD", place.outputs["Y"], STRIPES[1] * HEIGHT, across))
     come = compat.math_node(tree, "LESS_THAN", stripe, there)
     stays = compat.math_node(tree, "SUBTRACT", 1.0, compat.math_node(tree, "LESS_THAN", stripe, past))
     seen = compat.math_node(tree, "MULTIPLY", come, stays)
     path = tree.nodes.new("ShaderNodeLightPath").outputs
     scale = tree.nodes.new("ShaderNodeAttribute")
     scale.attribute_type, scale.attribute_name = "OBJECT", "meniscus_scale"
-    far = compat.math_node(tree, "GREATER_THAN", path["Ray Length"], compat.math_node(tree, "MULTIPLY", scale.outputs["Fac"], NEAR))
+    far = compat.math_node(tree, "GREATER_THAN", path["Ray Length"],
+                           compat.math_node(tree, "MULTIPLY", scale.outputs["Fac"], NEAR))
     blocks = compat.math_node(tree, "MAXIMUM", far, compat.math_node(tree, "GREATER_THAN", opacity, 0.9999))
     other = compat.math_node(tree, "MULTIPLY", opacity, blocks)
     other = compat.math_node(tree, "MULTIPLY", other, compat.math_node(tree, "SUBTRACT", 1.0, path["Is Camera Ray"]))

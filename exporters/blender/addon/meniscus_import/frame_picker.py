@@ -1,38 +1,41 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The frames of a run as meshes of the file, of which an object's Geometry Nodes show that of the scene's time. No script is needed."""
+"""The frames of a run as meshes of the file. Geometry Nodes of an object show the mesh of the scene's time, without
+scripts."""
 
 import bpy
 
 from . import compat, sequence_reader
 
-#: Frames that share a node group.
+#: The greatest number of frames in a nested node group.
 MOST_OF_A_GROUP = 16
-#: Inputs of the node group, which stand in the modifier and can be keyed, behind the geometry.
-START, SPEED, OUTSIDE, BY_HAND, FRAME = "Start", "Speed", "Outside: empty, hold, loop, ping-pong", "Frame by hand", "Frame"
+#: Inputs of the node group after the geometry. The modifier shows them, and they can be keyed.
+START, SPEED, OUTSIDE, BY_HAND, FRAME = ("Start", "Speed", "Outside: empty, hold, loop, ping-pong", "Frame by hand",
+                                         "Frame")
 OWN = "Own mesh, for modifiers and exports"
 TYPES = {START: "NodeSocketFloat", SPEED: "NodeSocketFloat", OUTSIDE: "NodeSocketInt", BY_HAND: "NodeSocketBool",
          FRAME: "NodeSocketFloat", OWN: "NodeSocketBool"}
 
 
 class Frames:
-    """Meshes in the order of their frames, in a collection of no scene: what is hidden in one view layer shows in others."""
+    """Meshes in the order of their frames, in a collection that is in no scene. Objects in a scene that are hidden in
+    one view layer would show in others."""
 
     def __init__(self, stem):
         self.stem, self.collection = stem[:40], bpy.data.collections.new(stem + ".frames")
 
     def add(self, mesh):
-        # Geometry Nodes sort a collection by name; short names, since Blender cuts long ones.
+        # Geometry Nodes sort a collection by name. Names are short, because Blender truncates long ones.
         mesh.name = f"{self.stem}.{len(self.collection.objects) + 1:07d}"
         self.collection.objects.link(bpy.data.objects.new(mesh.name, mesh))
 
     def remove(self):
         for item in list(self.collection.objects):
-            bpy.data.meshes.remove(item.data)  # with the object
+            bpy.data.meshes.remove(item.data)  # removes the object, too
         bpy.data.collections.remove(self.collection)
 
     def show_in(self, item, timing, by_hand=False, frame=1.0):
-        """Has an object show the frame that a sequence_reader.Timing has at the scene's time, or `frame` by hand. Returns the modifier
-        that does so, the first of the object."""
+        """Makes an object show the frame of a sequence_reader.Timing at the scene's time, or `frame` if `by_hand`.
+        Returns the modifier that does so, which is the first of the object."""
         tree = bpy.data.node_groups.new(item.name + " by frame", "GeometryNodeTree")
         values = {START: timing.start, SPEED: timing.speed, OUTSIDE: sequence_reader.OUTSIDE.index(timing.outside),
                   BY_HAND: by_hand, FRAME: frame, OWN: True}
@@ -56,7 +59,7 @@ def _fill(tree, collection, count, values):
     frames = tree.nodes.new("GeometryNodeCollectionInfo")
     frames.inputs["Collection"].default_value = collection
     frames.inputs["Separate Children"].default_value = True
-    place = tree.nodes.new("GeometryNodeMeshLine")  # one point, at the origin
+    place = tree.nodes.new("GeometryNodeMeshLine")  # a single point at the origin
     place.inputs["Count"].default_value = 1
     show = tree.nodes.new("GeometryNodeInstanceOnPoints")
     show.inputs["Pick Instance"].default_value = True
@@ -64,9 +67,10 @@ def _fill(tree, collection, count, values):
     tree.links.new(inside, show.inputs["Selection"])
     tree.links.new(frames.outputs[0], show.inputs["Instance"])
     tree.links.new(index, show.inputs["Instance Index"])
-    # Modifiers behind and exporters (Alembic, USD) see the object's own mesh, not its instances.
+    # Later modifiers and exporters (Alembic, USD) use the object's own mesh, not its instances.
     material = next((each for item in collection.objects for each in item.data.materials), None)
-    own = _realized(tree, show.outputs[0], material) if compat.keeps_realized_normals() else _chosen(tree, collection, index, inside)
+    own = (_realized(tree, show.outputs[0], material) if compat.keeps_realized_normals() else
+           _chosen(tree, collection, index, inside))
     shown = compat.switch_geometry(tree, group_input.outputs[OWN], own, show.outputs[0])
     tree.links.new(shown, group_output.inputs[0])
     for column, node in enumerate(tree.nodes):
@@ -74,8 +78,9 @@ def _fill(tree, collection, count, values):
 
 
 def _realized(tree, instances, material):
-    """The mesh of the frame that shows, by one name at all times: exporters of 5.2 make a mesh for each name, and that of a lone instance
-    is the frame's. So a face is joined to it that goes again; its material is one of the frame's, which needs no other slot."""
+    """Returns the output with the mesh of the shown frame under a name that does not change. Exporters of 5.2 make a
+    mesh for each name, and a single realized instance has the name of its frame. So a face is joined to it and deleted
+    again. The face has a material of the frame, so that no other slot is needed."""
     realize = tree.nodes.new("GeometryNodeRealizeInstances")
     if not compat.exports_by_mesh_name():
         tree.links.new(instances, realize.inputs[0])
@@ -83,25 +88,28 @@ def _realized(tree, instances, material):
     face, dressed, filled, both, rest = (tree.nodes.new("GeometryNode" + name) for name in (
         "MeshGrid", "SetMaterial", "ReplaceMaterial", "JoinGeometry", "DeleteGeometry"))
     face.inputs["Vertices X"].default_value = face.inputs["Vertices Y"].default_value = 2
-    dressed.inputs["Material"].default_value = filled.inputs["New"].default_value = material  # the former leaves an empty slot
+    # Set Material leaves an empty slot, which Replace Material fills.
+    dressed.inputs["Material"].default_value = filled.inputs["New"].default_value = material
     rest.domain = "FACE"
     for source, target in ((face, dressed), (dressed, filled), (filled, both), (both, realize), (realize, rest)):
         tree.links.new(source.outputs[0], target.inputs[0])
-    tree.links.new(instances, both.inputs[0])  # after the face
+    tree.links.new(instances, both.inputs[0])  # joins the instances after the face
     is_first = compat.math_node(tree, "LESS_THAN", tree.nodes.new("GeometryNodeInputIndex").outputs[0], 0.5)
     tree.links.new(is_first, rest.inputs["Selection"])
     return rest.outputs[0]
 
 
 def _chosen(tree, collection, index, inside):
-    """The mesh of the frame that shows, with its normals, which instances lose before Blender 4.5 as they become a mesh. A node
-    for each frame, and switches between halves of them; only what shows is looked at."""
+    """Returns the output with the mesh of the shown frame and its normals, which realized instances lose before Blender
+    4.5. There is a node for each frame, and switches between halves of them, of which only the chosen ones are
+    evaluated."""
     items = sorted(collection.objects, key=lambda item: item.name)
     return compat.switch_geometry(tree, inside, _one_of(tree, items, 0, index, True), None)
 
 
 def _one_of(tree, items, first, index, may_group):
-    """The geometry of the item whose place is `index`, of those from the place `first` on. may_group: few of them become a group."""
+    """Returns the output with the geometry of the item at the place `index`. The places of `items` begin with `first`.
+    may_group: True if a small number of items may become a node group."""
     if len(items) == 1:
         node = tree.nodes.new("GeometryNodeObjectInfo")
         node.inputs["Object"].default_value = items[0]
@@ -115,7 +123,8 @@ def _one_of(tree, items, first, index, may_group):
 
 
 def _group_of(tree, items, first, index):
-    """The same as a node group: Blender looks through a whole tree at each link that is made."""
+    """Returns the output of _one_of() in a node group of its own, because Blender walks the whole tree for each new
+    link."""
     inner = bpy.data.node_groups.new(f"{tree.name} {first + 1}", "GeometryNodeTree")
     compat.add_input(inner, "Index", "NodeSocketFloat", 0.0)
     compat.add_output(inner, "Geometry", "NodeSocketGeometry")
@@ -128,12 +137,13 @@ def _group_of(tree, items, first, index):
 
 
 def _index(tree, given, count):
-    """Sockets: the frame that shows, from 0, and whether one does: sequence_reader.Timing in nodes."""
+    """Returns two sockets: the index of the shown frame from 0, and 1 if a frame is shown or 0. The nodes compute what
+    sequence_reader.Timing does."""
 
     def math(operation, *operands):
         return compat.math_node(tree, operation, *operands)
 
-    def choose(condition, if_true, otherwise):  # condition: 0 or 1
+    def choose(condition, if_true, otherwise):  # the condition is 0 or 1
         return math("ADD", otherwise, math("MULTIPLY", condition, math("SUBTRACT", if_true, otherwise)))
 
     time = tree.nodes.new("GeometryNodeInputSceneTime").outputs["Frame"]
@@ -143,7 +153,8 @@ def _index(tree, given, count):
     held = math("MINIMUM", math("MAXIMUM", at, 0.0), count - 1.0)
     looped = math("SUBTRACT", at, math("MULTIPLY", float(count), math("FLOOR", math("DIVIDE", at, float(count)))))
     to_and_fro = math("PINGPONG", at, count - 1.0)
-    loops, turns = (math("COMPARE", given[OUTSIDE], float(sequence_reader.OUTSIDE.index(word)), 0.5) for word in ("LOOP", "PINGPONG"))
+    loops, turns = (math("COMPARE", given[OUTSIDE], float(sequence_reader.OUTSIDE.index(word)), 0.5)
+                    for word in ("LOOP", "PINGPONG"))
     index = math("FLOOR", math("ADD", choose(turns, to_and_fro, choose(loops, looped, held)), 0.5))
 
     within = math("COMPARE", at, held, 0.5)

@@ -1,32 +1,41 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Joins the objects of a .mns file and their copies into one surface, or parts what is outside from cavities."""
+"""Joins the objects of a .mns file and their copies into one surface, or separates outer surfaces from cavities."""
 
 import numpy as np
 
 from . import mns_reader
 
-#: Arrays whose rows refer to others, and by how many rows those of earlier objects have moved on.
+#: Arrays with indices, and the array that they refer to. Indices increase by the number of its rows in earlier objects.
 INDICES = {"mesh.triangle": "mesh.position", "mesh.sharp_edge": "mesh.position", "mesh.atom": "atom.center"}
 TURNED = ("mesh.normal", "mesh.sharp_corner_normal", "mesh.velocity")
 PLAIN = ("mesh.kind", "mesh.patch", "atom.radius", "atom.color", "atom.index", "atom.file_index", "atom.b_factor",
          "atom.atomic_number", "atom.res_id")
-#: Arrays that point into lists of names of their object: the key of its header.
+#: Arrays with indices into lists of names of their object, and the key of the list in its header.
 NAMED = {"atom.chain_id": "chain_names", "atom.name_id": "atom_names", "atom.residue_name_id": "residue_names"}
-#: Arrays that some objects may lack, and what stands for them: values, their columns, their type.
+#: Arrays that some objects may lack, and their default: value, number of columns, type.
 STAND_INS = {
-    "atom.opacity": (1.0, 1, np.float32), "mesh.cap_plane": (0xffffffff, 1, np.uint32), "mesh.map_value": (0.0, 1, np.float32),
-    "mesh.map_color": (0.0, 3, np.float32), "mesh.map_known": (1, 1, np.uint8), "atom.own_color": (0, 1, np.uint8),
-    "mesh.patch_area": (0.0, 1, np.float32), "atom.entity": (4, 1, np.int32),
-    **{f"atom.{name}": (0.0, 1, np.float32) for name in ("charge", "hydrophobicity", "area", "accessible_area", "buried_area")},
+    "atom.opacity": (1.0, 1, np.float32),
+    "mesh.cap_plane": (0xffffffff, 1, np.uint32),
+    "mesh.map_value": (0.0, 1, np.float32),
+    "mesh.map_color": (0.0, 3, np.float32),
+    "mesh.map_known": (1, 1, np.uint8),
+    "atom.own_color": (0, 1, np.uint8),
+    "mesh.patch_area": (0.0, 1, np.float32),
+    "atom.entity": (4, 1, np.int32),
+    **{
+        f"atom.{name}": (0.0, 1, np.float32)
+        for name in ("charge", "hydrophobicity", "area", "accessible_area", "buried_area")
+    },
     **{f"mesh.{name}": (0.0, 1, np.float32) for name in mns_reader.OF_VERTICES if name.endswith("curvature")},
 }
 OF_TRIANGLES = ("mesh.kind", "mesh.patch", "mesh.component", "mesh.atom", "mesh.cap_plane", "mesh.patch_area")
-OF_VERTICES = ("mesh.position", "mesh.normal", "mesh.velocity", "mesh.map_color", *(f"mesh.{name}" for name in mns_reader.OF_VERTICES))
+OF_VERTICES = ("mesh.position", "mesh.normal", "mesh.velocity", "mesh.map_color", *(f"mesh.{name}"
+                                                                                    for name in mns_reader.OF_VERTICES))
 
 
 def joined(file, origin):
-    """One mns_reader.Surface of all objects and copies, with mesh.position in Å relative to `origin` as float64, and
-    mesh.object: the object of each triangle."""
+    """Returns one mns_reader.Surface of all objects and copies. mesh.position is in Å relative to `origin` as float64,
+    and mesh.object is the number of the object of each triangle."""
     columns = {}
     optional = [name for name in STAND_INS if any(surface.get(name) is not None for surface in file.objects)]
     if "mesh.map_color" in optional and not all(surface.get("mesh.map_color") is not None for surface in file.objects):
@@ -46,7 +55,8 @@ def joined(file, origin):
             rows["components"] += len(surface.header["components"])
     total = sum(len(surface.copies) for surface in file.objects)
     arrays = {name: np.concatenate(parts) for name, parts in columns.items() if len(parts) == total}
-    return mns_reader.Surface(file.objects[0].path, _header(file, arrays, {key: list(table) for key, table in names.items()}, origin), arrays)
+    return mns_reader.Surface(file.objects[0].path,
+                              _header(file, arrays, {key: list(table) for key, table in names.items()}, origin), arrays)
 
 
 def _or_stand_in(surface, name):
@@ -54,7 +64,7 @@ def _or_stand_in(surface, name):
     if found is not None:
         return found
     value, columns, kind = STAND_INS[name]
-    if name == "atom.own_color" and surface.get("mesh.map_color") is None:  # what no map colours keeps its colours
+    if name == "atom.own_color" and surface.get("mesh.map_color") is None:  # objects without a map keep their colours
         value = 1
     of = "atom.center" if name.startswith("atom.") else "mesh.triangle" if name in OF_TRIANGLES else "mesh.position"
     rows = len(surface[of])
@@ -90,7 +100,7 @@ def _header(file, arrays, names, origin):
     first = file.objects[0].header
     meshes = [(surface.header["mesh"], len(surface.copies)) for surface in file.objects]
     header = {key: value for key, value in first.items() if key not in ("name", "prefix", "copies", "objects")}
-    header["moved_by"] = [float(value) for value in origin]  # taken from all positions
+    header["moved_by"] = [float(value) for value in origin]  # was subtracted from all positions
     header["mesh"] = {"origin": [0.0, 0.0, 0.0], "tolerance": max(mesh.get("tolerance", 0.0) for mesh, _ in meshes),
                       "vertices": len(arrays["mesh.position"]), "triangles": len(arrays["mesh.triangle"]),
                       "closed": all(mesh.get("closed", True) for mesh, _ in meshes)}
@@ -105,7 +115,7 @@ def _header(file, arrays, names, origin):
 
 
 def by_role(surface):
-    """Pairs "outer" or "cavities", and the part of the surface that is so; none that is empty."""
+    """Yields pairs of "outer" or "cavities" and the part of a surface with this role. Empty parts are left out."""
     cavity = np.array([part["kind"] == "cavity" for part in surface.header["components"]], dtype=bool)
     for role, wanted in (("outer", ~cavity), ("cavities", cavity)):
         shown = wanted[surface["mesh.component"]]
@@ -114,7 +124,8 @@ def by_role(surface):
 
 
 def _part(surface, shown, wanted):
-    """Some triangles with their vertices and the whole components they make up."""
+    """Returns the part of a surface that consists of whole components, with their triangles and vertices. shown: True
+    for each of its triangles. wanted: True for each of its components."""
     triangles = surface["mesh.triangle"][shown]
     used = np.zeros(len(surface["mesh.position"]), dtype=bool)
     used[triangles] = True

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What may be changed of data from other .blend files, where the files of objects lie, and what becomes of objects that cannot be shown."""
+"""Handles data from other .blend files, paths of objects, and objects that cannot be shown."""
 
 import os
 import sys
@@ -9,28 +9,30 @@ from bpy.app.handlers import persistent
 
 from . import compat, motion
 
-#: Of an object: what went wrong when it was last shown.
+#: The custom property of an object with the error that occurred when it was last shown.
 ERROR = "meniscus_error"
-#: Where objects store paths: in custom properties, and in their settings.
+#: The custom properties and the settings in which objects store paths.
 CUSTOM, SETTINGS = ("meniscus_file", "meniscus_sequence"), ("file", "trajectory", "numbers")
-#: The custom property beside each: the path as it is stored, and the absolute one that it stands for.
+#: The prefix of a custom property for each of them, with the stored path and the absolute path that it means.
 AT = "meniscus_at_"
-#: Blender's options that render from the command line.
+#: Options of Blender that render from the command line.
 RENDERS = {"-a", "--render-anim", "-f", "--render-frame"}
 
-_said = {}  # identity of an object -> what was last said of it
+_last_message = {}  # identity of an object -> the last message about it
 
 
 def is_fixed(item):
-    """True of an object of a library, which nothing here may change. That is said once."""
+    """True if an object belongs to a library, so that it must not be changed. A message says so once."""
     if item.library is None:
         return False
-    say(item, f"{item.name} comes from {item.library.filepath} and stays as it was saved there; a library override of it follows its run")
+    report(item, f"{item.name} comes from {item.library.filepath} and stays as it was saved there; a library override "
+           "of it follows its run")
     return True
 
 
 def own_mesh(item, shows_the_same):
-    """The mesh of an object, which gets one of its own if it is a library's or that of an object for which shows_the_same is false."""
+    """Returns the mesh of an object. The object gets a copy if the mesh belongs to a library, or to another object for
+    which shows_the_same() is false."""
     mesh = item.data
     if mesh.library is not None or mesh.users > 1 and any(
             other.data == mesh and other != item and not shows_the_same(other) for other in bpy.data.objects):
@@ -38,26 +40,28 @@ def own_mesh(item, shows_the_same):
     return item.data
 
 
-def say(item, sentence):
-    """On standard error, unless it was the last that was said of the object."""
-    if _said.get(compat.identity(item)) != sentence:
-        _said[compat.identity(item)] = sentence
+def report(item, sentence):
+    """Prints a message about an object on standard error, unless it was the last message about it."""
+    if _last_message.get(compat.identity(item)) != sentence:
+        _last_message[compat.identity(item)] = sentence
         sys.stderr.write(f"meniscus: {sentence}\n")
 
 
 def fail(item, error):
-    """Tells that an object does not show what it should. A render from the command line ends: its picture would be another."""
+    """Reports that an object cannot be shown. A render from the command line ends, because its picture would be
+    wrong."""
     item[ERROR] = str(error) or type(error).__name__
-    say(item, f"error: {item.name}: {item[ERROR]}")
+    report(item, f"error: {item.name}: {item[ERROR]}")
     if motion.is_rendering() and bpy.app.background and RENDERS & set(sys.argv) and not item.hide_render:
-        sys.stderr.write(f"meniscus: error: no picture of frame {bpy.context.scene.frame_current}: {item.name}: {item[ERROR]}\n")
+        sys.stderr.write(
+            f"meniscus: error: no picture of frame {bpy.context.scene.frame_current}: {item.name}: {item[ERROR]}\n")
         sys.stderr.flush()
-        os._exit(3)  # an exception in a handler changes nothing
+        os._exit(3)  # Blender ignores exceptions of handlers
 
 
 def succeed(item):
     item[ERROR] = ""
-    _said.pop(compat.identity(item), None)
+    _last_message.pop(compat.identity(item), None)
 
 
 def _stored(item, name):
@@ -65,26 +69,30 @@ def _stored(item, name):
 
 
 def path_of(item, name):
-    """The absolute path of a file that an object names. What is relative counts from the .blend that the object comes from; if that was
-    saved elsewhere, or the object appended, it is still found where it was."""
+    """Returns the absolute path of a file that an object names. A relative path is relative to the .blend of the
+    object. If that was saved to another folder, or the object was appended, the file is still found in its old
+    place."""
     stored, override = _stored(item, name), item.override_library
     library = item.library
     if override is not None and _stored(override.reference, name) == stored:
         library = override.reference.library
     found = os.path.normpath(bpy.path.abspath(stored, library=library)) if stored else ""
-    told, at = item.get(AT + name, ("", ""))
-    is_elsewhere = stored.startswith("//") and told == stored and os.path.exists(at) and not (library is not None and os.path.exists(found))
+    noted, at = item.get(AT + name, ("", ""))
+    is_elsewhere = (stored.startswith("//") and noted == stored and os.path.exists(at) and
+                    not (library is not None and os.path.exists(found)))
     return at if is_elsewhere else found
 
 
 def gone(item, *names):
-    """A sentence about the first of the files of an object that is not there, or None."""
+    """Returns a sentence about the first file of an object that does not exist, or None."""
     paths = [path_of(item, name) for name in names]
-    return next((f"{path}: no such file; what was last read stays" for path in paths if path and not os.path.exists(path)), None)
+    return next((f"{path}: no such file; what was last read stays"
+                 for path in paths if path and not os.path.exists(path)), None)
 
 
 def note(item):
-    """Remembers where relative paths of an object lead, if that is new or there is a file."""
+    """Stores the absolute paths that the relative paths of an object mean, if a relative path is new or its file
+    exists."""
     for name in (*CUSTOM, *SETTINGS):
         stored = _stored(item, name)
         found = os.path.normpath(bpy.path.abspath(stored)) if stored.startswith("//") else ""
@@ -97,14 +105,15 @@ def _local():
 
 
 def _count_from(folder):
-    """Has relative paths of this file's own objects count from another folder, as Blender does with those of its own."""
+    """Makes the relative paths of this file's own objects relative to another folder, as Blender does with its own
+    paths."""
     for item in _local():
         for name in (*CUSTOM, *SETTINGS):
             stored = _stored(item, name)
             if not stored.startswith("//"):
                 continue
-            told, at = item.get(AT + name, ("", ""))
-            path = at if told == stored else path_of(item, name)
+            noted, at = item.get(AT + name, ("", ""))
+            path = at if noted == stored else path_of(item, name)
             try:
                 wanted = bpy.path.relpath(path, start=folder)
             except ValueError:  # on another drive of Windows
@@ -118,7 +127,8 @@ def _count_from(folder):
 
 @persistent
 def on_save(path=None, *_arguments):
-    """Before and after. path: of the file that is written, which Blender tells before it is from 4.0 on."""
+    """Updates relative paths before and after saving. path: the path of the written file, which Blender passes from 4.0
+    on."""
     target = path if isinstance(path, str) and path else bpy.data.filepath
     if target:
         _count_from(os.path.dirname(target))
@@ -131,7 +141,7 @@ def on_saved(*_arguments):
 
 @persistent
 def on_load(*_arguments):
-    _said.clear()
+    _last_message.clear()
     for item in _local():
         note(item)
 

@@ -1,34 +1,35 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Materials that colour by attributes, so that a mesh changes its colours without being computed again."""
+"""Materials that colour by attributes, so that colours of a mesh can change without a new computation."""
 
 import bpy
 
 from . import compat, fading, materials, mns_reader
 from .mesh_arrays import SLOTS
 
-#: The custom property of node groups and materials that were made here: what they are.
+#: The custom property that identifies node groups and materials of this module.
 MARK = "meniscus_look"
-#: Å over which light is scattered in wax, by its colour, and absorbed by glass to a third.
+#: The scattering distance of light in wax in Å, and its factors for red, green and blue.
 WAX_RADIUS, WAX_COLORS = 2.5, (1.0, 0.45, 0.25)
-#: Glass mirrors as glass does. It bends what is seen through it less: bumps of atoms are lenses of 4 Å focal length at 1.45, and
-#: light that went through a few of them comes from anywhere, so that a protein is crushed ice, in exact renderers, too.
+#: The indices of refraction of glass for reflection and for refraction. Refraction is weaker than in real glass: at
+#: 1.45 bumps of atoms are lenses with 4 Å focal length, and after a few of them light comes from any direction, so that
+#: a protein looks like crushed ice, in exact renderers, too.
 GLASS_IOR, GLASS_BENDS = 1.45, 1.1
 LINE_WIDTH = 0.24  # Å
-MOST_STOPS = 32  # of a colour ramp
+MOST_STOPS = 32  # the greatest number of stops of a colour ramp
 
 _GREY = "#c8c8c8"
-#: Colourings by steps: the attribute, and from which value on which colour, as sRGB.
+#: Colourings by steps: the attribute, and pairs of the lowest value and the colour (sRGB) of each step.
 STEPS = {
-    # pLDDT of a prediction, in the B-factor's column, in the bands and colours of the AlphaFold database
+    # The pLDDT of predictions is in the column of B-factors; bands and colours are those of the AlphaFold database.
     "CONFIDENCE": ("b_factor", ((0, "#ff7d45"), (50, "#ffdb13"), (70, "#65cbf3"), (90, "#0053d6"))),
-    # hues as the program's element
-    "ELEMENT": ("atomic_number", ((0, _GREY), (1, "#ffffff"), (2, _GREY), (7, "#8fa6f5"), (8, "#f58f8f"), (9, "#a9e2a0"), (10, _GREY),
-                                  (15, "#f5c08f"), (16, "#f5e88f"), (17, "#a9e2a0"), (18, _GREY), (26, "#e0a080"), (27, _GREY),
-                                  (30, "#b0b5d8"), (31, _GREY))),
-    # of Okabe and Ito
+    # The hues are those of the scheme "element" of the program.
+    "ELEMENT": ("atomic_number", ((0, _GREY), (1, "#ffffff"), (2, _GREY), (7, "#8fa6f5"), (8, "#f58f8f"),
+                                  (9, "#a9e2a0"), (10, _GREY), (15, "#f5c08f"), (16, "#f5e88f"), (17, "#a9e2a0"),
+                                  (18, _GREY), (26, "#e0a080"), (27, _GREY), (30, "#b0b5d8"), (31, _GREY))),
+    # The colours are those of Okabe and Ito.
     "KIND": ("ses_kind", ((0, "#e69f00"), (1, "#56b4e9"), (2, "#009e73"))),
 }
-#: Colourings by a scale: the attribute, its value at both ends, and colours at equal distances between.
+#: Colourings by a scale: the attribute, its values at both ends, and colours at equal distances.
 SCALES = {
     "B_FACTOR": ("b_factor", 0.0, 100.0, ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")),
     "CHARGE": ("charge", -1.0, 1.0, ("#d6412f", "#ffffff", "#3a5fcd")),
@@ -36,31 +37,36 @@ SCALES = {
     "CURVATURE": ("mean_curvature", -0.75, 0.75, ("#3a5fcd", "#ffffff", "#d6412f")),
     "SMOOTH_CURVATURE": ("smooth_mean_curvature", -0.3, 0.3, ("#3a5fcd", "#ffffff", "#d6412f")),
     "ATOM_AREA": ("atom_area", 0.0, 30.0, ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")),
-    "ACCESSIBLE_AREA": ("accessible_area", 0.0, 40.0, ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")),
+    "ACCESSIBLE_AREA": ("accessible_area", 0.0, 40.0, ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151",
+                                                       "#fde725")),
     "BURIED_AREA": ("buried_area", 0.0, 40.0, ("#ffffff", "#fecc5c", "#fd8d3c", "#e31a1c", "#800026")),
     "HYDROPHOBICITY": ("hydrophobicity", -4.5, 4.5, ("#3a5fcd", "#ffffff", "#d6412f")),
     "LIPOPHILICITY": ("lipophobicity", -2.0, 2.0, ("#3a5fcd", "#ffffff", "#d6412f")),
 }
-#: Colourings by a hue for each whole number: the attribute.
+#: Colourings by a hue for each integer, and their attributes.
 HUES = {"CHAIN": "chain_id", "RESIDUE": "res_name_id"}
 #: Name of a colouring -> its label.
-COLORINGS = {"COLOR": "As computed", "ELEMENT": "Element", "CHAIN": "Chain", "RESIDUE": "Residue name", "CONFIDENCE": "Confidence (pLDDT)", "B_FACTOR": "B-factor",
-             "CHARGE": "Charge", "POTENTIAL": "Potential map", "HYDROPHOBICITY": "Hydrophobicity (Kyte & Doolittle)",
-             "LIPOPHILICITY": "Lipophilicity", "KIND": "Patch kind", "CURVATURE": "Curvature", "SMOOTH_CURVATURE": "Curvature, smooth",
-             "ATOM_AREA": "Area of the atom", "ACCESSIBLE_AREA": "Accessible area of the atom", "BURIED_AREA": "Buried area of the atom"}
-#: And the attribute that it looks at.
+COLORINGS = {
+    "COLOR": "As computed", "ELEMENT": "Element", "CHAIN": "Chain", "RESIDUE": "Residue name",
+    "CONFIDENCE": "Confidence (pLDDT)", "B_FACTOR": "B-factor", "CHARGE": "Charge", "POTENTIAL": "Potential map",
+    "HYDROPHOBICITY": "Hydrophobicity (Kyte & Doolittle)", "LIPOPHILICITY": "Lipophilicity", "KIND": "Patch kind",
+    "CURVATURE": "Curvature", "SMOOTH_CURVATURE": "Curvature, smooth", "ATOM_AREA": "Area of the atom",
+    "ACCESSIBLE_AREA": "Accessible area of the atom", "BURIED_AREA": "Buried area of the atom"
+}
+#: Name of a colouring -> its attribute.
 ATTRIBUTES = {"COLOR": "Color", **HUES, **{name: of[0] for of_all in (STEPS, SCALES) for name, of in of_all.items()}}
 #: Name of a look -> its label.
 LOOKS = {"PAINT": "Paint", "CLAY": "Clay", "WAX": "Wax", "GLASS": "Glass", "FLAT": "Flat"}
 
 
 def offered(mesh):
-    """Names of the colourings whose attribute a mesh has; "as computed" is always one."""
+    """Returns the names of the colourings whose attribute a mesh has. "As computed" is always among them."""
     return {name for name, attribute in ATTRIBUTES.items() if name == "COLOR" or attribute in mesh.attributes}
 
 
 def coloring_group(name):
-    """A shader node group with one output, Color, and where it has a scale the inputs Low and High. Found or made."""
+    """Returns the shader node group of a colouring, and creates it if needed. It has the output Color, and the inputs
+    Low and High if the colouring has a scale."""
     for tree in bpy.data.node_groups:
         if tree.get(MARK) == name:
             return tree
@@ -94,7 +100,8 @@ def _attribute(tree, name):
 
 
 def _steps(tree, attribute, steps):
-    """Constant from one value to the next. Whole numbers are blurred a little between points, so bounds lie half way."""
+    """Adds a colour ramp that is constant between values. Integers are interpolated between points, so their bounds lie
+    half way."""
     last = steps[-1][0] + 1.0
     half = 0.5 if attribute != "b_factor" else 0.0
     value = compat.math_node(tree, "DIVIDE", _attribute(tree, attribute).outputs["Fac"], last)
@@ -126,34 +133,42 @@ def _ramp(tree, stops):
 
 
 def _hues(tree, attribute):
-    """A hue for each whole number: multiples of the golden section are never near one another."""
-    number = compat.math_node(tree, "FLOOR", compat.math_node(tree, "ADD", _attribute(tree, attribute).outputs["Fac"], 0.5))
-    hue = compat.math_node(tree, "FRACT", compat.math_node(tree, "ADD", compat.math_node(tree, "MULTIPLY", number, 0.6180340), 0.58))
+    """Adds nodes with a hue for each integer. Multiples of the golden section are never near one another."""
+    number = compat.math_node(tree, "FLOOR",
+                              compat.math_node(tree, "ADD",
+                                               _attribute(tree, attribute).outputs["Fac"], 0.5))
+    hue = compat.math_node(tree, "FRACT",
+                           compat.math_node(tree, "ADD", compat.math_node(tree, "MULTIPLY", number, 0.6180340), 0.58))
     node = compat.hsv_node(tree, 0.45, 0.85)
     tree.links.new(hue, node.inputs[0])
     return node.outputs[0]
 
 
 def linear(text):
-    """"#rrggbb" as scene-linear RGBA."""
+    """Returns the colour "#rrggbb" as scene-linear RGBA."""
     values = [int(text[place:place + 2], 16) / 255.0 for place in (1, 3, 5)]
     return (*(value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4 for value in values), 1.0)
 
 
 def check(look, fades, looks):
-    """Raises mns_reader.MnsError if a look has no place for what a surface asks of its material."""
+    """Raises mns_reader.MnsError if a look cannot represent the requested material: fades: True for fading objects;
+    looks: the parameters of the object's own material."""
     if looks and look not in MAKERS:
-        raise mns_reader.MnsError(f"the look {LOOKS[look].lower()} has no place for {', '.join(sorted(looks))}, which an object has of its own; "
-                                  f"take {', '.join(LOOKS[name].lower() for name in MAKERS)}, or export it without")
+        raise mns_reader.MnsError(
+            f"the look {LOOKS[look].lower()} has no place for {', '.join(sorted(looks))}, which an object has of its "
+            "own; "
+            f"take {', '.join(LOOKS[name].lower() for name in MAKERS)}, or export it without")
     if fades and look == "GLASS":
         raise mns_reader.MnsError("the look glass cannot fade, as objects of a storyboard do; take another look")
 
 
 def material(look, coloring, scale=0.1, kind=materials.OPAQUE, fades=False, looks=None):
-    """A material, found or made. scale: Blender units per Å, for how deep light goes. kind, fades, looks: as of materials.asked_by."""
+    """Returns the material of a look and a colouring, and creates it if needed. scale: Blender units per Å, for the
+    depth of light. kind, fades, looks: results of materials.stored_requirements()."""
     looks = looks or {}
     check(look, fades, looks)
-    mark = f"{look} {coloring} {scale:.6g}" + (f" {kind}" if kind != materials.OPAQUE else "") + (" fading" if fades else "")
+    mark = f"{look} {coloring} {scale:.6g}" + (f" {kind}" if kind != materials.OPAQUE else "") + (" fading"
+                                                                                                  if fades else "")
     mark += "".join(f" {key} {value:g}" for key, value in sorted(looks.items()))
     for each in bpy.data.materials:
         if each.get(MARK) == mark:
@@ -221,8 +236,9 @@ def _wax(tree, shader, color, scale):
 
 
 def _glass(tree, shader, color, output, scale):
-    """Attributes belong to the surface, not to the volume: light that enters takes the colour there, and gets darker on its way by
-    the way through. In Cycles: Eevee fills the whole bounding box with a volume; there more of the colour is at the surface."""
+    """Adds the nodes of glass. Attributes belong to the surface and not to the volume, so light is coloured where it
+    enters, and absorbed along its way inside. That works in Cycles. Eevee fills the whole bounding box with a volume,
+    so there the surface has more of the colour."""
     tree.links.new(_clear(tree, shader, color, 0.5), output.inputs["Surface"])
     absorption = tree.nodes.new("ShaderNodeVolumeAbsorption")
     absorption.inputs["Color"].default_value = (0.75, 0.85, 0.9, 1.0)
@@ -236,15 +252,16 @@ def _glass(tree, shader, color, output, scale):
 
 
 def _clear(tree, shader, color, white):
-    """The output of a surface that mirrors by Fresnel's equations of GLASS_IOR outside, and lets the rest through a Principled shader
-    of GLASS_BENDS, in a colour mixed with so much white."""
-    _set(shader, 0.02, "Roughness")  # of none at all lamps make black pixels in Eevee 3.4
+    """Returns the output of a surface that reflects on its outside according to Fresnel's equations with GLASS_IOR, and
+    refracts the rest by a Principled shader with GLASS_BENDS. white: the share of white in its colour."""
+    _set(shader, 0.02, "Roughness")  # lamps make black pixels in Eevee 3.4 if it is 0
     _set(shader, GLASS_BENDS, "IOR")
     _set(shader, 1.0, "Transmission Weight", "Transmission")
     tree.links.new(compat.mix_colors(tree, white, color, (1.0, 1.0, 1.0, 1.0)), shader.inputs["Base Color"])
-    mirror, fresnel, side, both = (tree.nodes.new("ShaderNode" + kind) for kind in ("BsdfGlossy", "Fresnel", "NewGeometry", "MixShader"))
+    mirror, fresnel, side, both = (tree.nodes.new("ShaderNode" + kind)
+                                   for kind in ("BsdfGlossy", "Fresnel", "NewGeometry", "MixShader"))
     mirror.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
-    mirror.inputs["Roughness"].default_value = 0.08  # enough that lamps are found in it without grain
+    mirror.inputs["Roughness"].default_value = 0.08  # enough to sample lamps without grain
     fresnel.inputs["IOR"].default_value = GLASS_IOR
     outside = compat.math_node(tree, "SUBTRACT", 1.0, side.outputs["Backfacing"])
     tree.links.new(compat.math_node(tree, "MULTIPLY", fresnel.outputs[0], outside), both.inputs[0])
@@ -257,14 +274,15 @@ MAKERS = {"PAINT": _paint, "CLAY": _clay, "WAX": _wax}
 
 
 def dress(item, look, coloring):
-    """Gives the outer surface and the cavities of an object a look. A cap keeps its own."""
+    """Gives a look to the outer surface and the cavities of an object. Caps keep their material."""
     return dress_mesh(item.data, look, coloring, float(item.get("meniscus_scale", 0.1)))
 
 
 def dress_mesh(mesh, look, coloring, scale):
-    """The same of a mesh, which keeps its opacity, what its objects have of their own, and how it fades. scale: Blender units per Å.
-    Raises mns_reader.MnsError if the look has no place for one of them."""
-    made = material(look, coloring, scale, *materials.asked_by(mesh))
+    """Gives a look to the outer surface and the cavities of a mesh, and returns its material. Opacity, parameters of
+    the object's own material and fading remain. scale: Blender units per Å. Raises mns_reader.MnsError if the look
+    cannot represent one of them."""
+    made = material(look, coloring, scale, *materials.stored_requirements(mesh))
     slots = mesh.materials
     while len(slots) < 2:
         slots.append(None)
@@ -275,9 +293,9 @@ def dress_mesh(mesh, look, coloring, scale):
 
 
 def renewed(mesh, surface, scale):
-    """The materials of a mesh once it shows a surface: those of the import and of looks as the surface asks now, the user's own as they are.
-    Raises mns_reader.MnsError if a look has no place for what it asks."""
-    fades, slots = materials.asked_by(mesh)[1], list(mesh.materials)
+    """Returns the materials of a mesh for a new surface. Materials of imports and of looks change as the surface
+    requests; the user's own materials remain. Raises mns_reader.MnsError if a look cannot represent the request."""
+    fades, slots = materials.stored_requirements(mesh)[1], list(mesh.materials)
     for slot, (role, kind) in enumerate(materials.wanted(surface)):
         old = slots[slot] if slot < len(slots) else None
         if old is not None and MARK in old:
@@ -285,14 +303,14 @@ def renewed(mesh, surface, scale):
             slots[slot] = material(look, coloring, scale, kind, fades, dict(materials.looks_of(surface)))
         elif old is None or materials.MARK in old:
             own = old is not None and " own" in old[materials.MARK]
-            made = materials.find_or_make(role, kind, [each for each in slots if each is not None], own, materials.hatching_of(surface, role),
-                                          materials.looks_of(surface), fades)
+            made = materials.find_or_make(role, kind, [each for each in slots if each is not None], own,
+                                          materials.hatching_of(surface, role), materials.looks_of(surface), fades)
             slots[slot:slot + 1] = [made]
     return slots
 
 
 def add_lines(context, item):
-    """Line Art of the outlines of an object, in an object of its own."""
+    """Adds and returns an object that draws the outlines of another object by Line Art."""
     lines = compat.line_art(item, item.name + ".lines", LINE_WIDTH * float(item.get("meniscus_scale", 0.1)))
     (item.users_collection[0] if item.users_collection else context.scene.collection).objects.link(lines)
     return lines

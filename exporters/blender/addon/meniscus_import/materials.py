@@ -1,26 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The materials of imported surfaces: found by their purpose, shared by all imports, kept as a user edited them."""
+"""The materials of imported surfaces. They are found by their purpose and shared by all imports, and edits of the user
+remain."""
 
 import bpy
 
 from . import compat, fading
 from .mesh_arrays import SLOTS
 
-#: How a surface lets through what lies behind it, and what the names of its materials end with.
+#: The kinds of opacity of a surface, and the endings of the names of their materials.
 OPAQUE, TRANSLUCENT, FILM = "opaque", "translucent", "film"
 ENDINGS = {OPAQUE: "", TRANSLUCENT: " seen through", FILM: " film"}
-#: The custom property that tells our materials from others of the same name.
+#: The custom property that distinguishes materials of this add-on from others of the same name.
 MARK = "meniscus_material"
-#: The custom property of meshes with what their surface asks of any material: as of asked_of.
-ASKED = "meniscus_asked"
-#: What an object's own material may say.
+#: The custom property of meshes with the result of requirements_of().
+REQUIREMENTS = "meniscus_asked"
+#: The parameters of an object's own material.
 KEYS = ("ambient", "roughness", "shininess", "specular")
-#: Where a film is seen along itself it does not get thicker than this cosine makes it, as in Meniscus.
+#: The least cosine of the viewing angle that determines the thickness of a film, as in Meniscus.
 LEAST_COSINE = 0.05
 
 
 def wanted(surface):
-    """Pairs of role and kind for the slots of a surface. Caps are not films: they are as opaque along a slant."""
+    """Yields pairs of role and kind of opacity for the slots of a surface. Caps are never films: their opacity does not
+    depend on the viewing angle."""
     kind = kind_of(surface)
     yield from ((role, kind) for role in SLOTS[:2])
     if surface.get("mesh.cap_plane") is not None:
@@ -28,37 +30,45 @@ def wanted(surface):
 
 
 def hatching_of(surface, role):
-    """share of the dark lines and what light is left there, or None."""
+    """Returns the share of the dark lines and their relative brightness, or None if there is no hatching."""
     hatching = surface.header["caps"].get("hatching") if role == "cap" else None
     return None if hatching is None else (float(hatching["share"]), float(hatching["light"]))
 
 
 def looks_of(surface):
-    """What the file says of the object's own material: pairs of a key and a number, () where it is the usual one."""
-    return tuple(sorted((key, float(value)) for key, value in surface.header.get("material", {}).items() if key in KEYS))
+    """Returns the parameters of the object's own material as pairs of a key and a number. They are () for the default
+    material."""
+    return tuple(sorted(
+        (key, float(value)) for key, value in surface.header.get("material", {}).items() if key in KEYS))
 
 
-def asked_of(surface, fades):
-    """What a surface asks of any material: its kind, whether it fades, and what looks_of says. Plain values for a custom property."""
+def requirements_of(surface, fades):
+    """Returns the requirements of a surface on any material as plain values for a custom property: its kind of opacity,
+    1 if it fades, and the pairs of looks_of()."""
     return {"kind": kind_of(surface), "fades": int(fades), **dict(looks_of(surface))}
 
 
-def asked_by(mesh):
-    """The same of a mesh: kind, whether it fades, and a dict."""
-    asked = mesh.get(ASKED, {})
-    kind = asked.get("kind", TRANSLUCENT if "opacity" in mesh.attributes else OPAQUE)
-    return kind, bool(asked.get("fades", 0)), {key: asked[key] for key in KEYS if key in asked}
+def stored_requirements(mesh):
+    """Returns the requirements that a mesh stores: kind of opacity, True if it fades, and a dict of parameters."""
+    requirements = mesh.get(REQUIREMENTS, {})
+    kind = requirements.get("kind", TRANSLUCENT if "opacity" in mesh.attributes else OPAQUE)
+    return kind, bool(requirements.get("fades", 0)), {key: requirements[key] for key in KEYS if key in requirements}
 
 
 def find_or_make(role, kind, new_materials, own=False, hatching=None, looks=(), fades=False):
-    """The material of a role, one of SLOTS, for a kind of opacity; own: of one import alone. hatching: as hatching_of; looks:
-    as looks_of; fades: as the object's colour says (fading.py). Those that are made are added to new_materials."""
-    mark = f"{role} {kind}" + (" own" if own else "") + ("" if hatching is None else " hatched {:g} {:g}".format(*hatching))
+    """Returns the material of a role for a kind of opacity. It is created if needed, and then added to new_materials.
+
+    role: one of SLOTS. own: True for a material of this import only. hatching: the result of hatching_of(). looks: the
+    result of looks_of(). fades: True if it fades by the object's colour (fading.py)."""
+    mark = (f"{role} {kind}" + (" own" if own else "") +
+            ("" if hatching is None else " hatched {:g} {:g}".format(*hatching)))
     mark += "".join(f" {key} {value:g}" for key, value in looks) + (" fading" if fades else "")
     for material in new_materials if own else bpy.data.materials:
-        if material.get(MARK) == mark or (kind == OPAQUE and not (own or looks or fades) and _is_of_an_old_import(material, role)):
+        if material.get(MARK) == mark or (kind == OPAQUE and not (own or looks or fades) and
+                                          _is_of_an_old_import(material, role)):
             return material
-    material = bpy.data.materials.new(f"Meniscus {role}{ENDINGS[kind]}{'' if hatching is None else ' hatched'}{' fading' if fades else ''}")
+    material = bpy.data.materials.new(
+        f"Meniscus {role}{ENDINGS[kind]}{'' if hatching is None else ' hatched'}{' fading' if fades else ''}")
     new_materials.append(material)
     material[MARK] = mark
     _fill(material, kind, hatching, dict(looks))
@@ -68,7 +78,7 @@ def find_or_make(role, kind, new_materials, own=False, hatching=None, looks=(), 
 
 
 def kind_of(surface):
-    """OPAQUE, TRANSLUCENT or FILM: what the materials of a mns_reader.Surface have to show."""
+    """Returns the kind of opacity of a mns_reader.Surface: OPAQUE, TRANSLUCENT or FILM."""
     if surface.get("atom.opacity") is None:
         return OPAQUE
     return FILM if surface.header.get("film_opacity") is True else TRANSLUCENT
@@ -79,7 +89,7 @@ def shader_of(material):
 
 
 def _is_of_an_old_import(material, role):
-    """Before materials were marked."""
+    """True if a material was made by a version of the add-on that did not mark its materials."""
     return (material.name == f"Meniscus {role}" and MARK not in material and material.node_tree is not None and
             any(node.type == "ATTRIBUTE" and node.attribute_name == "Color" for node in material.node_tree.nodes))
 
@@ -102,34 +112,38 @@ def _fill(material, kind, hatching, looks):
         compat.let_through(material)
 
 
-def opacity_of(tree, kind, beside):
-    """The socket with the opacity of a surface of a kind. beside: the node near which its nodes are put."""
-    opacity = _attribute(tree, "opacity", beside, -320).outputs["Fac"]
+def opacity_of(tree, kind, near):
+    """Returns the socket with the opacity of a surface. kind: TRANSLUCENT or FILM. near: the node near which new
+    nodes are placed."""
+    opacity = _attribute(tree, "opacity", near, -320).outputs["Fac"]
     return _through_a_film(tree, opacity) if kind == FILM else opacity
 
 
-def let_through(tree, kind, surface, beside):
-    """The output of a shader that shows `surface` with the opacity of its kind: what Alpha is to a Principled shader."""
+def let_through(tree, kind, surface, near):
+    """Returns the output of a shader that mixes `surface` with transparency according to its opacity, like Alpha in a
+    Principled shader."""
     mix = tree.nodes.new("ShaderNodeMixShader")
-    mix.location = (beside.location[0] + 200, beside.location[1] - 200)
-    tree.links.new(opacity_of(tree, kind, beside), mix.inputs[0])
+    mix.location = (near.location[0] + 200, near.location[1] - 200)
+    tree.links.new(opacity_of(tree, kind, near), mix.inputs[0])
     tree.links.new(tree.nodes.new("ShaderNodeBsdfTransparent").outputs[0], mix.inputs[1])
     tree.links.new(surface, mix.inputs[2])
     return mix.outputs[0]
 
 
-def _attribute(tree, name, beside, down):
+def _attribute(tree, name, near, down):
     node = tree.nodes.new("ShaderNodeAttribute")
     node.attribute_name = name
-    node.location = (beside.location[0] - 220, beside.location[1] + down)
+    node.location = (near.location[0] - 220, near.location[1] + down)
     return node
 
 
 def _hatched(tree, color, shader, share, light):
-    """Darker where the fraction of cap_stripe is less than the share of the lines."""
+    """Returns the socket of a colour that is darker where the fractional part of cap_stripe is below the share of the
+    lines. light: the relative brightness of the lines."""
     stripe = compat.math_node(tree, "FRACT", _attribute(tree, "cap_stripe", shader, -520).outputs["Fac"])
     dark = compat.math_node(tree, "LESS_THAN", stripe, share)
-    return _scaled(tree, color, compat.math_node(tree, "SUBTRACT", 1.0, compat.math_node(tree, "MULTIPLY", dark, 1.0 - light)))
+    return _scaled(tree, color,
+                   compat.math_node(tree, "SUBTRACT", 1.0, compat.math_node(tree, "MULTIPLY", dark, 1.0 - light)))
 
 
 def _scaled(tree, color, factor):
@@ -144,31 +158,37 @@ def _scaled(tree, color, factor):
 
 
 def set_looks(tree, shader, looks):
-    """Gives a shader whose colours are linked what an object's own material says. Highlights of Blinn and Phong are those of Blender
-    that are as strong and as wide: the usual ones, 0.1 and 40, are its own usual ones."""
+    """Sets the parameters of an object's own material in a shader whose colours are linked. Blinn-Phong highlights
+    become highlights of Blender with equal strength and width; the defaults 0.1 and 40 become Blender's defaults."""
     if "specular" in looks:
-        compat.principled_input(shader, "Specular IOR Level", "Specular").default_value = min(5.0 * looks["specular"], 1.0)
+        compat.principled_input(shader, "Specular IOR Level",
+                                "Specular").default_value = min(5.0 * looks["specular"], 1.0)
     if "shininess" in looks:
         shader.inputs["Roughness"].default_value = (2.0 / (looks["shininess"] + 2.0)) ** 0.25
     if "roughness" in looks and "Diffuse Roughness" in shader.inputs:  # from 4.3 on
         shader.inputs["Diffuse Roughness"].default_value = looks["roughness"]
-    if "ambient" in looks:  # as bright wherever light comes from; the rest is lit
+    if "ambient" in looks:  # this share is emitted independently of lights; the rest is lit
         color = shader.inputs["Base Color"].links[0].from_socket
         tree.links.new(color, compat.principled_input(shader, "Emission Color", "Emission"))
         shader.inputs["Emission Strength"].default_value = looks["ambient"]
         rest = _scaled(tree, color, 1.0 - looks["ambient"])
-        for socket in [link.to_socket for link in tree.links if link.to_node == shader and link.to_socket.name in ("Base Color", "Subsurface Color")]:
+        for socket in [
+                link.to_socket for link in tree.links
+                if link.to_node == shader and link.to_socket.name in ("Base Color", "Subsurface Color")
+        ]:
             tree.links.new(rest, socket)
 
 
 def _through_a_film(tree, opacity):
-    """Bouguer's law: 1 - (1 - opacity)^(1 / c), c the cosine between the line of sight and the normal."""
+    """Returns the socket with the opacity of a film by Bouguer's law: 1 - (1 - opacity)^(1 / c), where c is the cosine
+    of the angle between the line of sight and the normal, at least LEAST_COSINE."""
     geometry = tree.nodes.new("ShaderNodeNewGeometry")
     facing = tree.nodes.new("ShaderNodeVectorMath")
     facing.operation = "DOT_PRODUCT"
     tree.links.new(geometry.outputs["Normal"], facing.inputs[0])
     tree.links.new(geometry.outputs["Incoming"], facing.inputs[1])
-    cosine = compat.math_node(tree, "MAXIMUM", compat.math_node(tree, "ABSOLUTE", facing.outputs["Value"]), LEAST_COSINE)
+    cosine = compat.math_node(tree, "MAXIMUM", compat.math_node(tree, "ABSOLUTE", facing.outputs["Value"]),
+                              LEAST_COSINE)
     through = compat.math_node(tree, "SUBTRACT", 1.0, opacity)
     return compat.math_node(tree, "SUBTRACT", 1.0,
                             compat.math_node(tree, "POWER", through, compat.math_node(tree, "DIVIDE", 1.0, cosine)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads and checks .mns files with numpy alone; knows nothing of Blender (the format: FORMAT.md of Meniscus)."""
+"""Reads and checks .mns files (FORMAT.md of Meniscus). Uses numpy only, not Blender."""
 
 import json
 import mmap
@@ -11,62 +11,78 @@ import numpy as np
 
 try:
     from . import header_values
-except ImportError:  # outside of the add-on
+except ImportError:  # imported outside of the add-on
     import header_values
 
 MAGIC = b"\x89MNS\r\n\x1a\n"
 VERSION = 3
 PROLOGUE = 64
 TYPES = ("<f4", "<f8", "<u4", "<i4", "|u1")
-#: Arrays a mesh cannot do without, and their columns.
+#: Arrays that a mesh must have, and their columns.
 NEEDED = {
     "mesh.position": 3, "mesh.normal": 3, "mesh.triangle": 3, "mesh.kind": 1, "mesh.patch": 1, "mesh.component": 1,
     "mesh.atom": 1, "mesh.sharp_corner": 1, "mesh.sharp_corner_normal": 3, "mesh.sharp_edge": 2,
     "atom.center": 3, "atom.radius": 1, "atom.color": 3,
 }
-#: Numbers that files may have: of atoms, of vertices.
-OF_ATOMS = ("b_factor", "charge", "hydrophobicity", "atomic_number", "res_id", "chain_id", "name_id", "residue_name_id", "entity", "area",
-            "accessible_area", "buried_area", "index", "file_index", "opacity", "own_color")
-OF_VERTICES = ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature", "open_sky", "map_value", "map_known")
-#: Arrays a mesh may have, and their columns.
+#: Optional numbers of atoms and of vertices.
+OF_ATOMS = ("b_factor", "charge", "hydrophobicity", "atomic_number", "res_id", "chain_id", "name_id", "residue_name_id",
+            "entity", "area", "accessible_area", "buried_area", "index", "file_index", "opacity", "own_color")
+OF_VERTICES = ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature", "open_sky",
+               "map_value", "map_known")
+#: Arrays that a mesh may have, and their columns.
 OPTIONAL = {"mesh.velocity": 3, "mesh.cap_plane": 1, "mesh.map_color": 3, "mesh.patch_area": 1,
             **{f"mesh.{name}": 1 for name in OF_VERTICES}, **{f"atom.{name}": 1 for name in OF_ATOMS}}
-#: Those that hold whole numbers.
-WHOLE = ("atomic_number", "res_id", "chain_id", "name_id", "residue_name_id", "entity", "index", "file_index", "own_color")
-#: mesh.kind of caps.
+#: Optional numbers of atoms that are integers.
+WHOLE = ("atomic_number", "res_id", "chain_id", "name_id", "residue_name_id", "entity", "index", "file_index",
+         "own_color")
+#: The value of mesh.kind for caps.
 CAP = 4
-#: Values of headers, which of an object are in its own part.
+#: Tests of the values of headers. Values of an object are in its own part of the header.
 VALUES = {
-    "generator": header_values.TEXT, **header_values.SOURCE, "name": header_values.TEXT, "mesh": header_values.DICT,
-    "mesh.origin": header_values.VECTOR, "mesh.tolerance": header_values.NUMBER, "kind_colors": header_values.COLORS,
+    "generator": header_values.TEXT,
+    **header_values.SOURCE,
+    "name": header_values.TEXT,
+    "mesh": header_values.DICT,
+    "mesh.origin": header_values.VECTOR,
+    "mesh.tolerance": header_values.NUMBER,
+    "kind_colors": header_values.COLORS,
     **{key: header_values.NUMBER for key in ("probe_radius", "area", "volume")},
     **{key: header_values.TEXTS for key in ("chain_names", "atom_names", "residue_names")},
-    "material": header_values.DICT, **{f"material.{key}": header_values.SHARE for key in ("ambient", "roughness", "specular")},
+    "material": header_values.DICT,
+    **{f"material.{key}": header_values.SHARE for key in ("ambient", "roughness", "specular")},
     "material.shininess": header_values.SHININESS,
-    "caps": header_values.DICT, "caps.planes": header_values.PLANES, "caps.color": header_values.COLOR, "caps.hatching": header_values.DICT,
-    "caps.hatching.across": header_values.DIRECTIONS, "caps.hatching.distance": header_values.POSITIVE,
-    "caps.hatching.share": header_values.SHARE, "caps.hatching.light": header_values.SHARE,
+    "caps": header_values.DICT,
+    "caps.planes": header_values.PLANES,
+    "caps.color": header_values.COLOR,
+    "caps.hatching": header_values.DICT,
+    "caps.hatching.across": header_values.DIRECTIONS,
+    "caps.hatching.distance": header_values.POSITIVE,
+    "caps.hatching.share": header_values.SHARE,
+    "caps.hatching.light": header_values.SHARE,
 }
-#: The same of an entry of the components.
-COMPONENT = {"components": header_values.DICT, "components.kind": header_values.TEXT, "components.area": header_values.NUMBER,
-             "components.volume": header_values.NUMBER}
+#: Tests of the values of an entry of the components.
+COMPONENT = {
+    "components": header_values.DICT, "components.kind": header_values.TEXT, "components.area": header_values.NUMBER,
+    "components.volume": header_values.NUMBER
+}
 
 
 class MnsError(Exception):
-    """The file is not a whole, sound .mns file of a version this reader knows."""
+    """The file is not a complete and valid .mns file of a version that this reader knows."""
 
 
-#: Of an array; none of the format has more than four.
+#: The greatest number of columns of an array. No array of the format has more than four.
 MOST_COLUMNS = 64
 
-#: Keys that joined.py makes: in a file they mean nothing.
+#: Keys of headers that joined.py adds. They are ignored in files.
 OF_JOINED = ("moved_by",)
-#: Where a surface stands that is not moved: three rows of four numbers.
+#: The placement of a surface that is not moved: three rows of four numbers.
 IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]
 
 
 def read_json(path, what=""):
-    """What a JSON file beside .mns files holds. what: of its writer, for the message. Raises MnsError or OSError."""
+    """Returns the content of a JSON file that belongs to .mns files. what: a note on its origin for the message. Raises
+    MnsError or OSError."""
     with open(path, encoding="utf-8") as file:
         try:
             return json.load(file)
@@ -75,14 +91,15 @@ def read_json(path, what=""):
 
 
 def read_manifest(path, kind, words, version, values, needed, what=""):
-    """The header of a JSON file beside .mns files, whose values are checked. kind, words: its format, and what it is for the message;
-    version: the newest that is known; values, needed: as of header_values.check. Raises likewise."""
+    """Returns the checked header of a JSON file that belongs to .mns files. kind: its format. words: its description
+    for messages. version: the newest known version. values, needed: arguments of header_values.check(). what: a note on
+    its origin. Raises MnsError or OSError."""
     header = read_json(path, what)
     if not isinstance(header, dict) or header.get("format") != kind:
         raise MnsError(f"{path}: not {words}")
     found = header.get("version")
     if type(found) is not int or found < 1:
-        raise MnsError(f"{path}: version {header_values.told(found)} does not exist")
+        raise MnsError(f"{path}: version {header_values.shortened(found)} does not exist")
     if found > version:
         raise MnsError(f"{path}: version {found} is newer than this add-on knows ({version}); update it")
     try:
@@ -93,7 +110,7 @@ def read_manifest(path, kind, words, version, values, needed, what=""):
 
 
 class File:
-    """header: dict. objects: the surfaces, at least one."""
+    """The content of a .mns file. header: dict. objects: the surfaces, at least one."""
 
     def __init__(self, header, objects):
         self.header = header
@@ -101,8 +118,8 @@ class File:
 
 
 class Surface:
-    """One object. header: dict, the file's and the object's own keys. arrays: name without prefix -> numpy array, (rows,)
-    or (rows, columns), read-only. copies: 3x4 matrices [rotation | translation in Å]."""
+    """One object of a file. header: dict with the keys of the file and of the object. arrays: name without prefix ->
+    read-only numpy array, (rows,) or (rows, columns). copies: 3x4 matrices [rotation | translation in Å]."""
 
     def __init__(self, path, header, arrays):
         self.path = path
@@ -119,7 +136,7 @@ class Surface:
         return self.arrays.get(name)
 
     def check_closed(self):
-        """Raises MnsError if the mesh must be closed and is not; checks once."""
+        """Raises MnsError if the mesh must be closed and is not. The mesh is checked only once."""
         if not self.known_closed and self.header["mesh"].get("closed", True) and not is_closed(self["mesh.triangle"]):
             raise MnsError(f"{self.path}: the mesh is not closed")
         self.known_closed = True
@@ -130,13 +147,13 @@ class Surface:
 
 
 def stamp(path):
-    """Changes when a file has been written again. Raises OSError."""
+    """Returns a value that changes when a file is written again. Raises OSError."""
     found = os.stat(path)
     return found.st_mtime_ns, found.st_size, found.st_ino
 
 
 def read(path):
-    """The objects of a file. Raises MnsError with one sentence, or OSError."""
+    """Reads a file and returns a File. Raises MnsError with one sentence, or OSError."""
     header, arrays = read_arrays(path)
     if header.get("format") == "meniscus atoms":
         raise MnsError(f"{path}: it holds atoms, not a surface")
@@ -149,7 +166,8 @@ def read(path):
 
 
 def read_arrays(path):
-    """Header and arrays by name of any file of this container, whose sums are right. Raises likewise."""
+    """Returns the header and the arrays by name of any file in this container format, after checking its checksum.
+    Raises MnsError with one sentence, or OSError."""
     with open(path, "rb") as file:
         try:
             data = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
@@ -169,7 +187,7 @@ def read_arrays(path):
 
 
 def _objects(path, header, arrays):
-    entries = header.get("objects", [header])  # before version 2 a file was one object
+    entries = header.get("objects", [header])  # a file of version 1 is one object
     if not isinstance(entries, list) or not entries or not all(isinstance(entry, dict) for entry in entries):
         raise MnsError(f"{path}: the header lists no objects")
     surfaces = []
@@ -177,13 +195,15 @@ def _objects(path, header, arrays):
         prefix = str(entry.get("prefix", ""))
         own = {name[len(prefix):]: array for name, array in arrays.items() if name.startswith(prefix)}
         _check_copies(path, entry)
-        surfaces.append(Surface(path, {key: value for key, value in {**header, **entry}.items() if key not in OF_JOINED}, own))
+        surfaces.append(
+            Surface(path, {key: value for key, value in {**header, **entry}.items() if key not in OF_JOINED}, own))
         _check(surfaces[-1])
     return surfaces
 
 
 def _check_copies(path, entry):
-    """Rotations only: Blender would show a mirrored or sheared molecule without a word."""
+    """Raises MnsError if a copy is not a rotation and a translation, because Blender would show a mirrored or sheared
+    molecule without a warning."""
     copies = entry.get("copies", [IDENTITY])
     if not isinstance(copies, list) or not all(header_values.are_numbers(copy, 12) for copy in copies):
         raise MnsError(f"{path}: copies are not lists of twelve numbers")
@@ -285,8 +305,12 @@ def _check(surface):
         if name in arrays and len(arrays[name]) != rows:
             raise MnsError(f"{path}: array {name} has {len(arrays[name])} rows instead of {rows}")
     limits = {
-        "mesh.triangle": vertices, "mesh.sharp_edge": vertices, "mesh.sharp_corner": 3 * triangles, "mesh.kind": CAP + 1 if "caps" in surface.header else 3,
-        "mesh.component": components, "mesh.atom": atoms,
+        "mesh.triangle": vertices,
+        "mesh.sharp_edge": vertices,
+        "mesh.sharp_corner": 3 * triangles,
+        "mesh.kind": CAP + 1 if "caps" in surface.header else 3,
+        "mesh.component": components,
+        "mesh.atom": atoms,
     }
     for name in [f"atom.{name}" for name in WHOLE if f"atom.{name}" in arrays]:
         if arrays[name].dtype.kind not in "iu":
@@ -308,7 +332,7 @@ def _check_values(surface):
             header_values.check(header, VALUES, [key for key in VALUES if key.startswith("caps.hatching.")])
         listed = header.get("components", [])
         if not isinstance(listed, list):
-            raise ValueError(f"components is {header_values.told(listed)}, not a list")
+            raise ValueError(f"components is {header_values.shortened(listed)}, not a list")
         for component in listed:
             header_values.check({"components": component}, COMPONENT, ("components", "components.kind"))
     except ValueError as error:
@@ -320,7 +344,8 @@ def _check_caps(surface):
     path, caps = surface.path, surface.header["caps"]
     planes = caps["planes"]
     if "hatching" in caps and len(caps["hatching"]["across"]) != len(planes):
-        raise MnsError(f"{path}: caps.hatching.across has {len(caps['hatching']['across'])} directions for {len(planes)} planes")
+        raise MnsError(
+            f"{path}: caps.hatching.across has {len(caps['hatching']['across'])} directions for {len(planes)} planes")
     cap, plane = surface["mesh.kind"] == CAP, surface.get("mesh.cap_plane")
     if cap.any() and (plane is None or plane.dtype.kind not in "iu" or int(plane[cap].max()) >= len(planes)):
         raise MnsError(f"{path}: a cap lies on no plane")
@@ -329,13 +354,13 @@ def _check_caps(surface):
 
 
 def check_names(path, array, numbers, names):
-    """Raises MnsError if numbers, the array of this name, are not places in the list `names`."""
+    """Raises MnsError if numbers, the array of this name, are not indices into the list `names`."""
     if not isinstance(names, list) or (len(numbers) and not 0 <= numbers.min() <= numbers.max() < len(names)):
         raise MnsError(f"{path}: array {array} points to no name")
 
 
 def is_closed(triangles):
-    """True when every edge has exactly two triangles, which walk it in opposite directions."""
+    """True if every edge has exactly two triangles, which traverse it in opposite directions."""
     t = triangles.astype(np.uint64)
     a, b = t.ravel(), np.roll(t, -1, axis=1).ravel()
     forward = np.sort(a << np.uint64(32) | b)

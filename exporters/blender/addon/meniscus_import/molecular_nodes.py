@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Atoms of an object as Molecular Nodes has them: a vertex an atom, named attributes, radii in Blender units."""
+"""Reads atoms of an object in the form of Molecular Nodes: a vertex per atom, named attributes, radii in Blender
+units."""
 
 import numpy as np
 
 from . import attributes, mns_reader
 from .computing.atoms import Atoms
 
-#: What a surface needs; and where our arrays come from, if the object has them.
+#: The attribute with the radii, which must exist.
 RADII = "vdw_radii"
+#: Optional attributes, and their arrays and types in .mns files.
 ARRAYS = {"b_factor": ("atom.b_factor", np.float32), "atomic_number": ("atom.atomic_number", np.int32),
           "res_id": ("atom.res_id", np.int32), "chain_id": ("atom.chain_id", np.int32)}
-#: Units of length that scales of Blender units per Å are looked for in: Molecular Nodes has had 0.01 and 0.1.
+#: Possible scales in Blender units per Å. Molecular Nodes has used 0.01 and 0.1.
 SCALES = 10.0 ** np.arange(-4, 3)
-#: Å: radii of atoms lie about it in every published table.
+#: A typical radius of atoms in all published tables, Å.
 USUAL_RADIUS = 1.6
 #: sRGB of atoms without an attribute Color.
 PLAIN = (0.78, 0.80, 0.83)
@@ -23,7 +25,8 @@ def is_molecule(item):
 
 
 def scale_of(item):
-    """Blender units per Å: the power of ten that makes the radii those of atoms."""
+    """Returns the scale in Blender units per Å: the power of ten for which the radii are those of atoms. Raises
+    MnsError if no atom has a radius."""
     radii = _values(item.data, RADII)
     radii = radii[np.isfinite(radii) & (radii > 0)]
     if not len(radii):
@@ -32,18 +35,23 @@ def scale_of(item):
 
 
 def frames_of(item):
-    """Objects that hold the other models of a molecule, in order; Molecular Nodes keeps them in a collection of this name."""
+    """Returns the objects with the frames of a molecule in order. Molecular Nodes keeps them in a collection with a
+    special name."""
     import bpy
 
     collection = bpy.data.collections.get(f".data_{item.name}_frames")
     count = len(item.data.vertices)
-    frames = [] if collection is None else [other for other in collection.objects if other.type == "MESH" and len(other.data.vertices) == count]
-    return sorted(frames, key=lambda other: int("0" + "".join(c for c in other.name.rpartition("_")[2].split(".")[0] if c.isdigit())))
+    frames = [] if collection is None else [
+        other for other in collection.objects if other.type == "MESH" and len(other.data.vertices) == count
+    ]
+    return sorted(
+        frames,
+        key=lambda other: int("0" + "".join(c for c in other.name.rpartition("_")[2].split(".")[0] if c.isdigit())))
 
 
 def read(item, scale, selection="", place=0):
-    """The atoms.Atoms that are selected, and their other attributes by atom as attributes.Kept. selection: the name of a boolean
-    attribute. place: of the frames, from 1; 0: as the object itself is."""
+    """Returns the selected atoms.Atoms, and their other attributes by atom as attributes.Kept. selection: the name of a
+    boolean attribute, or "". place: the place of the frame, from 1; 0 for the object itself. Raises MnsError."""
     mesh = item.data
     count = len(mesh.vertices)
     if not is_molecule(item) or not count:
@@ -52,11 +60,14 @@ def read(item, scale, selection="", place=0):
     if not chosen.any():
         raise mns_reader.MnsError(f"{item.name}: the selection {selection} has no atom")
     index = np.flatnonzero(chosen).astype(np.uint32)
-    numbers = {array: _values(mesh, name)[chosen].astype(kind) for name, (array, kind) in ARRAYS.items() if _is_number(mesh, name)}
+    numbers = {
+        array: _values(mesh, name)[chosen].astype(kind) for name, (array, kind) in ARRAYS.items()
+        if _is_number(mesh, name)
+    }
     names = [str(name) for name in item.get("chain_ids", [])]
     chains = numbers.get("atom.chain_id")
     if chains is not None and not 0 <= chains.min() <= chains.max() < len(names):
-        names = [f"{number:06d}" for number in range(max(int(chains.max()), 0) + 1)]  # sorted as they count
+        names = [f"{number:06d}" for number in range(max(int(chains.max()), 0) + 1)]  # sorted texts keep their order
         numbers["atom.chain_id"] = np.maximum(chains, 0)
     atoms = Atoms(_positions(frames_of(item)[place - 1].data if place else mesh)[chosen] / scale,
                   _values(mesh, RADII)[chosen].astype(np.float64) / scale, _colors(mesh)[chosen], index, numbers, names,
@@ -65,7 +76,7 @@ def read(item, scale, selection="", place=0):
 
 
 def selections(item):
-    """Names of the attributes that select atoms."""
+    """Returns the names of the attributes that can select atoms."""
     return [attribute.name for attribute in item.data.attributes
             if attribute.data_type == "BOOLEAN" and attribute.domain == "POINT" and not attribute.name.startswith(".")]
 
@@ -79,7 +90,8 @@ def _chosen(item, selection):
 
 
 def _is_number(mesh, name):
-    return name in mesh.attributes and mesh.attributes[name].domain == "POINT" and mesh.attributes[name].data_type in ("FLOAT", "INT")
+    return (name in mesh.attributes and mesh.attributes[name].domain == "POINT" and
+            mesh.attributes[name].data_type in ("FLOAT", "INT"))
 
 
 def _positions(mesh):
@@ -93,7 +105,7 @@ def _values(mesh, name):
 
 
 def _colors(mesh):
-    """sRGB; the attribute is linear."""
+    """Returns the colours of atoms as sRGB. The attribute is linear."""
     color = mesh.attributes.get("Color")
     if color is None or color.domain != "POINT" or color.data_type not in ("FLOAT_COLOR", "BYTE_COLOR"):
         return np.tile(np.float32(PLAIN), (len(mesh.vertices), 1))
@@ -102,10 +114,12 @@ def _colors(mesh):
 
 
 def _others(mesh, chosen):
-    """All other attributes of the atoms, which go with them to the vertices of the surface under their own names."""
+    """Returns all other attributes of the atoms, which vertices of the surface get under the same names."""
     ours = {RADII, "Color", "position", *ARRAYS}
     names = [attribute.name for attribute in mesh.attributes
              if attribute.domain == "POINT" and attribute.data_type in attributes.TYPES and attribute.name not in ours
              and not attribute.name.startswith(".")]
-    return [attributes.Kept(name, mesh.attributes[name].data_type, "POINT", attributes.read(mesh, name, mesh.attributes[name].data_type),
-                            chosen.copy()) for name in names]
+    return [
+        attributes.Kept(name, mesh.attributes[name].data_type, "POINT",
+                        attributes.read(mesh, name, mesh.attributes[name].data_type), chosen.copy()) for name in names
+    ]

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which objects show a proxy for now, as a slider moves or the timeline plays, and when their fine meshes are due."""
+"""Keeps track of the objects that show a proxy while a slider moves or the timeline plays, and of the times when their
+fine meshes are due."""
 
 import time as clock
 
 import bpy
 
-#: Seconds without a change after which a fine mesh follows a proxy.
+#: Seconds without a change after which a fine mesh replaces a proxy.
 REST = 0.4
 
-_due = {}  # identity of an object -> when
+_due = {}  # identity of an object -> time when its fine mesh is due
 _rendering = False
 
 
@@ -29,14 +30,14 @@ def any_moves():
 
 
 def at_rest():
-    """Identities of objects that have not moved for a while; none as long as the timeline plays."""
+    """Returns the identities of objects whose fine meshes are due. There are none while the timeline plays."""
     if is_playing():
         return []
     return [owner for owner, due in _due.items() if due <= clock.monotonic()]
 
 
 def is_playing():
-    """Whether a user watches the timeline as it runs; pictures and files are made of fine meshes."""
+    """True if the timeline plays in a window. Renders and background jobs always use fine meshes."""
     windows = () if bpy.app.background or _rendering else getattr(bpy.context.window_manager, "windows", ())
     return any(window.screen.is_animation_playing for window in windows)
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel Meniscus in the sidebar of 3-D views: makes objects with computed surfaces, and changes what they show."""
+"""The panel Meniscus in the sidebar of 3-D views, which makes objects with computed surfaces and edits their
+settings."""
 
 import os
 
@@ -12,14 +13,14 @@ from .settings import DETAILS, OF_NUMBERS, OWN_COLORS
 
 
 def new_object(context, name, source, **values):
-    """An object without geometry in the active collection, or in the scene's where that is left out of the view layer; selected
-    and active."""
+    """Returns a new selected and active object without geometry. It is in the active collection, or in the collection
+    of the scene if the active one is excluded from the view layer. values: settings of the object."""
     item = bpy.data.objects.new(name, bpy.data.meshes.new(name))
     for key, value in values.items():
         setattr(item.meniscus, key, value)
-    item.meniscus.source = source  # last: before, nothing is computed
+    item.meniscus.source = source  # set last, because it starts computing
     context.collection.objects.link(item)
-    context.view_layer.update()  # so that it knows the object
+    context.view_layer.update()  # adds the object to the view layer
     if item.name not in context.view_layer.objects:
         context.collection.objects.unlink(item)
         context.scene.collection.objects.link(item)
@@ -32,9 +33,10 @@ def new_object(context, name, source, **values):
 
 
 def start(operator, item):
-    """In the background where there is a window, else at once."""
+    """Computes the surface of a new object, in the background if there is a window. Returns the result of the
+    operator."""
     if not bpy.app.background and not operator.wait:
-        computed.ask(item, in_motion=True)  # a proxy comes first
+        computed.update_in_background(item, in_motion=True)  # shows a proxy first
         return {"FINISHED"}
     try:
         computed.compute_now(item)
@@ -46,11 +48,12 @@ def start(operator, item):
 
 
 class Waiting:
-    wait: bpy.props.BoolProperty(name="Wait", description="End when the surface is there", default=False, options={"SKIP_SAVE"})
+    wait: bpy.props.BoolProperty(name="Wait", description="End when the surface is there", default=False,
+                                 options={"SKIP_SAVE"})
 
 
 class Making(Waiting):
-    """What operators that make a surface share."""
+    """The properties of operators that make a surface."""
 
     detail: bpy.props.EnumProperty(name="Detail", default="AUTO", items=DETAILS)
 
@@ -70,9 +73,10 @@ class OBJECT_OT_meniscus_from_file(Making, bpy.types.Operator, ImportHelper):
 
     def execute(self, context):
         name = os.path.basename(self.filepath).split(".")[0] or "surface"
-        item = new_object(context, name + ".surface", "FILE", detail=self.detail, file=build.remembered_path(self.filepath), selection=self.selection,
-                          trajectory=self.trajectory and build.remembered_path(self.trajectory),
-                          is_run=self.is_run or bool(self.trajectory), center=self.center)
+        item = new_object(context, name + ".surface", "FILE", detail=self.detail,
+                          file=build.remembered_path(self.filepath), selection=self.selection,
+                          trajectory=self.trajectory and build.remembered_path(self.trajectory), is_run=self.is_run or
+                          bool(self.trajectory), center=self.center)
         return start(self, item)
 
 
@@ -89,12 +93,13 @@ class OBJECT_OT_meniscus_from_atoms(Making, bpy.types.Operator):
     def poll(cls, context):
         return molecular_nodes.is_molecule(context.active_object)
 
-    @build.tells_errors
+    @build.reports_errors
     def execute(self, context):
         atoms = context.active_object
         scale = molecular_nodes.scale_of(atoms)
-        item = new_object(context, atoms.name + ".surface", "OBJECT", atoms=atoms, scale=scale, selection=self.selection, detail=self.detail)
-        item.parent = atoms  # without the inverse: it stands where its atoms are
+        item = new_object(context, atoms.name + ".surface", "OBJECT", atoms=atoms, scale=scale,
+                          selection=self.selection, detail=self.detail)
+        item.parent = atoms  # without an inverse matrix, so that it has the place of its atoms
         computed.come_last()
         return start(self, item)
 
@@ -111,11 +116,11 @@ class OBJECT_OT_meniscus_update(Waiting, bpy.types.Operator):
         item = context.active_object
         return computed.is_computed(item) and item.mode == "OBJECT"
 
-    @build.tells_errors
+    @build.reports_errors
     def execute(self, context):
         item = context.active_object
-        if not computed.working().told()["library"]:
-            computed.look_for_tools()
+        if not computed.working().describe_tools()["library"]:
+            computed.search_tools_again()
         libraries.own_mesh(item, lambda _other: True)[computed.SHOWN] = ""
         return start(self, item)
 
@@ -139,7 +144,8 @@ class OBJECT_OT_meniscus_cancel(bpy.types.Operator):
 def _offered(_self, context):
     item = context.active_object if context else None
     offered = looks.offered(item.data) if is_surface(item) else looks.COLORINGS
-    return [(name, label, "", number) for number, (name, label) in enumerate(looks.COLORINGS.items()) if name in offered]
+    return [(name, label, "", number) for number, (name, label) in enumerate(looks.COLORINGS.items())
+            if name in offered]
 
 
 class OBJECT_OT_meniscus_look(bpy.types.Operator):
@@ -149,15 +155,17 @@ class OBJECT_OT_meniscus_look(bpy.types.Operator):
     bl_label = "Apply look"
     bl_options = {"REGISTER", "UNDO"}
 
-    look: bpy.props.EnumProperty(name="Look", default="PAINT", items=[(name, label, "") for name, label in looks.LOOKS.items()])
+    look: bpy.props.EnumProperty(name="Look", default="PAINT",
+                                 items=[(name, label, "") for name, label in looks.LOOKS.items()])
     coloring: bpy.props.EnumProperty(name="Colour", items=_offered)
-    lines: bpy.props.BoolProperty(name="Outlines", description="Draw outlines by Line Art, as an object of their own", default=False)
+    lines: bpy.props.BoolProperty(name="Outlines", description="Draw outlines by Line Art, as an object of their own",
+                                  default=False)
 
     @classmethod
     def poll(cls, context):
         return is_surface(context.active_object) and context.active_object.data.library is None
 
-    @build.tells_errors
+    @build.reports_errors
     def execute(self, context):
         item = context.active_object
         name = looks.ATTRIBUTES[self.coloring]
@@ -174,7 +182,7 @@ def is_surface(item):
 
 
 class InSidebar:
-    """Where all panels are."""
+    """The place of all panels."""
 
     bl_category = "Meniscus"
     bl_space_type = "VIEW_3D"
@@ -182,7 +190,7 @@ class InSidebar:
 
 
 class BelowPanel(InSidebar):
-    """Where those are that belong to the first one."""
+    """The place of panels inside the first one."""
 
     bl_parent_id = "VIEW3D_PT_meniscus"
 
@@ -209,11 +217,11 @@ class VIEW3D_PT_meniscus(InSidebar, bpy.types.Panel):
         self.draw_request(item)
 
     def draw_error(self, item):
-        """True if there is one."""
-        said = item.get(libraries.ERROR) if item is not None else None
-        for line in wrapped(said or "", 40):
+        """Draws the last error of an object. Returns True if there is one."""
+        error = item.get(libraries.ERROR) if item is not None else None
+        for line in wrapped(error or "", 40):
             self.layout.label(text=line, icon="ERROR")
-        return bool(said)
+        return bool(error)
 
     def draw_state(self, item):
         layout, progress = self.layout, computed.progress_of(item)
@@ -319,7 +327,7 @@ class VIEW3D_PT_meniscus_look(BelowPanel, bpy.types.Panel):
 
 
 def wrapped(text, width):
-    """Lines of a panel, which does not wrap."""
+    """Yields a text as lines of at most `width` characters, because panels do not wrap text."""
     line = ""
     for word in text.split():
         if line and len(line) + len(word) >= width:
@@ -330,8 +338,9 @@ def wrapped(text, width):
         yield line
 
 
-CLASSES = (OBJECT_OT_meniscus_from_file, OBJECT_OT_meniscus_from_atoms, OBJECT_OT_meniscus_update, OBJECT_OT_meniscus_cancel,
-           OBJECT_OT_meniscus_look, VIEW3D_PT_meniscus, VIEW3D_PT_meniscus_molecule, VIEW3D_PT_meniscus_time, VIEW3D_PT_meniscus_look)
+CLASSES = (OBJECT_OT_meniscus_from_file, OBJECT_OT_meniscus_from_atoms, OBJECT_OT_meniscus_update,
+           OBJECT_OT_meniscus_cancel, OBJECT_OT_meniscus_look, VIEW3D_PT_meniscus, VIEW3D_PT_meniscus_molecule,
+           VIEW3D_PT_meniscus_time, VIEW3D_PT_meniscus_look)
 
 
 def register():

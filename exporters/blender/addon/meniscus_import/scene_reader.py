@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads scene files of Meniscus: what the panel has fields for, what the program alone can show, and what neither shows."""
+"""Reads scene files of Meniscus, and separates values with a field of the panel from values that only the program can
+show, and from values that Blender cannot show."""
 
 import dataclasses
 import json
@@ -10,25 +11,37 @@ from .computing import preparation, preparation_table, request
 
 #: Fields of the panel by the keys of scenes.
 FIELDS = {
-    "molecule.file": "file", "molecule.select": "selection", "frames.trajectory": "trajectory", "frames.trajectory_atoms": "trajectory_atoms",
-    "frames.frames": "frames", "surface.kind": "kind", "surface.probe": "probe", "surface.cavities": "cavities", "surface.color": "colors",
-    "surface.color_by_file": "numbers", "mesh.tolerance": "tolerance", "mesh.density": "density",
+    "molecule.file": "file",
+    "molecule.select": "selection",
+    "frames.trajectory": "trajectory",
+    "frames.trajectory_atoms": "trajectory_atoms",
+    "frames.frames": "frames",
+    "surface.kind": "kind",
+    "surface.probe": "probe",
+    "surface.cavities": "cavities",
+    "surface.color": "colors",
+    "surface.color_by_file": "numbers",
+    "mesh.tolerance": "tolerance",
+    "mesh.density": "density",
     **{row.key: preparation.name_of(row) for row in preparation.ROWS},
 }
 FILES = ("file", "trajectory", "numbers")
-#: Least and greatest numbers of the panel; the program has wider ones.
+#: The ranges of numbers in the panel. Those of the program are wider.
 NUMBERS = {"probe": (0.0, 100.0), "tolerance": (1e-5, 1.0), "density": (0.005, 1000.0)}
 WORDS = {"surface.kind": request.KINDS, "surface.cavities": request.CAVITIES}
-#: What changes nothing of the surface: where the picture goes, what computes, how a film is packed.
-IDLE = {"output.file", "surface.device", "surface.require_gpu", "surface.threads", "surface.verify", "surface.representation", "frames.codec",
-        "frames.crf", "frames.bits", "frames.chroma"}
-#: Parts of a picture that Blender has no counterpart of.
+#: Keys without effect on the surface: the output, the device, and the compression of films.
+IDLE = {
+    "output.file", "surface.device", "surface.require_gpu", "surface.threads", "surface.verify",
+    "surface.representation", "frames.codec", "frames.crf", "frames.bits", "frames.chroma"
+}
+#: Sections about parts of a picture that have no counterpart in Blender.
 UNSEEN = ("look", "legend", "annotations", "image")
 
 
 @dataclasses.dataclass
 class Scene:
-    """fields: values of the panel by name. others: keys for which it has no field, but the program. unseen: keys of what does not show."""
+    """A scene file. fields: values of the panel by name. others: keys that only the program supports. unseen: keys that
+    have no counterpart in Blender."""
 
     fields: dict
     others: list
@@ -36,7 +49,7 @@ class Scene:
 
 
 def read(path):
-    """Raises MnsError or OSError."""
+    """Reads a scene file and returns a Scene. Raises MnsError or OSError."""
     with open(path, encoding="utf-8") as file:
         try:
             given = json.load(file)
@@ -59,7 +72,8 @@ def read(path):
 
 
 def _settings(path, given):
-    """Pairs of key and value; the keys of a list with one surface are those of the surface, another list is one value."""
+    """Yields pairs of key and value. A list of objects with a single surface yields the keys of the surface; any other
+    list is a single value."""
     for section, values in given.items():
         if section == "objects" and isinstance(values, list) and len(values) == 1 and isinstance(values[0], dict) \
                 and values[0].get("representation") == "surface":
@@ -67,30 +81,32 @@ def _settings(path, given):
         if section in ("meniscus_scene", "superposed"):
             continue
         if section != "objects" and not isinstance(values, dict):
-            raise mns_reader.MnsError(f"{path}: {section} is {header_values.told(values)}, not a section")
-        yield from [(section, values)] if section == "objects" else ((f"{section}.{name}", value) for name, value in values.items())
+            raise mns_reader.MnsError(f"{path}: {section} is {header_values.shortened(values)}, not a section")
+        yield from [(section, values)] if section == "objects" else ((f"{section}.{name}", value)
+                                                                     for name, value in values.items())
 
 
 def _take(scene, path, key, value):
     name = FIELDS[key]
     values = value if isinstance(value, list) else [value]
     if not values or not all(isinstance(each, (str, int, float)) for each in values):
-        raise mns_reader.MnsError(f"{path}: {key} is {header_values.told(value)}")
+        raise mns_reader.MnsError(f"{path}: {key} is {header_values.shortened(value)}")
     if name == "colors":
         scene.fields.update(_colors(values))
         return
     try:
         found = None if len(values) > 1 else _plain(key, name, values[0])
     except ValueError as error:
-        raise mns_reader.MnsError(f"{path}: {key} is {header_values.told(value)}, not {error}") from None
+        raise mns_reader.MnsError(f"{path}: {key} is {header_values.shortened(value)}, not {error}") from None
     if found is None or name in FILES and not _is_beside(found):
-        scene.others.append(key)  # the program takes several, and says of other folders whether it trusts the scene
+        scene.others.append(key)  # the program takes several values, and checks files in other folders
     else:
         scene.fields[name] = os.path.join(os.path.dirname(os.path.abspath(path)), found) if name in FILES else found
 
 
 def _plain(key, name, value):
-    """The value of a field; None: the panel has a narrower range. Raises ValueError that says what it should be."""
+    """Returns the value of a field, or None if it is outside of the panel's range. Raises ValueError with a description
+    of valid values."""
     row = next((row for row in preparation.ROWS if row.key == key), None)
     if name in NUMBERS:
         try:
@@ -111,12 +127,12 @@ def _plain(key, name, value):
 
 
 def _colors(values):
-    """A scheme is in the menu; all else is written."""
+    """Returns the fields of colours: a scheme of the menu, or the text of all other colours."""
     if len(values) == 1 and values[0] in dict(preparation_table.SCHEMES):
         return {"color": values[0]}
     return {"color": "own", "colors": "; ".join(str(value) for value in values)}
 
 
 def _is_beside(name):
-    """Returns True if a file is in the scene's folder or below it."""
+    """True if a file is in the folder of the scene or below it."""
     return isinstance(name, str) and not os.path.isabs(name) and "\\" not in name and ".." not in name.split("/")

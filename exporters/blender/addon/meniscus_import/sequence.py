@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A sequence of surfaces in a scene: all frames baked into the file, or one frame at a time by a handler."""
+"""Imports sequences of surfaces: all frames are baked into the file, or a handler reads one frame at a time."""
 
 import math
 import os
@@ -12,13 +12,20 @@ from .computing import process
 
 
 class Placement:
-    """How the surfaces of a sequence come into a scene. origin: Å, of the scene's coordinates, for all frames. scene: whose
-    frame rate counts for velocities; None: that of the sequence."""
+    """The options for the surfaces of a sequence in a scene.
+
+    scale: Blender units per Å; None for that of the sequence.
+    center, origin: the origin of the scene's coordinates for all frames, Å; if it is None, the origin of the sequence
+    is used if `center` is True, and zero otherwise.
+    crisp_colors, own_materials: arguments of build.Options.
+    timing: a sequence_reader.Timing, or None for the default.
+    scene: the scene whose frame rate applies to velocities; None for the rate of the sequence.
+    names: the result of mesh_arrays.names_of() for all frames, to which new names are appended."""
 
     def __init__(self, sequence, scale=None, center=True, crisp_colors=True, timing=None, scene=None, origin=None,
                  own_materials=False, names=None):
         self.sequence = sequence
-        self.names = {} if names is None else names  # as of mesh_arrays.names_of, the same for all frames; they grow
+        self.names = {} if names is None else names
         self.scale = sequence.scale if scale is None else scale
         self.origin = origin if origin is not None else sequence.origin if center else sequence.origin * 0.0
         self.crisp_colors = crisp_colors
@@ -28,8 +35,8 @@ class Placement:
         self.new_materials = []
 
     def refill(self, mesh, scene_frame, kept=()):
-        """Puts the frame in this place of the run into the mesh, with what was kept of the user's attributes; its
-        frames.Prepared. On an error the mesh is left without geometry: no other frame stands for it."""
+        """Puts a frame into a mesh, with the kept attributes of the user, and returns its frames.Prepared. scene_frame:
+        its place in the run, from 1. After an error the mesh has no geometry, because another frame would be wrong."""
         try:
             build.clear_geometry(mesh)
             prepared = _ahead.take(self, scene_frame)
@@ -38,9 +45,12 @@ class Placement:
                 build.add_materials(mesh, prepared.surface, self.new_materials, self.own_materials)
             fps = self.sequence.fps if self.scene is None else build.fps_of(self.scene)
             build.fill_mesh(mesh, prepared.arrays, fps * self.timing.speed)
-            attributes.give_back(mesh, kept, prepared.arrays)
+            attributes.restore(mesh, kept, prepared.arrays)
             if len(mesh.polygons) != prepared.triangles:
-                raise mns_reader.MnsError(f"{self.sequence.frames[scene_frame - 1].path}: {len(mesh.polygons)} triangles of {prepared.triangles}")
+                raise mns_reader.MnsError(
+                    f"{self.sequence.frames[scene_frame - 1].path}: {len(mesh.polygons)} triangles of "
+                    f"{prepared.triangles}"
+                )
         except BaseException:
             build.clear_geometry(mesh)
             raise
@@ -51,7 +61,8 @@ class Placement:
 
 
 class Ahead:
-    """Frames that another process reads before they are asked for: all but handing them to Blender, and most of the time."""
+    """Frames that another process reads in advance. It does everything except filling meshes of Blender, which is most
+    of the work."""
 
     MOST = 2
 
@@ -66,7 +77,8 @@ class Ahead:
                 mns_reader.stamp(path) if os.path.exists(path) else None)
 
     def take(self, placement, scene_frame):
-        """A frames.Prepared; where the other process failed this one says why. Raises MnsError or OSError."""
+        """Returns the frames.Prepared of a frame. If the other process failed, the frame is read here, which reports
+        the reason. Raises MnsError or OSError."""
         job = self.waiting.pop(self.key(placement, scene_frame), None)
         if job is not None:
             self.process.wait(job)
@@ -74,16 +86,18 @@ class Ahead:
                 return frames.unpacked(job.result)
         return placement.prepared(scene_frame)
 
-    def ask(self, placement, scene_frame):
+    def request(self, placement, scene_frame):
         key = self.key(placement, scene_frame)
         if key in self.waiting:
             return
-        about = {"path": os.path.abspath(placement.sequence.path), "scene_frame": scene_frame, "origin": placement.origin,
-                 "scale": placement.scale, "crisp": placement.crisp_colors}
+        about = {
+            "path": os.path.abspath(placement.sequence.path), "scene_frame": scene_frame, "origin": placement.origin,
+            "scale": placement.scale, "crisp": placement.crisp_colors
+        }
         try:
-            self.waiting[key] = self.process.ask(key, key, "frame", about)
+            self.waiting[key] = self.process.submit(key, key, "frame", about)
         except mns_reader.MnsError:
-            return  # it will be read when it is needed
+            return  # the frame is read when it is needed
         while len(self.waiting) > self.MOST:
             self.process.drop(self.waiting.pop(next(iter(self.waiting))).owner)
 
@@ -96,15 +110,15 @@ _ahead = Ahead()
 
 
 def set_up_scene(scene, sequence, timing):
-    """The range of frames, and the rate that velocities are for."""
+    """Sets the range of frames of a scene, and the frame rate that velocities assume."""
     scene.frame_start = math.floor(timing.start)
     scene.frame_end = max(scene.frame_start, math.ceil(timing.scene_time(len(sequence.frames)) - 1e-6))
     scene.render.fps, scene.render.fps_base = compat.frame_rate(sequence.fps)
 
 
 def add_camera(collection, placement):
-    """The camera of the run, with key frames if it moves; None when the manifest has none. It shows only what is near
-    until build.reach_all is called for frames."""
+    """Adds the camera of the run, with key frames if it moves, and returns its object, or None if the manifest has
+    none. Its clipping must be set by build.reach_all() for the frames."""
     sequence = placement.sequence
     if sequence.frames[0].camera is None:
         return None
@@ -129,7 +143,7 @@ def set_key_frames(item, placement):
         build.place_camera(item, frame.camera, placement.scale, placement.origin)
         location, turn, _ = item.matrix_world.decompose()
         if before is not None:
-            turn.make_compatible(before)  # the short way round
+            turn.make_compatible(before)  # takes the shorter of both rotations
         item.location, item.rotation_quaternion, before = location, turn, turn
         time = placement.timing.scene_time(scene_frame)
         for path in ("location", "rotation_quaternion"):
@@ -139,12 +153,13 @@ def set_key_frames(item, placement):
 
 
 def remember(item, placement):
-    """Plain custom properties: they survive saving and need no registration."""
+    """Stores a placement in plain custom properties of an object, which survive saving and need no registration."""
     sequence = placement.sequence
     item["meniscus_sequence"] = build.remembered_path(sequence.path)
     libraries.note(item)
     item["meniscus_run"] = sequence.run
-    item["meniscus_source"], item["meniscus_atoms"] = build.source_of(sequence.header), int(sequence.header.get("atoms", 0))
+    item["meniscus_source"], item["meniscus_atoms"] = (build.source_of(sequence.header),
+                                                       int(sequence.header.get("atoms", 0)))
     item["meniscus_scale"] = placement.scale
     item["meniscus_origin"] = [float(value) for value in placement.origin]
     item["meniscus_crisp"] = int(placement.crisp_colors)
@@ -153,20 +168,23 @@ def remember(item, placement):
 
 
 class Run:
-    """What is asked of a sequence that comes into a scene. import_camera: that of the run; use_camera: as the scene's, with
-    its picture size; camera: a dict, instead of the run's. set_time: the scene gets the run's range of frames and frame
-    rate. Others: as of Placement."""
+    """The import of a sequence into a scene.
+
+    import_camera: True to import the camera of the run. use_camera: True to make it the camera of the scene, with its
+    picture size. camera: a dict that replaces the camera of the run, or None. set_time: True if the scene gets the
+    range of frames and the frame rate of the run. options: arguments of Placement."""
 
     def __init__(self, path, context, center=True, import_camera=True, use_camera=True, set_time=True, camera=None,
                  **options):
         self.sequence = sequence_reader.read(path)
         if camera:
-            self.sequence.look_from(camera)
+            self.sequence.set_camera(camera)
         scene = context.scene
         header = self.sequence.header
         origin = self.sequence.origin * 0.0
         if center:
-            origin = build.scene_origin(scene, lambda: self.sequence.origin, build.source_of(header), header.get("atoms", 0))
+            origin = build.scene_origin(scene, lambda: self.sequence.origin, build.source_of(header),
+                                        header.get("atoms", 0))
         self.placement = Placement(self.sequence, origin=origin, scene=None if set_time else scene, **options)
         self.import_camera, self.use_camera, self.set_time = import_camera, use_camera, set_time
 
@@ -180,8 +198,8 @@ class Run:
 
 
 def bake(path, context=None, progress=None, **options):
-    """Reads all frames into the file: an object whose Geometry Nodes pick that of the scene's time. Renders anywhere,
-    without this add-on; options: of Run. After MnsError or OSError it leaves nothing."""
+    """Reads all frames into the file, and returns an object whose Geometry Nodes show the frame of the scene's time. It
+    renders anywhere without this add-on. options: arguments of Run. After MnsError or OSError nothing is left."""
     context = context or bpy.context
     run = Run(path, context, **options)
     sequence, placement = run.sequence, run.placement
@@ -214,8 +232,8 @@ def bake(path, context=None, progress=None, **options):
 
 
 def stream(path, context=None, **options):
-    """An object that a handler fills with the frame of the scene's time: one frame in memory. Needs this add-on. options: of
-    Run."""
+    """Returns an object that a handler of this add-on fills with the frame of the scene's time, so that only one frame
+    is in memory. options: arguments of Run."""
     context = context or bpy.context
     run = Run(path, context, **options)
     sequence, placement = run.sequence, run.placement
@@ -238,7 +256,7 @@ def stream(path, context=None, **options):
         item["meniscus_outside"] = placement.timing.outside
         item["meniscus_by_hand"], item["meniscus_frame"] = False, 1.0
     context.scene.collection.children.link(collection)
-    context.scene.render.use_lock_interface = True  # the window must not read a mesh that a render refills
+    context.scene.render.use_lock_interface = True  # the window must not read a mesh while a render refills it
     run.finish(context, item, camera, [mesh])
     show_frame(context.scene)
     return item
@@ -251,14 +269,15 @@ def placement_of(item, scene):
     sequence = _manifests.get(libraries.path_of(item, "meniscus_sequence"))
     timing = sequence_reader.Timing(item.get("meniscus_start", 1.0), item.get("meniscus_speed", 1.0),
                                     item.get("meniscus_outside", "EMPTY"))
-    return Placement(sequence, item["meniscus_scale"], True, bool(item["meniscus_crisp"]), timing,
-                     None if item.get("meniscus_own_rate", 1) else scene,
-                     sequence.origin * 0.0 + list(item["meniscus_origin"]),
-                     names={attribute: list(item[key]) for attribute, (_, key) in mesh_arrays.NAMES.items() if item.get(key)})
+    return Placement(
+        sequence, item["meniscus_scale"], True, bool(item["meniscus_crisp"]), timing,
+        None if item.get("meniscus_own_rate", 1) else scene, sequence.origin * 0.0 + list(item["meniscus_origin"]),
+        names={attribute: list(item[key]) for attribute, (_, key) in mesh_arrays.NAMES.items() if item.get(key)})
 
 
 def place_at(item, placement, time):
-    """Which frame of the run an object shows at a moment of the scene; None: nothing."""
+    """Returns the place of the frame that an object shows at a time of the scene, from 1, or None if it shows
+    nothing."""
     count = len(placement.sequence.frames)
     if item.get("meniscus_by_hand") and "meniscus_frame" in item:
         return placement.timing.within(compat.value_at(item, '["meniscus_frame"]', time), count)
@@ -270,22 +289,26 @@ def shown_key(sequence, scene_frame):
 
 
 def show_frame(scene):
-    """Fills every streamed object of the scene with its frame, unless it holds it already: with motion blur Blender
-    asks for moments between frames, whose nearest frame is the same. While a mesh is edited it stays as it is."""
+    """Fills every streamed object of the scene with its frame, unless it has the frame already: for motion blur Blender
+    visits times between frames, whose nearest frame is the same. Meshes in edit mode do not change."""
     for item in list(scene.objects):
-        if item.type == "MESH" and item.get("meniscus_stream") and not item.data.is_editmode and not libraries.is_fixed(item):
+        if (item.type == "MESH" and item.get("meniscus_stream") and not item.data.is_editmode and
+                not libraries.is_fixed(item)):
             refresh(item, scene)
 
 
 def shows(item, scene):
-    """What a stream must show now: its placement, the place in its run or None, and a key that two share if their meshes are the same."""
+    """Returns the placement that a stream must show now, its place in the run or None, and a key that is equal for
+    streams with equal meshes."""
     placement = placement_of(item, scene)
     scene_frame = place_at(item, placement, scene.frame_current_final)
-    return placement, scene_frame, (shown_key(placement.sequence, scene_frame), placement.scale, *placement.origin, placement.crisp_colors)
+    return placement, scene_frame, (shown_key(placement.sequence,
+                                              scene_frame), placement.scale, *placement.origin, placement.crisp_colors)
 
 
 def show_place(item, placement, scene_frame):
-    """Fills the mesh of an object with a frame of its run, None for nothing; attributes of the user go with their atoms."""
+    """Fills the mesh of an object with a frame of its run. The user's attributes follow their atoms. scene_frame: None
+    for an empty mesh."""
     kept = attributes.keep_through(item.data, build.OURS, placement.sequence.run)
     if scene_frame is None:
         build.clear_geometry(item.data)
@@ -295,9 +318,9 @@ def show_place(item, placement, scene_frame):
 
 
 def read_ahead(placement, scene_frame):
-    """Has a frame of a run read by the other process, if there is such a frame."""
+    """Requests a frame of a run from the other process, if the frame exists."""
     if scene_frame is not None and scene_frame <= len(placement.sequence.frames):
-        _ahead.ask(placement, scene_frame)
+        _ahead.request(placement, scene_frame)
 
 
 def refresh(item, scene):
@@ -319,7 +342,7 @@ def refresh(item, scene):
             read_ahead(placement, after)
         mesh["meniscus_shown"] = key[0]
         libraries.succeed(item)
-    except Exception as error:  # a handler that raises changes nothing: Blender goes on and renders
+    except Exception as error:  # Blender ignores exceptions of handlers, and would render a wrong picture
         mesh = libraries.own_mesh(item, lambda _other: True)
         build.clear_geometry(mesh)
         mesh["meniscus_shown"] = ""

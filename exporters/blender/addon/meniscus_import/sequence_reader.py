@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads and checks the manifest of a sequence of .mns files with numpy alone; knows nothing of Blender (FORMAT.md)."""
+"""Reads and checks the manifest of a sequence of .mns files (FORMAT.md), and cameras that --save-camera writes. Uses
+numpy only, not Blender."""
 
 import math
 import os
@@ -9,23 +10,25 @@ import numpy as np
 
 try:
     from . import header_values, mns_reader
-except ImportError:  # outside of the add-on
+except ImportError:  # imported outside of the add-on
     import header_values
     import mns_reader
 
 VERSION = 1
-#: Longer than any film.
+#: The greatest number of frames, which is longer than any film.
 MOST_FRAMES = 10_000_000
-#: Values of a manifest; the first four are needed.
-VALUES = {"run": header_values.TEXT, "origin": header_values.VECTOR, "scale": header_values.POSITIVE, "fps": header_values.POSITIVE,
-          "atoms": header_values.NUMBER, **header_values.SOURCE}
-#: What shows before and behind a run.
+#: Tests of the values of a manifest. The first four are needed.
+VALUES = {
+    "run": header_values.TEXT, "origin": header_values.VECTOR, "scale": header_values.POSITIVE,
+    "fps": header_values.POSITIVE, "atoms": header_values.NUMBER, **header_values.SOURCE
+}
+#: The choices for times before and after a run.
 OUTSIDE = ("EMPTY", "HOLD", "LOOP", "PINGPONG")
 
 
 class Timing:
-    """When a run shows. start: the scene frame of its first frame. speed: frames of the run a scene frame, above 0.
-    outside: one of OUTSIDE."""
+    """The times of a run in a scene. start: the scene frame that shows its first frame. speed: frames of the run per
+    scene frame, above 0. outside: one of OUTSIDE. Raises MnsError for invalid values."""
 
     def __init__(self, start=1.0, speed=1.0, outside="EMPTY"):
         if not (math.isfinite(start) and math.isfinite(speed) and speed > 0.0 and outside in OUTSIDE):
@@ -33,15 +36,17 @@ class Timing:
         self.start, self.speed, self.outside = start, speed, outside
 
     def scene_time(self, place):
-        """When the frame in this place of the run, from 1, shows."""
+        """Returns the time of the scene at which the frame at a place of the run, from 1, is shown."""
         return self.start + (place - 1) / self.speed
 
     def place(self, time, count):
-        """The place in a run of `count` frames that stands for a moment of the scene: the nearest; None: nothing shows."""
+        """Returns the place in a run of `count` frames that is nearest to a time of the scene, or None if nothing is
+        shown."""
         return self.within((time - self.start) * self.speed + 1.0, count)
 
     def within(self, place, count):
-        """The same for a place that may lie between two or outside of the run."""
+        """Returns the place in a run of `count` frames for a place that may be fractional or outside of the run, or
+        None if nothing is shown."""
         index = math.floor(place + 0.5) - 1
         if self.outside == "LOOP":
             index %= count
@@ -54,7 +59,8 @@ class Timing:
 
 
 class Frame:
-    """number: of the trajectory. path: its .mns file. camera: dict as in a .mns header, or None."""
+    """A frame of a sequence. number: its frame number in the trajectory. path: its .mns file. camera: a dict with the
+    keys of a .mns header, or None."""
 
     def __init__(self, number, path, camera):
         self.number = number
@@ -63,7 +69,8 @@ class Frame:
 
 
 class Sequence:
-    """frames: list of Frame; scene frame n, from 1, is frames[n - 1]. origin: Å. scale: Blender units per Å."""
+    """A sequence of surfaces. frames: list of Frame; scene frame n, from 1, is frames[n - 1]. origin: Å. scale: Blender
+    units per Å. fps: frames per second. run: the name of the run."""
 
     def __init__(self, path, header, frames):
         self.path = path
@@ -83,18 +90,19 @@ class Sequence:
     def camera_moves(self):
         return any(frame.camera != self.frames[0].camera for frame in self.frames)
 
-    def look_from(self, camera):
-        """All frames are seen by this camera, a dict; pictures keep their size."""
+    def set_camera(self, camera):
+        """Sets the camera of all frames to a dict. Pictures keep their size."""
         for frame in self.frames:
             size = {key: value for key, value in (frame.camera or {}).items() if key == "size"}
             frame.camera = {**camera, **size}
 
     def scene_frame(self, number):
-        """Of a frame of the trajectory; None if it is not in the run."""
+        """Returns the scene frame of a frame number of the trajectory, or None if it is not in the run."""
         return self._scene_frame.get(number)
 
     def read(self, scene_frame):
-        """The .mns file of one scene frame. Raises MnsError or OSError: missing, damaged, of another run."""
+        """Reads the .mns file of a scene frame. Raises MnsError or OSError if it is missing, damaged, or of another
+        run."""
         frame = self.frames[scene_frame - 1]
         if not os.path.exists(frame.path):
             raise mns_reader.MnsError(f"{frame.path}: missing; it is frame {frame.number} (scene frame {scene_frame})")
@@ -107,9 +115,9 @@ class Sequence:
 
 
 def read(path):
-    """The sequence a manifest describes. Its .mns files may not be there yet. Raises MnsError or OSError."""
-    header = mns_reader.read_manifest(path, "meniscus surface sequence", "the manifest of a sequence of surfaces", VERSION, VALUES,
-                                      ("run", "origin", "scale", "fps"))
+    """Returns the sequence that a manifest describes. Its .mns files need not exist yet. Raises MnsError or OSError."""
+    header = mns_reader.read_manifest(path, "meniscus surface sequence", "the manifest of a sequence of surfaces",
+                                      VERSION, VALUES, ("run", "origin", "scale", "fps"))
     entries = header.get("frames")
     if not isinstance(entries, list) or not entries:
         raise mns_reader.MnsError(f"{path}: it lists no frames")
@@ -122,9 +130,10 @@ def read(path):
 def _frame(path, header, entry):
     try:
         number, name = entry["frame"], entry["file"]
-        plain = isinstance(name, str) and name == os.path.basename(name) and "\\" not in name and name not in ("", ".", "..")
+        plain = isinstance(name,
+                           str) and name == os.path.basename(name) and "\\" not in name and name not in ("", ".", "..")
         if not plain or isinstance(number, bool) or not isinstance(number, int) or number < 0:
-            raise ValueError(f"no frame is {header_values.told(number)} in a file {header_values.told(name)}")
+            raise ValueError(f"no frame is {header_values.shortened(number)} in a file {header_values.shortened(name)}")
         camera = entry.get("camera", header.get("camera"))
         if camera is not None:
             header_values.check_camera(camera)
@@ -134,8 +143,9 @@ def _frame(path, header, entry):
 
 
 def parse_frames(text, known):
-    """Frame numbers of a list such as "0-99:10,250,300-" (first-last:step; to the last of `known`), each once, in its order.
-    "all": those of `known`. Raises ValueError with one sentence."""
+    """Returns the frame numbers of a text such as "0-99:10,250,300-", each once and in order. Its parts are frames,
+    first-last:step, or first- up to the last of `known`. "all" means all of `known`. Raises ValueError with one
+    sentence."""
     known = list(known)
     if text == "all":
         return known
@@ -151,3 +161,18 @@ def parse_frames(text, known):
             raise ValueError(f"'{part}' names no frames, or too many")
         numbers.extend(range(begin, end + 1, stride))
     return list(dict.fromkeys(numbers))
+
+
+def read_camera(path):
+    """Returns the camera of a file as a dict with the keys of a .mns header. Raises MnsError or OSError."""
+    camera = mns_reader.read_json(path, ", such as --save-camera writes")
+    if not isinstance(camera, dict) or str(camera.get("projection")) not in header_values.SIZES:
+        raise mns_reader.MnsError(f"{path}: no camera: its projection is neither perspective nor orthographic")
+    unknown = set(camera) - {*header_values.VECTORS, "projection", header_values.SIZES[camera["projection"]]}
+    if unknown:
+        raise mns_reader.MnsError(f"{path}: camera: '{min(unknown)}' is not a key of a camera of this projection")
+    try:
+        header_values.check_camera(camera)
+    except ValueError as error:
+        raise mns_reader.MnsError(f"{path}: camera: {error}") from None
+    return camera

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Puts computed surfaces into the meshes of objects, and keeps some for when they show again. Each object shows its own request."""
+"""Puts computed surfaces into the meshes of objects, and keeps the last ones, which may be shown again. Each object
+shows the surface of its own request."""
 
 import dataclasses
 
@@ -9,18 +10,18 @@ import numpy as np
 
 from . import attributes, build, compat, libraries, mesh_arrays, mns_reader, molecular_nodes
 
-#: Of a mesh: the key of the request that it shows.
+#: The custom property of a mesh with the key of the request that it shows.
 SHOWN = "meniscus_shown"
-#: Surfaces that are kept, for undo and for frames that come again; bytes.
+#: The memory for kept surfaces in bytes. They serve undo and repeated frames.
 KEPT_BYTES = 1 << 28
 
 _kept = {}  # key -> Shown or None, the oldest first
-_vertices = {}  # identity of a mesh -> how many it had when it was last watched
+_vertices = {}  # identity of a mesh -> number of vertices when it was last watched
 
 
 class Shown:
-    """What a mesh shows: header of the surface, middle of its atoms in Å, how many they are, and the arrays that fill the mesh,
-    whose positions lie about `base`, Å."""
+    """A surface that a mesh can show: its header, the middle of its atoms (Å), their number, and the arrays of the
+    mesh, whose positions are relative to `base` (Å)."""
 
     def __init__(self, result, wanted):
         self.surface = mns_reader.Surface("a computed surface", result["header"], {})
@@ -32,18 +33,20 @@ class Shown:
 
 
 def is_computed(item):
-    """True of an object of this file that shows a computed surface."""
+    """True if an object of this file shows a computed surface."""
     return item is not None and item.type == "MESH" and item.meniscus.source != "NONE" and item.library is None
 
 
-def asks_alike(item, other):
-    """Whether two objects ask for the same surface now."""
+def requests_same_surface(item, other):
+    """True if two objects request the same surface at the current time."""
     time = bpy.context.scene.frame_current_final
-    return is_computed(other) and item.meniscus.asked() == other.meniscus.asked() and place_at(item, time) == place_at(other, time)
+    return (is_computed(other) and item.meniscus.surface_values() == other.meniscus.surface_values() and
+            place_at(item, time) == place_at(other, time))
 
 
 def place_at(item, time):
-    """Which frame of its run an object shows at a moment of the scene; 0: it has no run. None: nothing shows."""
+    """Returns the place of the frame that an object shows at a time of the scene, from 1. Returns 0 if it has no run,
+    and None if nothing is shown."""
     settings = item.meniscus
     count = frame_count(item)
     if count == 0:
@@ -54,7 +57,7 @@ def place_at(item, time):
 
 
 def frame_count(item):
-    """Of its run; 0: it has none, or has not been read."""
+    """Returns the number of frames of an object's run, or 0 if it has none or if the run was not read yet."""
     settings = item.meniscus
     if settings.source == "OBJECT":
         return len(molecular_nodes.frames_of(settings.atoms)) if settings.atoms is not None else 0
@@ -62,17 +65,17 @@ def frame_count(item):
 
 
 def watch(item):
-    """Remembers what its mesh is like, for was_changed."""
+    """Stores the number of vertices of an object's mesh for was_changed()."""
     _vertices[compat.identity(item.data)] = len(item.data.vertices)
 
 
 def was_changed(item):
-    """Whether a user has joined or edited its mesh since a surface for it was asked for or shown."""
+    """True if the user has joined or edited an object's mesh since a surface was last requested or shown."""
     return _vertices.get(compat.identity(item.data), len(item.data.vertices)) != len(item.data.vertices)
 
 
 def _own_mesh(item):
-    return libraries.own_mesh(item, lambda other: not is_computed(other) or asks_alike(item, other))
+    return libraries.own_mesh(item, lambda other: not is_computed(other) or requests_same_surface(item, other))
 
 
 def empty(item):
@@ -86,8 +89,8 @@ def empty(item):
 
 
 def show(item, key, shown):
-    """Puts what was computed into the mesh of an object; materials, modifiers and attributes of the user remain. While the mesh
-    is edited it stays as it is."""
+    """Puts a computed surface into the mesh of an object. Materials, modifiers and the user's attributes remain. A mesh
+    in edit mode does not change. shown: a Shown, or None for an empty mesh."""
     if item.data.is_editmode:
         return
     mesh = _own_mesh(item)
@@ -95,7 +98,8 @@ def show(item, key, shown):
         empty(item)
         mesh[SHOWN] = key
         return
-    users = [other for other in bpy.data.objects if other.data == mesh and is_computed(other)] if mesh.users > 1 else [item]
+    users = [other for other in bpy.data.objects
+             if other.data == mesh and is_computed(other)] if mesh.users > 1 else [item]
     for user in users:
         place(user, shown)
     if mesh.get(SHOWN) != key:
@@ -112,7 +116,7 @@ def _fill(item, key, shown):
     if not mesh.materials:
         build.add_materials(mesh, shown.surface, [])
     build.fill_mesh(mesh, arrays_about(item, shown), build.fps_of(bpy.context.scene), trusted=True)
-    attributes.give_back(mesh, kept, shown.arrays)
+    attributes.restore(mesh, kept, shown.arrays)
     mesh[SHOWN] = key
     if frame_count(item) or item.meniscus.source == "OBJECT":
         build.let_exporters_follow(mesh)
@@ -121,15 +125,16 @@ def _fill(item, key, shown):
 
 
 def _keep_of_user(item, shown):
-    """Attributes that the user gave to the mesh."""
+    """Returns the attributes that the user added to the mesh of an object."""
     settings = item.meniscus
     source = settings.file if settings.source == "FILE" else settings.atoms and settings.atoms.name
     return attributes.keep_through(item.data, build.OURS | shown.others, source)
 
 
 def place(item, shown):
-    """The place of the object when it first shows something of a file: its origin in the middle of the molecule, about which it
-    turns. If its scale changes the middle stays where it is, or where the file has it. Objects of 0.1.0 have the file's origin."""
+    """Sets the place of an object when it first shows a surface of a file: its origin, about which it rotates, is in
+    the middle of the molecule. If the scale changes later, the middle stays in place, or in the place that the file
+    gives. Objects of 0.1.0 have the origin of the file."""
     before = item.get("meniscus_scale", shown.scale)
     if item.meniscus.source == "FILE" and "meniscus_generator" not in item:
         origin = np.zeros(3)
@@ -146,15 +151,16 @@ def place(item, shown):
 
 
 def arrays_about(item, shown):
-    """The arrays of what is shown, with positions about the object's origin."""
+    """Returns the arrays of a Shown with positions relative to the object's origin."""
     shift = shown.base - np.array(item.get("meniscus_middle", (0.0, 0.0, 0.0))[:])
     if item.meniscus.source != "FILE" or not shift.any():
         return shown.arrays
-    return dataclasses.replace(shown.arrays, positions=(shown.arrays.positions + shift * shown.scale).astype(np.float32))
+    return dataclasses.replace(shown.arrays,
+                               positions=(shown.arrays.positions + shift * shown.scale).astype(np.float32))
 
 
 def keep(key, shown):
-    """For as long as there is room; the oldest go."""
+    """Keeps a surface under a key. The oldest ones are dropped if they exceed KEPT_BYTES."""
     _kept.pop(key, None)
     _kept[key] = shown
     sizes = {each: 0 if kept is None else kept.arrays.nbytes for each, kept in _kept.items()}

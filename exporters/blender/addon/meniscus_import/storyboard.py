@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A storyboard in a scene: a collection for each of its scenes, one camera that goes from one to the next, all by key frames."""
+"""Imports storyboards: a collection for each of its scenes, and one camera that moves between them, all by key
+frames."""
 
 import hashlib
 import json
@@ -8,27 +9,28 @@ import os
 import bpy
 import numpy as np
 
-from . import build, camera_rig, compat, curves, frames, keys, mesh_arrays, mns_reader, storyboard_reader
+from . import build, camera_rig, compat, frames, keys, mesh_arrays, mns_reader, storyboard_reader
 from .mesh_arrays import names_of
 
-#: What of the header of a surface changes how it looks.
+#: The keys of a surface's header that affect its look.
 LOOKS = ("copies", "mesh", "kind_colors", "film_opacity", "caps", "material")
-#: Å by which each mesh is larger than the one before: what they have in common would lie in the same place.
+#: Each mesh is larger than the one before by this distance (Å), because parts that they share would coincide.
 NUDGE = 0.002
 
 
 class Imported:
-    """What came into the scene. items: for each scene of the storyboard the objects that it shows, which scenes may share."""
+    """The result of an import. items: the objects of each scene of the storyboard; scenes may share objects."""
 
     def __init__(self):
         self.collection = self.camera = None
         self.items = []
 
 
-def import_file(path, context=None, scale=None, center=False, import_camera=True, use_camera=True, set_time=True, set_background=True,
-                **options):
-    """Reads a story.json and its surfaces into a new collection. scale: Blender units per Å, None: as the file says. Others: as of
-    build.Options and sequence.Run. After MnsError or OSError it leaves nothing in the scene."""
+def import_file(path, context=None, scale=None, center=False, import_camera=True, use_camera=True, set_time=True,
+                set_background=True, **options):
+    """Reads a story.json and its surfaces into a new collection, and returns an Imported. scale: Blender units per Å;
+    None for that of the file. set_background: True for key frames of the background. Other arguments are those of
+    build.Options and sequence.Run. After MnsError or OSError nothing is left in the scene."""
     context = context or bpy.context
     board = storyboard_reader.read(path)
     options = build.Options(scale=board.scale if scale is None else scale, **options)
@@ -40,7 +42,8 @@ def import_file(path, context=None, scale=None, center=False, import_camera=True
         made.items = story.add_scenes(made.collection)
         if import_camera:
             made.camera = camera_rig.add(made.collection, board, story.name, options.scale, story.origin)
-            camera_rig.reach_all(made.camera, board, [frames.points_of(files[scene.path]) for scene in board.scenes], options.scale)
+            camera_rig.reach_all(made.camera, board, [frames.points_of(files[scene.path]) for scene in board.scenes],
+                                 options.scale)
         context.scene.collection.children.link(made.collection)
     if set_time:
         set_up_time(context.scene, board)
@@ -57,7 +60,7 @@ def import_file(path, context=None, scale=None, center=False, import_camera=True
 
 
 def set_up_time(scene, board):
-    """Range and rate of frames, and a marker where each scene is there."""
+    """Sets the range of frames and the frame rate, and adds a marker at the first frame of each scene."""
     scene.frame_start, scene.frame_end = board.scenes[0].first, board.scenes[-1].last
     scene.render.fps, scene.render.fps_base = compat.frame_rate(board.fps)
     for each in board.scenes:
@@ -65,8 +68,8 @@ def set_up_time(scene, board):
 
 
 def set_up_background(scene, board, name):
-    """Keys of the colour that the camera sees where there is no object, if a scene of the storyboard has one: where others have none it is
-    white. What lights the objects stays as it was."""
+    """Adds key frames of the background colour that the camera sees, if a scene of the storyboard has one. Scenes
+    without one then have white. The lighting of objects does not change."""
     colors = [each.background for each in board.scenes]
     scene.render.film_transparent = not any(colors)
     if not any(colors):
@@ -102,12 +105,13 @@ def _origin(scene, board, files, center):
 
 
 def digest_of(surface):
-    """The same of two surfaces that look the same."""
-    told = hashlib.sha256(json.dumps({key: surface.header[key] for key in LOOKS if key in surface.header}, sort_keys=True).encode())
+    """Returns a digest that is equal for surfaces with the same look."""
+    digest = hashlib.sha256(
+        json.dumps({key: surface.header[key] for key in LOOKS if key in surface.header}, sort_keys=True).encode())
     for name in sorted(surface.arrays):
-        told.update(name.encode())
-        told.update(np.ascontiguousarray(surface.arrays[name]))
-    return told.digest()
+        digest.update(name.encode())
+        digest.update(np.ascontiguousarray(surface.arrays[name]))
+    return digest.digest()
 
 
 class _Story:
@@ -118,12 +122,16 @@ class _Story:
         self.new_materials = []
 
     def add_scenes(self, parent):
-        """A collection in `parent` for each; objects that several show are in each of theirs. The objects, scene by scene."""
+        """Adds a collection to `parent` for each scene, and returns lists of the objects of each scene. An object that
+        several scenes show is in the collection of each."""
         shown = []
         for number, scene in enumerate(self.board.scenes, 1):
             collection = bpy.data.collections.new(f"{number} {scene.name}")
             parent.children.link(collection)
-            items = [item for surface in self.files[scene.path].objects for item in self.objects_of(surface, f"{self.name}.{number}", scene)]
+            items = [
+                item for surface in self.files[scene.path].objects
+                for item in self.objects_of(surface, f"{self.name}.{number}", scene)
+            ]
             for item in items:
                 collection.objects.link(item)
             shown.append(items)
@@ -139,13 +147,17 @@ class _Story:
             return self.made[key]
         file = self.files[scene.path]
         name = f"{stem}.{surface.name if len(file.objects) > 1 else 'surface'}"
-        mesh = build.build_mesh(surface, name, self.options, self.new_materials, self.board.fps, names_of(*file.objects), fades=True)
+        mesh = build.build_mesh(surface, name, self.options, self.new_materials, self.board.fps,
+                                names_of(*file.objects), fades=True)
         nudge(mesh, surface["mesh.normal"], NUDGE * len(self.made) * self.options.scale)
-        self.made[key] = [build.add_copy(mesh, copy, surface, scene.path, file, self.options, self.origin) for copy in surface.copies]
+        self.made[key] = [
+            build.add_copy(mesh, copy, surface, scene.path, file, self.options, self.origin) for copy in surface.copies
+        ]
         return self.made[key]
 
 def nudge(mesh, normals, distance):
-    """Moves vertices outwards. Behind a surface that a ray passes Cycles does not see another that lies where it does."""
+    """Moves vertices outwards along their normals. After a transparent surface, Cycles misses a surface in the same
+    place."""
     co = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("co", co)
     mesh.vertices.foreach_set("co", co + (normals * np.float32(distance)).ravel())
@@ -153,29 +165,30 @@ def nudge(mesh, normals, distance):
 
 
 def fade(item, board, shows):
-    """Keys of the alpha of its colour, from 0 to 1 where a transition brings it, from there to 2 where one takes it away."""
-    easing = curves.SMOOTH if board.is_smooth else curves.EVEN
+    """Adds key frames to the alpha of an object's colour: from 0 to 1 in a transition to a scene that shows it, and to
+    2 in a transition to one that does not. shows: True for each scene that shows the object."""
+    easing = keys.SMOOTH if board.is_smooth else keys.EVEN
     way = keys.Way(board.scenes[0].first, float(shows[0]))
     for number, (before, after, dissolves) in enumerate(camera_rig.transitions(board), 1):
         if shows[number] != shows[number - 1]:
             start = float(shows[number - 1])
-            way.go_on(before.last, start, keys.LINEAR if way.points[-1][1] == start else keys.CONSTANT)
-            way.go_on(after.first, 1.0 if shows[number] else 2.0, easing if dissolves else keys.CONSTANT)
+            way.append(before.last, start, keys.LINEAR if way.points[-1][1] == start else keys.CONSTANT)
+            way.append(after.first, 1.0 if shows[number] else 2.0, easing if dissolves else keys.CONSTANT)
     item.color[3] = way.points[0][1]
     if len(way.points) > 1:
         way.insert(item, "color", 3)
 
 
 def hide(item, board, shows):
-    """Keys that show an object from where the transition to a scene begins that has it to where that from it ends; shows: whether
-    each scene has it."""
+    """Adds key frames that show an object from the start of the transition to a scene with it until the end of the
+    transition from it. shows: True for each scene that shows the object."""
     if all(shows):
         return
     way = keys.Way(board.scenes[0].first, float(not shows[0]))
     for number, (before, after, _) in enumerate(camera_rig.transitions(board), 1):
         if shows[number] and not shows[number - 1]:
-            way.go_on(before.last + 1, 0.0, keys.CONSTANT)
+            way.append(before.last + 1, 0.0, keys.CONSTANT)
         elif shows[number - 1] and not shows[number]:
-            way.go_on(after.first, 1.0, keys.CONSTANT)
+            way.append(after.first, 1.0, keys.CONSTANT)
     for path in ("hide_render", "hide_viewport"):
         way.insert(item, path)

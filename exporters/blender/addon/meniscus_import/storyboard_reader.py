@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads and checks a storyboard, and computes its cameras between scenes, with numpy alone; knows nothing of Blender (FORMAT.md)."""
+"""Reads and checks a storyboard (FORMAT.md), and computes the progress of its transitions. Uses numpy only, not
+Blender."""
 
 import os
 
@@ -7,23 +8,26 @@ import numpy as np
 
 try:
     from . import header_values, mns_reader
-except ImportError:  # outside of the add-on
+except ImportError:  # imported outside of the add-on
     import header_values
     import mns_reader
 
 VERSION = 1
-#: Longer than any film.
+#: The greatest number of frames, which is longer than any film.
 MOST_FRAMES = 10_000_000
-#: Values of a storyboard, which are needed, and of one of its scenes, which are but for title and background.
+#: Tests of the values of a storyboard, all of which are needed, and of a scene, of which title and background are
+#: optional.
 VALUES = {"origin": header_values.VECTOR, "scale": header_values.POSITIVE, "fps": header_values.POSITIVE,
           "ease": (lambda value: value in ("smooth", "even"), "smooth or even")}
-OF_SCENE = {"name": header_values.TEXT, "title": header_values.TEXT, "file": header_values.TEXT, "camera": header_values.DICT,
-            "background": (lambda value: value is None or header_values.COLOR[0](value), header_values.COLOR[1])}
+OF_SCENE = {
+    "name": header_values.TEXT, "title": header_values.TEXT, "file": header_values.TEXT, "camera": header_values.DICT,
+    "background": (lambda value: value is None or header_values.COLOR[0](value), header_values.COLOR[1])
+}
 
 
 class Scene:
-    """name, title: texts. path: of its .mns file. first, last: the frames that show it. camera: a dict as in a .mns header.
-    background: sRGB, or None."""
+    """A scene of a storyboard. name, title: texts. path: its .mns file. first, last: the range of frames that show it.
+    camera: a dict with the keys of a .mns header. background: sRGB, or None."""
 
     def __init__(self, name, title, path, first, last, camera, background):
         self.name, self.title, self.path = name, title, path
@@ -32,7 +36,8 @@ class Scene:
 
 
 class Storyboard:
-    """scenes: list of Scene, two or more. origin: Å. scale: Blender units per Å. is_smooth: transitions start and end slowly."""
+    """A storyboard. scenes: list of two or more Scene. origin: Å. scale: Blender units per Å. fps: frames per second.
+    is_smooth: True if transitions start and end slowly."""
 
     def __init__(self, path, header, scenes):
         self.path, self.scenes = path, scenes
@@ -45,12 +50,12 @@ class Storyboard:
         return os.path.splitext(os.path.basename(self.path))[0]
 
     def share(self, time):
-        """How much of the way of a transition is done after a share of its time."""
+        """Returns the progress of a transition, from 0 to 1, after a share of its time."""
         return time * time * (3.0 - 2.0 * time) if self.is_smooth else time
 
 
 def read(path):
-    """The storyboard that a file describes. Its .mns files may not be there yet. Raises MnsError or OSError."""
+    """Returns the storyboard that a file describes. Its .mns files need not exist yet. Raises MnsError or OSError."""
     header = mns_reader.read_manifest(path, "meniscus storyboard", "a storyboard of Meniscus", VERSION, VALUES, VALUES,
                                       ", such as meniscus film --to blender writes")
     entries = header.get("scenes")
@@ -59,7 +64,8 @@ def read(path):
     scenes = [_scene(path, entry, number) for number, entry in enumerate(entries, 1)]
     for number, (before, after) in enumerate(zip(scenes, scenes[1:]), 2):
         if after.first <= before.last:
-            raise mns_reader.MnsError(f"{path}: scene {number} begins at frame {after.first}, before the one before it has ended")
+            raise mns_reader.MnsError(
+                f"{path}: scene {number} begins at frame {after.first}, before the one before it has ended")
     return Storyboard(path, header, scenes)
 
 
@@ -69,9 +75,10 @@ def _scene(path, entry, number):
         name, file, first, last = (entry[key] for key in ("name", "file", "first", "last"))
         title, background = entry.get("title", ""), entry.get("background")
         if file != os.path.basename(file) or "\\" in file or file in ("", ".", ".."):
-            raise ValueError(f"file is {header_values.told(file)}, not a name in the storyboard's folder")
+            raise ValueError(f"file is {header_values.shortened(file)}, not a name in the storyboard's folder")
         if type(first) is not int or type(last) is not int or not 1 <= first <= last <= MOST_FRAMES:
-            raise ValueError(f"it cannot last from frame {header_values.told(first)} to {header_values.told(last)}")
+            raise ValueError(f"it cannot last from frame {header_values.shortened(first)} to "
+                             f"{header_values.shortened(last)}")
         header_values.check_camera(entry["camera"])
     except KeyError as error:
         raise mns_reader.MnsError(f"{path}: scene {number}: {error} is missing or unknown") from None

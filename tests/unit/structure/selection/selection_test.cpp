@@ -220,8 +220,8 @@ TEST(Selection, CopiesOfAChainAreNamedTogetherOrByTheirNumber) {
     for (std::size_t n = 0; n < set.size(); ++n) text += set[n] ? std::to_string(n) : "";
     return text;
   };
-  EXPECT_EQ(places(within.settled(atoms, within.evaluate(atoms))), "2");
-  EXPECT_EQ(places(within.settled(of_file, {true, false})), "024");
+  EXPECT_EQ(places(within.fixed(atoms, within.evaluate(atoms))), "2");
+  EXPECT_EQ(places(within.fixed(of_file, {true, false})), "024");
 }
 
 TEST(Selection, KnowsGlycansAndLipids) {

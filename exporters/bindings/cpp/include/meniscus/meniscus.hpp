@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exact solvent-excluded surfaces of molecules for other programs, in C++20: meniscus.h with spans and exceptions.
+// The C++20 interface of libmeniscus, which computes exact solvent-excluded surfaces of molecules: meniscus.h with
+// spans and exceptions.
 //
 //   meniscus::Computer computer;
 //   const meniscus::Structure molecule = meniscus::read("1ubq.cif");
@@ -7,19 +8,21 @@
 //   const std::vector<double> xyz = {0, 0, 0, 1.5, 0, 0}, radii = {1.7, 1.52};
 //   std::cout << computer.compute({xyz, radii}).area() << " Å^2\n";
 //
-// All of it is inline and calls the C functions, so what a program is linked to is the C interface alone: a program
-// that was compiled with one compiler, C++ library and version of this header runs with libmeniscus of another. Structs
-// are those of meniscus.h, where their fields, units and ranges are: lengths in Å, areas in Å^2, volumes in Å^3,
-// angles in radian (a camera's in degrees). Option structs have their defaults from the beginning.
+// All functions are inline and call the C functions, so a program is linked to the C interface only. A program that was
+// compiled with one compiler, C++ library and version of this header also runs with a libmeniscus that was compiled
+// with others. Structs are those of meniscus.h, which describes their fields, units and ranges: lengths are in Å, areas
+// in Å^2, volumes in Å^3, and angles in radian (that of a camera in degrees). New structs of options have the defaults.
 //
-// Errors. Whatever fails throws an Error with the library's sentence; what was to be changed is as before.
+// Errors. A function that fails throws an Error with the message of the library, and leaves objects unchanged. Comments
+// name the classes of errors; every function can throw CapacityError and InternalError.
 //
-// Ownership. Computer, Structure, Surface, Mesh, Scene, Renderer and Page own one object each, and move; of what was
-// moved from only assignment and the end are left. Spans and rows of a surface or a mesh are its own memory, seen
-// without a copy: they end with it, and with Computer::recompute(atoms, surface), which computes it again.
+// Ownership. Each Computer, Structure, Surface, Pockets, Mesh, Scene, Renderer and Page owns one C object. These
+// classes can be moved, but not copied; an object that was moved from can only be assigned to and destroyed. Spans and
+// rows view the memory of their object without a copy. They are valid until the object is destroyed, or, for a surface,
+// until Computer::recompute() changes it.
 //
-// Threads. As in meniscus.h: const functions of one object from any number of threads at once; a Computer and a
-// Renderer serve one call after the other.
+// Threads. Any number of threads may call const functions of one object at once. A Computer and a Renderer execute one
+// call after the other.
 #ifndef MENISCUS_MENISCUS_HPP
 #define MENISCUS_MENISCUS_HPP
 
@@ -42,37 +45,37 @@
 #include <meniscus/meniscus.h>
 
 namespace meniscus {
-// Parts of one program may be compiled with different versions of this header.
+// The parts of one program may be compiled with different versions of this header.
 inline namespace v0 {
 
 // ---- Errors ----
 
-// What the library refused or could not do.
+// The base class of all errors of the library.
 class Error : public std::runtime_error {
  public:
   Error(meniscus_status status, const std::string& text) : std::runtime_error(text), status_(status) {}
-  // Never MENISCUS_OK.
+  // Returns the status of the C function, which is never MENISCUS_OK.
   meniscus_status status() const noexcept { return status_; }
 
  private:
   meniscus_status status_;
 };
 
-// One class a status, to be caught by itself.
+// The errors with one status. The aliases below are the classes to catch.
 template <meniscus_status Status>
 class ErrorOf : public Error {
  public:
   explicit ErrorOf(const std::string& text) : Error(Status, text) {}
 };
-using InternalError = ErrorOf<MENISCUS_INTERNAL>;     // a fault of the library: please report it
-using UsageError = ErrorOf<MENISCUS_USAGE>;           // a call that is not valid
-using InputError = ErrorOf<MENISCUS_INPUT>;           // a position, radius, colour or camera that cannot be
-using GpuError = ErrorOf<MENISCUS_NO_GPU>;            // no usable GL or GPU, or one that left work undone
-using CapacityError = ErrorOf<MENISCUS_CAPACITY>;     // out of memory or threads, or more than indices can count
-using OutputError = ErrorOf<MENISCUS_OUTPUT>;         // a file cannot be written, or is there already
-using NotClosedError = ErrorOf<MENISCUS_NOT_CLOSED>;  // the surface or mesh is not closed, so there is none
+using InternalError = ErrorOf<MENISCUS_INTERNAL>;     // a bug in the library; please report it
+using UsageError = ErrorOf<MENISCUS_USAGE>;           // an invalid call
+using InputError = ErrorOf<MENISCUS_INPUT>;           // an impossible number or file
+using GpuError = ErrorOf<MENISCUS_NO_GPU>;            // no usable GL or GPU, or one that dropped work
+using CapacityError = ErrorOf<MENISCUS_CAPACITY>;     // out of memory or threads, or more items than an index can count
+using OutputError = ErrorOf<MENISCUS_OUTPUT>;         // a file cannot be written, or it exists already
+using NotClosedError = ErrorOf<MENISCUS_NOT_CLOSED>;  // the surface would not be closed
 
-// Throws what a C function's status says; returns if it is MENISCUS_OK.
+// Throws the error of a status, with the last message of this thread. Returns if the status is MENISCUS_OK.
 inline void check(meniscus_status status) {
   switch (status) {
     case MENISCUS_OK:
@@ -92,27 +95,40 @@ inline void check(meniscus_status status) {
     case MENISCUS_NOT_CLOSED:
       throw NotClosedError(meniscus_last_error());
   }
-  throw Error(status, meniscus_last_error());  // of a newer library
+  throw Error(status, meniscus_last_error());  // a status of a newer library
 }
 
-// "0.2.0": of the library that runs, not of this header.
+namespace detail {
+
+// Calls a C function whose last parameter is its result, and returns the result.
+template <typename Result, typename Function, typename... Arguments>
+Result result(Function* function, const Arguments&... arguments) {
+  Result result{};
+  if constexpr (requires { result.size; }) result.size = sizeof result;
+  check(function(arguments..., &result));
+  return result;
+}
+
+}  // namespace detail
+
+// Returns the version of the loaded library, such as "0.2.0", which may differ from that of this header.
 inline std::string version() { return meniscus_version(); }
 
 // ---- Radii ----
 
-// The atomic number of "C", "zn", "CL", ... in any case, D and T as hydrogen; 0: none has this symbol.
+// Returns the atomic number of "C", "zn", "CL", ... in upper or lower case; "D" and "T" are hydrogen. 0: no element has
+// this symbol.
 inline std::int32_t element_of(const std::string& symbol) {
-  std::int32_t element = 0;
-  check(meniscus_element_of_symbol(symbol.c_str(), &element));
-  return element;
+  return detail::result<std::int32_t>(meniscus_element_of_symbol, symbol.c_str());
 }
 
+// The van der Waals radius of an element.
 struct ElementRadius {
-  double radius;       // Å, van der Waals
-  const char* source;  // who published it, or "no published value": then it is 2.0
+  double radius;       // Å; 2.0 without a published value
+  const char* source;  // the names of the authors, or "no published value"
 };
 
-// By Bondi (1964, 1966) or Mantina et al. (2009). InputError below 0 and above 118.
+// Returns the radius by Bondi (1964, 1966) or Mantina et al. (2009). Throws InputError unless element is 0 to 118.
 inline ElementRadius radius_of(std::int32_t element) {
   ElementRadius found{};
   check(meniscus_element_radius(element, &found.radius, &found.source));
@@ -121,7 +137,7 @@ inline ElementRadius radius_of(std::int32_t element) {
 
 // ---- Options ----
 
-// A struct of meniscus.h with its size and its defaults.
+// A struct of meniscus.h that is initialized with its size and its defaults.
 template <typename Struct, meniscus_status (*Defaults)(Struct*)>
 struct WithDefaults : Struct {
   WithDefaults() : Struct{} {
@@ -134,12 +150,13 @@ using MeshOptions = WithDefaults<meniscus_mesh_options, meniscus_default_mesh_op
 using ReadOptions = WithDefaults<meniscus_read_options, meniscus_default_read_options>;
 using PocketOptions = WithDefaults<meniscus_pocket_options, meniscus_default_pocket_options>;
 using MeshFile = WithDefaults<meniscus_mesh_file, meniscus_default_mesh_file>;
-using Camera = meniscus_camera;  // as Surface::camera gives it
+using Camera = meniscus_camera;  // Surface::camera() returns one with its size
 using Ball = meniscus_ball;
 
-// The atoms of one call: arrays of the caller's, read during the call only. Positions are x, y, z of each atom, next to
-// each other, in Å, within 100,000 of 0; radii are above 0 and at most 1,000, one per atom, or one for all. In a call:
-// compute({positions, radii}), compute({balls}), compute(structure.atoms()).
+// The atoms of a surface, as arrays of the caller, which must exist until the call of Computer::compute() returns.
+// Positions are x, y, z of each atom in Å, -100,000 to 100,000. Radii are in Å, above 0 and at most 1,000, one per atom
+// or one for all atoms. Examples: compute({positions, radii}), compute({balls}), compute(structure.atoms()). The
+// constructors throw UsageError if the lengths of the arrays do not fit.
 class Atoms {
  public:
   Atoms(std::span<const double> positions, std::span<const double> radii) : Atoms(positions, radii, MENISCUS_DOUBLE) {}
@@ -174,7 +191,7 @@ class Atoms {
 
 // ---- Tables ----
 
-// Rows of a table, which in a newer library may be longer than Row.
+// The rows of a table. In a newer library they may be longer than Row.
 template <typename Row>
 class Rows {
  public:
@@ -209,7 +226,7 @@ class Rows {
   explicit Rows(const meniscus_array& array) : array_(array) {}
   std::size_t size() const noexcept { return array_.count; }
   bool empty() const noexcept { return array_.count == 0; }
-  // n is below size().
+  // Returns row n; n must be below size().
   const Row& operator[](std::size_t n) const { return *at(n); }
   iterator begin() const { return at(0); }
   iterator end() const { return at(array_.count); }
@@ -221,25 +238,25 @@ class Rows {
   meniscus_array array_;
 };
 
-// Rows of text, without the zeros that fill them up.
+// The rows of a table of texts. Texts have no trailing zeros.
 class Texts {
  public:
   explicit Texts(const meniscus_array& array) : array_(array) {}
   std::size_t size() const noexcept { return array_.count; }
   bool empty() const noexcept { return array_.count == 0; }
-  // n is below size().
+  // Returns row n; n must be below size().
   std::string_view operator[](std::size_t n) const { return static_cast<const char*>(array_.data) + n * array_.stride; }
 
  private:
   meniscus_array array_;
 };
 
-// x, y, z in Å (of a normal: of length 1).
+// x, y, z: a position in Å, or a unit vector.
 using Vector = std::array<double, 3>;
 
-// How the classes below hold a C object.
 namespace detail {
 
+// A deleter that calls a C function.
 template <auto Function>
 struct Calls {
   template <typename Object>
@@ -248,10 +265,11 @@ struct Calls {
   }
 };
 
+// Owns a C object, and releases it.
 template <typename Object, auto Release>
 using Handle = std::unique_ptr<Object, Calls<Release>>;
 
-// A table whose rows are numbers, or arrays of them: these never grow.
+// Returns the rows of a table of numbers or of arrays of numbers, which never grow.
 template <typename Row>
 std::span<const Row> numbers(const meniscus_array& array) {
   return {static_cast<const Row*>(array.data), array.count};
@@ -261,31 +279,25 @@ std::span<const Row> numbers(const meniscus_array& array) {
 
 // ---- Molecules from files ----
 
-// The atoms of a file that a surface is made of, a row each in every table. It never changes.
+// The atoms of a file from which a surface is computed. A structure never changes.
 class Structure {
  public:
+  // Takes over the reference.
   explicit Structure(meniscus_structure* owned) : structure_(owned) {}
 
-  // What was read and left out. Its texts live as long as this.
+  // Returns what was read from the file. The texts belong to this object.
   meniscus_read_report report() const {
-    meniscus_read_report report{};
-    report.size = sizeof report;
-    check(meniscus_structure_report(structure_.get(), &report));
-    return report;
+    return detail::result<meniscus_read_report>(meniscus_structure_report, structure_.get());
   }
-  // What is odd in the file, a sentence each.
+  // Returns sentences about unusual things in the file.
   Texts warnings() const { return Texts(table(MENISCUS_STRUCTURE_WARNINGS)); }
 
-  // For Computer::compute(), while this lives.
-  Atoms atoms() const {
-    meniscus_atoms atoms{};
-    atoms.size = sizeof atoms;
-    check(meniscus_structure_atoms(structure_.get(), &atoms));
-    return Atoms(atoms);
-  }
+  // Returns the argument for Computer::compute(), with arrays of this object.
+  Atoms atoms() const { return Atoms(detail::result<meniscus_atoms>(meniscus_structure_atoms, structure_.get())); }
+  // Returns the number of atoms.
   std::size_t size() const { return table(MENISCUS_STRUCTURE_RADII).count; }
 
-  // As meniscus.h describes the columns.
+  // The columns of meniscus_structure_table_id, with one row per atom.
   Rows<Vector> positions() const { return Rows<Vector>(table(MENISCUS_STRUCTURE_POSITIONS)); }
   Rows<double> radii() const { return Rows<double>(table(MENISCUS_STRUCTURE_RADII)); }
   Rows<std::uint8_t> elements() const { return Rows<std::uint8_t>(table(MENISCUS_STRUCTURE_ELEMENTS)); }
@@ -305,141 +317,136 @@ class Structure {
   Rows<float> occupancies() const { return Rows<float>(table(MENISCUS_STRUCTURE_OCCUPANCIES)); }
   Rows<std::uint8_t> classes() const { return Rows<std::uint8_t>(table(MENISCUS_STRUCTURE_CLASSES)); }
   Rows<double> hydropathies() const { return Rows<double>(table(MENISCUS_STRUCTURE_HYDROPATHIES)); }
-  // By "chain", "bfactor", "#ffd700", ...: three numbers an atom, sRGB in [0, 1].
+  // Returns the colours of the atoms by a scheme such as "chain", "bfactor" or "#ffd700": three numbers per atom, sRGB
+  // in [0, 1]. Throws UsageError for an unknown scheme, and InputError if no atom has the number that it needs.
   std::vector<float> colors(const std::string& scheme) const {
     std::vector<float> colors(3 * size());
     check(meniscus_structure_colors(structure_.get(), scheme.c_str(), colors.data()));
     return colors;
   }
 
-  // For the functions of meniscus.h; owned by this.
+  // Returns the C object for functions of meniscus.h. This object keeps its reference.
   meniscus_structure* get() const noexcept { return structure_.get(); }
 
  private:
   meniscus_array table(meniscus_structure_table_id which) const {
-    meniscus_array array{};
-    check(meniscus_structure_table(structure_.get(), which, &array));
-    return array;
+    return detail::result<meniscus_array>(meniscus_structure_table, structure_.get(), which);
   }
   detail::Handle<meniscus_structure, meniscus_structure_release> structure_;
 };
 
-// Reads a molecule as the program does. InputError names file, line and what is wrong there; UsageError a selection or
-// an option that cannot be.
+// Reads a molecule from a file. Throws InputError if the file cannot be read, with the path and the line in the
+// message, and UsageError for an invalid option or selection.
 inline Structure read(const std::string& path, const ReadOptions& options = {}) {
-  meniscus_structure* structure = nullptr;
-  check(meniscus_read(path.c_str(), &options, &structure));
-  return Structure(structure);
+  return Structure(detail::result<meniscus_structure*>(meniscus_read, path.c_str(), &options));
 }
 
 // ---- Meshes ----
 
-// A closed triangle mesh; all vertices lie on the exact surface, no point of it is farther than the tolerance, if one
-// was asked for. It may outlive its surface, of which it keeps what files need.
+// A closed triangle mesh, whose vertices lie on the exact surface. A mesh never changes, and does not need its Surface
+// any longer. The tables are those of meniscus_mesh_table_id.
 class Mesh {
  public:
+  // Takes over the reference.
   explicit Mesh(meniscus_mesh* owned) : mesh_(owned) {}
 
+  // The position of each vertex in Å, and the exact unit normal there.
   std::span<const Vector> positions() const { return table<Vector>(MENISCUS_MESH_POSITIONS); }
   std::span<const Vector> normals() const { return table<Vector>(MENISCUS_MESH_NORMALS); }
-  // Vertices, counter-clockwise seen from the solvent.
+  // The vertices of each triangle, counter-clockwise as seen from the solvent.
   std::span<const std::array<std::uint32_t, 3>> triangles() const {
     return table<std::array<std::uint32_t, 3>>(MENISCUS_MESH_TRIANGLES);
   }
-  // Of each triangle the atom whose contact is nearest.
+  // For each triangle, the atom whose contact point is nearest.
   std::span<const std::uint32_t> triangle_atoms() const { return table<std::uint32_t>(MENISCUS_MESH_TRIANGLE_ATOMS); }
-  // MENISCUS_KIND_... of each triangle.
+  // For each triangle, MENISCUS_KIND_....
   std::span<const std::uint8_t> triangle_kinds() const { return table<std::uint8_t>(MENISCUS_MESH_TRIANGLE_KINDS); }
-  // Rows of Surface::faces().
+  // For each triangle, a row of Surface::faces().
   std::span<const std::uint32_t> triangle_faces() const { return table<std::uint32_t>(MENISCUS_MESH_TRIANGLE_FACES); }
-  // Rows of the table of its kind.
+  // For each triangle, a row of the table of its kind: Surface::convex(), toroidal() or concave().
   std::span<const std::uint32_t> triangle_patches() const {
     return table<std::uint32_t>(MENISCUS_MESH_TRIANGLE_PATCHES);
   }
-  // Rows of Surface::components().
+  // For each triangle, a row of Surface::components().
   std::span<const std::uint32_t> triangle_components() const {
     return table<std::uint32_t>(MENISCUS_MESH_TRIANGLE_COMPONENTS);
   }
-  // Of each vertex the atom whose contact is nearest.
+  // For each vertex, the atom whose contact point is nearest.
   std::span<const std::uint32_t> vertex_atoms() const { return table<std::uint32_t>(MENISCUS_MESH_VERTEX_ATOMS); }
-  // Corners (3 * triangle + 0, 1, 2) at cusps, ascending, and the exact normals there.
+  // The corners at cusps (3 * triangle + 0, 1 or 2) in ascending order, and their exact unit normals.
   std::span<const std::uint32_t> sharp_corners() const { return table<std::uint32_t>(MENISCUS_MESH_SHARP_CORNERS); }
   std::span<const Vector> sharp_normals() const { return table<Vector>(MENISCUS_MESH_SHARP_NORMALS); }
 
-  // Writes a file, whole or not at all, in the format of the path's ending unless `file` names one. OutputError where
-  // there is one already, unless it may be replaced.
+  // Writes the mesh to a file, completely or not at all. Throws OutputError if the file cannot be written, or exists
+  // and is not replaced; UsageError for an unknown format; NotClosedError if "smesh" finds no point inside a component.
   void save(const std::string& path, const MeshFile& file = {}) const {
     check(meniscus_mesh_save(mesh_.get(), path.c_str(), &file));
   }
 
-  // For the functions of meniscus.h; owned by this.
+  // Returns the C object for functions of meniscus.h. This object keeps its reference.
   meniscus_mesh* get() const noexcept { return mesh_.get(); }
 
  private:
   template <typename Row>
   std::span<const Row> table(meniscus_mesh_table_id which) const {
-    meniscus_array array{};
-    check(meniscus_mesh_table(mesh_.get(), which, &array));
-    return detail::numbers<Row>(array);
+    return detail::numbers<Row>(detail::result<meniscus_array>(meniscus_mesh_table, mesh_.get(), which));
   }
   detail::Handle<meniscus_mesh, meniscus_mesh_release> mesh_;
 };
 
 // ---- Pockets ----
 
-// Pockets, tunnels and cavities, the largest volume first. They may outlive their surface.
+// The pockets, tunnels and cavities of a surface. They never change, and do not need their Surface any longer.
 class Pockets {
  public:
+  // Takes over the reference.
   explicit Pockets(meniscus_pockets* owned) : pockets_(owned) {}
 
-  // Each with its places in the tables below.
+  // The pockets in order of descending volume. Each row has its ranges in the tables below.
   Rows<meniscus_pocket> rows() const { return Rows<meniscus_pocket>(table(MENISCUS_POCKETS)); }
-  // Å^2 of the mouths of all, of atoms that line them, and centres of probes at rest in them.
+  // For all pockets: the areas of mouths in Å^2, the atoms that the probe can touch, and the centres of fixed probes.
   std::span<const double> mouth_areas() const { return detail::numbers<double>(table(MENISCUS_POCKET_MOUTHS)); }
   std::span<const std::uint32_t> atoms() const { return detail::numbers<std::uint32_t>(table(MENISCUS_POCKET_ATOMS)); }
   std::span<const Vector> probes() const { return detail::numbers<Vector>(table(MENISCUS_POCKET_PROBES)); }
 
-  // For the functions of meniscus.h; owned by this.
+  // Returns the C object for functions of meniscus.h. This object keeps its reference.
   meniscus_pockets* get() const noexcept { return pockets_.get(); }
 
  private:
   meniscus_array table(meniscus_pockets_table_id which) const {
-    meniscus_array array{};
-    check(meniscus_pockets_table(pockets_.get(), which, &array));
-    return array;
+    return detail::result<meniscus_array>(meniscus_pockets_table, pockets_.get(), which);
   }
   detail::Handle<meniscus_pockets, meniscus_pockets_release> pockets_;
 };
 
 // ---- Surfaces ----
 
-// A closed surface with its certificate: every border has two faces, areas and volumes are proved.
+// A closed surface: every border has two faces. It has passed its certificate, which checks the topology, the areas and
+// the volumes.
 class Surface {
  public:
+  // Takes over the reference.
   explicit Surface(meniscus_surface* owned) : surface_(owned) {}
 
-  // Everything that is one number.
+  // Returns the numbers of the surface.
   meniscus_summary summary() const {
-    meniscus_summary summary{};
-    summary.size = sizeof summary;
-    check(meniscus_surface_summary(surface_.get(), &summary));
-    return summary;
+    return detail::result<meniscus_summary>(meniscus_surface_summary, surface_.get());
   }
-  // Å^2, of all components.
+  // Returns the area of all components in Å^2.
   double area() const { return summary().area; }
-  // Å^3 of the solid: outer components less cavities.
+  // Returns the volume of the solid in Å^3: of outer components without cavities.
   double volume() const { return summary().volume; }
 
-  // Outer ones first, then cavities, each by falling area.
+  // The outer components, then the cavities, each in order of descending area.
   Rows<meniscus_component> components() const { return rows<meniscus_component>(MENISCUS_COMPONENTS); }
-  // Å^2 of each atom, 0 where buried; the sum is the area. Found when they are first asked for.
+  // The area of each atom in Å^2; 0 if it is buried; the sum is area(). The first call computes the areas.
   std::span<const double> atom_areas() const { return numbers<double>(MENISCUS_ATOM_AREAS); }
-  // Å^2 of each atom: where the probe's centre can be. UsageError but for MENISCUS_SES.
+  // The solvent-accessible area of each atom in Å^2. Throws UsageError unless the kind is MENISCUS_SES.
   std::span<const double> atom_sas_areas() const { return numbers<double>(MENISCUS_ATOM_SAS_AREAS); }
-  // What was computed: radii with the probe for MENISCUS_SAS.
+  // The atoms; for MENISCUS_SAS, the radii include the probe's.
   std::span<const Ball> atoms() const { return numbers<Ball>(MENISCUS_ATOMS); }
 
-  // The analytic patches and how they hang together, as meniscus.h describes their rows.
+  // The analytic patches and the boundary representation, whose rows meniscus.h describes.
   Rows<meniscus_convex> convex() const { return rows<meniscus_convex>(MENISCUS_CONVEX); }
   Rows<meniscus_toroidal> toroidal() const { return rows<meniscus_toroidal>(MENISCUS_TOROIDAL); }
   Rows<meniscus_concave> concave() const { return rows<meniscus_concave>(MENISCUS_CONCAVE); }
@@ -452,19 +459,20 @@ class Surface {
   std::span<const std::uint32_t> half_borders() const { return numbers<std::uint32_t>(MENISCUS_HALF_BORDERS); }
   std::span<const Vector> vertices() const { return numbers<Vector>(MENISCUS_VERTICES); }
 
-  // Of each point (finite, in Å) the Euclidean distance to the nearest point of the surface: above 0 in the solvent,
-  // below 0 in the solid.
+  // Returns the Euclidean distances of points from the surface in Å: above 0 in the solvent, below 0 in the solid.
+  // Throws InputError for points that are not finite.
   std::vector<double> distance(std::span<const Vector> points) const {
     std::vector<double> distances(points.size());
     check(meniscus_surface_distance(surface_.get(), points.size(), coordinates(points), distances.data(), nullptr));
     return distances;
   }
 
+  // Distances of points from the surface, and the nearest points of the surface.
   struct Nearest {
     std::vector<double> distances;
-    std::vector<Vector> feet;  // of the surface
+    std::vector<Vector> feet;
   };
-  // The nearest points, too; where several are as near, one of them.
+  // Returns the distances like distance(), and a nearest point of the surface for each point.
   Nearest nearest(std::span<const Vector> points) const {
     Nearest found{std::vector<double>(points.size()), std::vector<Vector>(points.size())};
     check(meniscus_surface_distance(surface_.get(), points.size(), coordinates(points), found.distances.data(),
@@ -472,8 +480,9 @@ class Surface {
     return found;
   }
 
-  // The exact derivative of MENISCUS_GRADIENT_... by the position of each atom. weights: none, or one an atom, where
-  // the number is a sum over atoms. InputError where a probe touches more than three atoms and there is none.
+  // Returns the exact derivative of a quantity with respect to the position of each atom, in Å^2/Å or Å^3/Å. weights:
+  // none, or a factor of the accessible area of each atom. Throws UsageError for a quantity or weights that the kind of
+  // surface does not allow, and InputError if a probe touches more than three atoms, so that there is no derivative.
   std::vector<Vector> gradient(meniscus_quantity quantity, std::span<const double> weights = {}) const {
     if (!weights.empty() && weights.size() != atoms().size())
       throw UsageError("there are " + std::to_string(weights.size()) + " weights for " +
@@ -484,37 +493,29 @@ class Surface {
     return gradient;
   }
 
-  // What its probe fills of the solid that a large one rolls over; of MENISCUS_SES only, else UsageError.
+  // Finds the pockets. Throws UsageError unless the kind is MENISCUS_SES, and InputError for impossible options.
   Pockets pockets(const PocketOptions& options = {}) const {
-    meniscus_pockets* pockets = nullptr;
-    check(meniscus_surface_pockets(surface_.get(), &options, &pockets));
-    return Pockets(pockets);
+    return Pockets(detail::result<meniscus_pockets*>(meniscus_surface_pockets, surface_.get(), &options));
   }
 
+  // Makes a mesh. Throws InputError for impossible options.
   Mesh mesh(const MeshOptions& options = {}) const {
-    meniscus_mesh* mesh = nullptr;
-    check(meniscus_surface_mesh(surface_.get(), &options, &mesh));
-    return Mesh(mesh);
+    return Mesh(detail::result<meniscus_mesh*>(meniscus_surface_mesh, surface_.get(), &options));
   }
 
-  // The camera that shows all atoms in a picture of this width / height.
+  // Returns the camera that shows all atoms. aspect: width / height of the picture.
   Camera camera(double aspect, meniscus_projection projection = MENISCUS_PERSPECTIVE) const {
-    Camera camera{};
-    camera.size = sizeof camera;
-    check(meniscus_surface_camera(surface_.get(), aspect, projection, &camera));
-    return camera;
+    return detail::result<Camera>(meniscus_surface_camera, surface_.get(), aspect, projection);
   }
 
-  // For the functions of meniscus.h; owned by this.
+  // Returns the C object for functions of meniscus.h. This object keeps its reference.
   meniscus_surface* get() const noexcept { return surface_.get(); }
 
  private:
   friend class Computer;
 
   meniscus_array table(meniscus_surface_table_id which) const {
-    meniscus_array array{};
-    check(meniscus_surface_table(surface_.get(), which, &array));
-    return array;
+    return detail::result<meniscus_array>(meniscus_surface_table, surface_.get(), which);
   }
   template <typename Row>
   Rows<Row> rows(meniscus_surface_table_id which) const {
@@ -532,22 +533,21 @@ class Surface {
 
 // ---- Computing ----
 
-// Keeps what is worth keeping from frame to frame: a GL context, its kernels and buffers.
+// Computes surfaces. It keeps what several surfaces share: its options, and a GL context with kernels and buffers.
 class Computer {
  public:
-  explicit Computer(const Options& options = {}) {
-    meniscus_computer* computer = nullptr;
-    check(meniscus_computer_new(&options, &computer));
-    computer_.reset(computer);
-  }
+  // Throws InputError for an impossible probe, UsageError for other invalid options, and GpuError if the device needs
+  // GL 4.5 and there is none.
+  explicit Computer(const Options& options = {})
+      : computer_(detail::result<meniscus_computer*>(meniscus_computer_new, &options)) {}
 
-  // InputError for an atom that cannot be, with its index and value; NotClosedError names atoms.
+  // Computes a surface. Throws InputError for an impossible atom, with its index and value in the message, and
+  // NotClosedError if the surface would not be closed, with atoms in the message.
   Surface compute(const Atoms& atoms) const {
-    meniscus_surface* surface = nullptr;
-    check(meniscus_compute(computer_.get(), &atoms.get(), &surface));
-    return Surface(surface);
+    return Surface(detail::result<meniscus_surface*>(meniscus_compute, computer_.get(), &atoms.get()));
   }
-  // The next frame, in the memory of the one before. If it throws the surface stays as it was.
+  // Computes the surface of the next frame in place of another one. Throws the errors of compute(); the surface is then
+  // unchanged.
   void recompute(const Atoms& atoms, Surface& surface) const {
     meniscus_surface* in_place = surface.surface_.release();
     const meniscus_status status = meniscus_recompute(computer_.get(), &atoms.get(), &in_place);
@@ -555,7 +555,7 @@ class Computer {
     check(status);
   }
 
-  // For the functions of meniscus.h; owned by this.
+  // Returns the C object for functions of meniscus.h. This object keeps its reference.
   meniscus_computer* get() const noexcept { return computer_.get(); }
 
  private:
@@ -564,59 +564,58 @@ class Computer {
 
 // ---- Pictures ----
 
-// Pixels: red, green, blue, alpha (not multiplied in), rows from the top.
+// A picture: rows from the top of red, green, blue and alpha, which is not premultiplied.
 struct Picture {
   std::int32_t width = 0, height = 0;
   std::vector<std::uint8_t> rgba;  // width * height * 4
 };
 
-// Everything that can be chosen of a picture, as one value. Names, keys and texts are those of meniscus_scene_set():
+// All settings of a picture. The names, keys and values of properties are those of meniscus_scene_set(). Example:
 // Scene().set("file", "1ubq.cif").set("color", "chain").render().
 class Scene {
  public:
-  // With the defaults of the program.
-  Scene() : scene_(made([](meniscus_scene** to) { return meniscus_scene_new(to); })) {}
+  // Creates a scene with the defaults of the program.
+  Scene() : scene_(detail::result<meniscus_scene*>(meniscus_scene_new)) {}
+  // Takes over the reference.
   explicit Scene(meniscus_scene* owned) : scene_(owned) {}
 
-  // A scene file of the program. InputError names the place in it.
+  // Reads a scene file of the program. Paths in the file must not lead out of its folder. Throws InputError for an
+  // invalid file, with the path and the line or the key in the message.
   static Scene read(const std::string& path) {
-    return Scene(made([&](meniscus_scene** to) { return meniscus_scene_read(path.c_str(), to); }));
+    return Scene(detail::result<meniscus_scene*>(meniscus_scene_read, path.c_str()));
   }
-  // The text of one. Paths are seen from the working directory.
+  // Reads the text of a scene file. Paths are relative to the working directory. Throws InputError for an invalid text.
   static Scene parse(const std::string& json) {
-    return Scene(made([&](meniscus_scene** to) { return meniscus_scene_parse(json.c_str(), to); }));
+    return Scene(detail::result<meniscus_scene*>(meniscus_scene_parse, json.c_str()));
   }
 
-  // Sets a value, or adds it where there may be several. UsageError begins with the name.
+  // Sets the value of a property, or adds a value to a repeatable property. Throws UsageError for an unknown name or an
+  // invalid value.
   Scene& set(const std::string& name, const std::string& value) {
     check(meniscus_scene_set(scene_.get(), name.c_str(), value.c_str()));
     return *this;
   }
-  // Back to the default.
+  // Restores the default of a property, and removes all added values. Throws UsageError for an unknown name.
   Scene& reset(const std::string& name) {
     check(meniscus_scene_set(scene_.get(), name.c_str(), nullptr));
     return *this;
   }
-  // The n-th value of a name; nothing where it is the default.
+  // Returns value n of a property; nothing if the property has its default, or at most n values.
   std::optional<std::string> get(const std::string& name, std::size_t n = 0) const {
-    const char* value = nullptr;
-    check(meniscus_scene_get(scene_.get(), name.c_str(), n, &value));
+    const char* const value = detail::result<const char*>(meniscus_scene_get, scene_.get(), name.c_str(), n);
     return value ? std::optional<std::string>(value) : std::nullopt;
   }
-  // As its file has it. folder: from which paths are seen; empty: the working directory.
+  // Returns the text of a scene file, without the properties that have their defaults. folder: paths in the text are
+  // relative to this folder; empty: to the working directory.
   std::string json(const std::string& folder = {}) const {
-    const char* json = nullptr;
-    check(meniscus_scene_json(scene_.get(), folder.empty() ? nullptr : folder.c_str(), &json));
-    return json;
+    return detail::result<const char*>(meniscus_scene_json, scene_.get(), folder.empty() ? nullptr : folder.c_str());
   }
-  // What can be set.
+  // Returns all properties.
   static Rows<meniscus_property> properties() {
-    meniscus_array array{};
-    check(meniscus_scene_properties(&array));
-    return Rows<meniscus_property>(array);
+    return Rows<meniscus_property>(detail::result<meniscus_array>(meniscus_scene_properties));
   }
 
-  // A transparent picture of its size.
+  // Returns a transparent picture of the size of the scene. Throws UsageError for values that contradict each other.
   Picture blank() const {
     Picture picture;
     check(meniscus_scene_size(scene_.get(), &picture.width, &picture.height));
@@ -624,25 +623,21 @@ class Scene {
                         static_cast<std::size_t>(picture.height));
     return picture;
   }
-  // As `meniscus render` draws it. Renderer::render() keeps what is worth keeping between pictures.
+  // Draws the picture of `meniscus render` with a new renderer. For several pictures, use one Renderer, which is
+  // faster.
   Picture render(meniscus_device device = MENISCUS_AUTO) const;
 
-  // For the functions of meniscus.h; owned by this.
+  // Returns the C object for functions of meniscus.h. This object keeps its reference.
   meniscus_scene* get() const noexcept { return scene_.get(); }
 
  private:
-  template <typename Make>
-  static meniscus_scene* made(const Make& make) {
-    meniscus_scene* scene = nullptr;
-    check(make(&scene));
-    return scene;
-  }
   detail::Handle<meniscus_scene, meniscus_scene_release> scene_;
 };
 
 namespace detail {
 
-// NULL for none. UsageError where there are not three an atom.
+// Returns the colours of atoms for C functions; NULL if there are none. Throws UsageError unless there are three
+// channels per atom.
 inline const float* channels(const Surface& surface, std::span<const float> atom_colors) {
   if (!atom_colors.empty() && atom_colors.size() != 3 * surface.atoms().size())
     throw UsageError("there are " + std::to_string(atom_colors.size()) + " channels for " +
@@ -652,25 +647,23 @@ inline const float* channels(const Surface& surface, std::span<const float> atom
 
 }  // namespace detail
 
-// On the CPU, or on GL in a context of its own with its kernels, on a thread of its own.
+// Draws pictures. A renderer on GL has its own context and thread, and does not change contexts of the caller.
 class Renderer {
  public:
-  // MENISCUS_AUTO (a hardware GPU if one works, else the CPU), MENISCUS_CPU, MENISCUS_GPU or MENISCUS_SOFTWARE.
-  // GpuError where GL is asked for and there is no GL 4.5.
-  explicit Renderer(meniscus_device device = MENISCUS_AUTO) {
-    meniscus_renderer* renderer = nullptr;
-    check(meniscus_renderer_new(device, &renderer));
-    renderer_.reset(renderer);
-  }
+  // Throws GpuError if the device needs GL 4.5 and there is none.
+  explicit Renderer(meniscus_device device = MENISCUS_AUTO)
+      : renderer_(detail::result<meniscus_renderer*>(meniscus_renderer_new, device)) {}
 
-  // As `meniscus render` draws it: its molecule is read and computed here.
+  // Draws the picture of `meniscus render`. It reads the molecule and computes the surface. Throws the errors of
+  // read(), Computer::compute() and Scene::set().
   Picture render(const Scene& scene) const {
     Picture picture = scene.blank();
     check(meniscus_render_scene(renderer_.get(), scene.get(), picture.rgba.data(), picture.rgba.size()));
     return picture;
   }
-  // An exact surface, with the look and the size of a scene. camera: nullptr for Surface::camera(). atom_colors: none,
-  // or sRGB in [0, 1], three per atom.
+  // Draws a computed surface with the look and the size of a scene. camera: nullptr for Surface::camera(). atom_colors:
+  // none, or three numbers per atom, sRGB in [0, 1]. Throws UsageError if the scene sets other properties, and
+  // InputError for an impossible camera or colour.
   Picture render(const Surface& surface, const Scene& scene = {}, const Camera* camera = nullptr,
                  std::span<const float> atom_colors = {}) const {
     Picture picture = scene.blank();
@@ -679,7 +672,7 @@ class Renderer {
     return picture;
   }
 
-  // For the functions of meniscus.h; owned by this.
+  // Returns the C object for functions of meniscus.h. This object keeps its reference.
   meniscus_renderer* get() const noexcept { return renderer_.get(); }
 
  private:
@@ -690,22 +683,22 @@ inline Picture Scene::render(meniscus_device device) const { return Renderer(dev
 
 // ---- Pages ----
 
-// A web page of one file in which readers turn the exact surface; it fetches nothing.
+// A web page of one file, in which readers can rotate the exact surface. It loads nothing else, and never changes.
 class Page {
  public:
-  // As `meniscus export page` makes it. UsageError for what pages do not show.
-  explicit Page(const Scene& scene)
-      : page_(made([&](meniscus_page** to) { return meniscus_scene_page(scene.get(), to); })) {}
-  // Of an exact surface, with the look of a scene. structure: nullptr, or what names its atoms, in the same order. The
-  // rest as for Renderer::render().
+  // Makes the page of a scene, like `meniscus export page`. Throws the errors of Renderer::render(), and UsageError for
+  // properties that pages do not show.
+  explicit Page(const Scene& scene) : page_(detail::result<meniscus_page*>(meniscus_scene_page, scene.get())) {}
+  // Makes the page of a computed surface with the look of a scene. structure: nullptr, or the structure of the atoms,
+  // in the same order, whose names and colour schemes the page then has. The other parameters are those of
+  // Renderer::render().
   explicit Page(const Surface& surface, const Structure* structure = nullptr, const Scene& scene = {},
                 const Camera* camera = nullptr, std::span<const float> atom_colors = {})
-      : page_(made([&](meniscus_page** to) {
-          return meniscus_surface_page(surface.get(), structure ? structure->get() : nullptr, scene.get(), camera,
-                                       detail::channels(surface, atom_colors), to);
-        })) {}
+      : page_(detail::result<meniscus_page*>(meniscus_surface_page, surface.get(),
+                                             structure ? structure->get() : nullptr, scene.get(), camera,
+                                             detail::channels(surface, atom_colors))) {}
 
-  // Its text, which ends with it.
+  // Returns the text of the page, which belongs to this object.
   std::string_view html() const {
     const char* html = nullptr;
     std::size_t size = 0;
@@ -713,16 +706,10 @@ class Page {
     return {html, size};
   }
 
-  // For the functions of meniscus.h; owned by this.
+  // Returns the C object for functions of meniscus.h. This object keeps its reference.
   meniscus_page* get() const noexcept { return page_.get(); }
 
  private:
-  template <typename Make>
-  static meniscus_page* made(const Make& make) {
-    meniscus_page* page = nullptr;
-    check(make(&page));
-    return page;
-  }
   detail::Handle<meniscus_page, meniscus_page_release> page_;
 };
 

@@ -6,6 +6,7 @@ import importlib
 import importlib.util
 import os
 import shutil
+import re
 import subprocess
 import sys
 import tempfile
@@ -15,50 +16,95 @@ import numpy as np
 
 from .. import joined, mns_reader
 from . import atoms as atom_files
-from . import measures, molecules, preparation, wording
+from . import measures, preparation
 
-#: Options of the program, by what a request has.
+#: The kind of a surface in a request -> the value of the program's option.
 SURFACES = {"SES": "ses", "SAS": "sas", "VDW": "vdw"}
-SAYS = "meniscus: error: "
-POLL = 0.05  # s, between two looks at a program and at whether it is still wanted
+ERROR_PREFIX = "meniscus: error: "
+POLL = 0.05  # s between two checks if the program has ended and if its result is still needed
+
+#: Options of the program -> labels of fields of the panel, or of values of fields.
+FIELDS = {
+    "--select": "Selection",
+    "--color": "Colour",
+    "--surface": "Surface",
+    "--probe": "Probe",
+    "--tolerance": "Tolerance",
+    "--density": "Density",
+    "--trajectory": "Trajectory",
+    "--trajectory-atoms": "Trajectory's atoms",
+    "--frames": "Frames",
+    "--cavities": "Cavities",
+    "--color-by-file": "Numbers",
+    **{preparation.option_of(row): preparation.label_of(row) for row in preparation.ROWS},
+}
+#: Options in the spelling of libmeniscus.
+OF_LIBRARY = re.compile(r"\A(?:select|%s)(?=: )|\b(?:keep_water|keep_ions|unknown_element)\b|(?<=another )color\b" %
+                        "|".join(map(preparation.name_of, preparation.OF_MOLECULE)))
+OPTION = re.compile(r"(?<![\w/-])--([a-z][a-z0-9]*(?:-[a-z0-9]+)*)")
+
+
+def for_panel(text):
+    """Returns a message with labels of fields in place of options. Options without a field are quoted without dashes,
+    and the message explains them."""
+    lacking = []
+
+    def field(found):
+        name = FIELDS.get(found.group(0))
+        if name is None and found.group(1) not in lacking:
+            lacking.append(found.group(1))
+        return name or f"\"{found.group(1)}\""
+
+    text = OF_LIBRARY.sub(lambda found: "--" + found.group(0).replace("_", "-"), text)
+    worded = OPTION.sub(field, text)
+    if not lacking:
+        return worded
+    return (f"{worded} ({', '.join(lacking)}: {'an option' if len(lacking) == 1 else 'options'} "
+            "of the program meniscus that this panel does not have)")
 
 
 class EngineError(mns_reader.MnsError):
-    """The program or the library is missing, or refused; one sentence in the words of the panel."""
+    """The program or the library is missing, or reported an error. The text is one sentence in the terms of the
+    panel."""
 
     def __init__(self, text):
-        super().__init__(wording.for_panel(text))
+        super().__init__(for_panel(text))
 
 
 class Cancelled(Exception):
-    """Nobody waits for it any more."""
+    """The result of a task is no longer needed."""
 
 
 class Tools:
-    """library: the package meniscus with libmeniscus, or None; program: path of the program, or None; missing: why the library is
-    none."""
+    """The tools that compute. library: the package meniscus with libmeniscus, or None. program: the path of the
+    program, or None. missing: the reason why there is no library."""
 
     def __init__(self, library, program, missing=""):
         self.library, self.program, self.missing = library, program, missing
 
     def needed_program(self, purpose, instead=""):
-        """Its path. purpose, instead: what needs it, and what goes without, for people."""
+        """Returns the path of the program, or raises EngineError. purpose: the task that needs it; instead: an
+        alternative that does not, both as parts of the message."""
         if self.program is None:
-            raise EngineError(f"{purpose} needs the program meniscus, which is not found; name it in the add-on's preferences{instead}")
+            raise EngineError(
+                f"{purpose} needs the program meniscus, which is not found; name it in the add-on's "
+                f"preferences{instead}"
+            )
         return self.program
 
     def program_for_files(self):
-        """Its path, where there is no library."""
+        """Returns the path of the program for reading a file without the library, or raises EngineError."""
         return self.needed_program(f"without libmeniscus ({self.missing}) a file")
 
 
 def find_tools(package="", program=""):
-    """package: folder of the Python package, "": where Python finds it. program: its path, "": where the shell finds it."""
+    """Returns the Tools. package: the folder of the Python package; "" searches where Python does. program: the path of
+    the program; "" searches where the shell does."""
     library, missing = None, ""
     try:
         library = _import(package)
         library.version()  # loads libmeniscus
-    except Exception as error:  # of whatever the package or the loader says
+    except Exception as error:  # the package and the loader may raise anything
         library, missing = None, str(error) or type(error).__name__
     found = shutil.which(program or "meniscus")
     return Tools(library, found and os.path.abspath(found), missing)
@@ -75,7 +121,7 @@ def _import(folder):
     if spec is None or not os.path.exists(file):
         raise ImportError(f"{folder}: no Python package")
     module = importlib.util.module_from_spec(spec)
-    sys.modules["meniscus"] = module  # as its own modules look for it
+    sys.modules["meniscus"] = module  # where its own modules look for it
     try:
         spec.loader.exec_module(module)
     except BaseException:
@@ -85,13 +131,14 @@ def _import(folder):
 
 
 def surface_by_library(library, atoms, request, task):
-    """A mns_reader.Surface of atoms.Atoms, of all components. Raises EngineError in the library's words."""
+    """Returns a mns_reader.Surface of atoms.Atoms with all components. Raises EngineError with the library's
+    message."""
     if not len(atoms):
         raise EngineError("there are no atoms")
     key = request.shape_key(atoms)
     shape = _shapes.get(key)
     if shape is None:
-        shape = _said_by(library, _shape, library, atoms, request, task)
+        shape = _call(library, _shape, library, atoms, request, task)
         with _reading:
             while len(_shapes) >= MOST_SHAPES:
                 del _shapes[next(iter(_shapes))]
@@ -101,59 +148,81 @@ def surface_by_library(library, atoms, request, task):
 
 
 def _shape(library, atoms, request, task):
-    """Header and arrays as if they had been written to a .mns file and read, without those of the atoms."""
-    task.say("Surface")
+    """Returns header and arrays like those of a .mns file, without the arrays of atoms."""
+    task.report("Surface")
     made = library.surface(atoms.positions, atoms.radii, request.probe, kind=SURFACES[request.kind])
     task.check()
-    task.say("Mesh")
+    task.report("Mesh")
     mesh = made.mesh(density=request.density) if request.density else made.mesh(request.tolerance)
     vertices = mesh.vertices
     origin = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
     arrays = {
-        "mesh.position": (vertices - origin).astype(np.float32), "mesh.normal": mesh.normals.astype(np.float32),
-        "mesh.triangle": mesh.triangles, "mesh.kind": mesh.triangle_kinds, "mesh.patch": mesh.triangle_patches,
-        "mesh.component": mesh.triangle_components, "mesh.atom": mesh.triangle_atoms, "mesh.sharp_corner": mesh.sharp_corners,
-        "mesh.sharp_corner_normal": mesh.sharp_normals.astype(np.float32), "mesh.sharp_edge": np.empty((0, 2), np.uint32),
+        "mesh.position": (vertices - origin).astype(np.float32),
+        "mesh.normal": mesh.normals.astype(np.float32),
+        "mesh.triangle": mesh.triangles,
+        "mesh.kind": mesh.triangle_kinds,
+        "mesh.patch": mesh.triangle_patches,
+        "mesh.component": mesh.triangle_components,
+        "mesh.atom": mesh.triangle_atoms,
+        "mesh.sharp_corner": mesh.sharp_corners,
+        "mesh.sharp_corner_normal": mesh.sharp_normals.astype(np.float32),
+        "mesh.sharp_edge": np.empty((0, 2), np.uint32),
         **measures.of_surface(library, made, mesh),
     }
     header = {
-        "generator": f"libmeniscus {library.version()}", "device": made.device, "unit": "angstrom",
-        "name": "surface", "probe_radius": made.probe, "area": made.area, "volume": made.volume,
-        "mesh": {"origin": [float(value) for value in origin], "vertices": len(vertices), "triangles": len(mesh.triangles),
-                 "closed": True, "tolerance": 0.0 if request.density else request.tolerance},
-        "components": [{"kind": "cavity" if part["kind"] else "outer", "area": float(part["area"]),
-                        "volume": float(part["volume"]), "euler": int(part["euler"])} for part in made.components],
+        "generator": f"libmeniscus {library.version()}",
+        "device": made.device,
+        "unit": "angstrom",
+        "name": "surface",
+        "probe_radius": made.probe,
+        "area": made.area,
+        "volume": made.volume,
+        "mesh": {
+            "origin": [float(value) for value in origin], "vertices": len(vertices), "triangles": len(mesh.triangles),
+            "closed": True, "tolerance": 0.0 if request.density else request.tolerance
+        },
+        "components": [{
+            "kind": "cavity" if part["kind"] else "outer", "area": float(part["area"]), "volume": float(part["volume"]),
+            "euler": int(part["euler"])
+        } for part in made.components],
     }
     return header, arrays
 
 
 def _painted(shape, atoms):
-    """The surface of a shape with the atoms as they are now: a change of colours computes nothing again."""
+    """Returns the surface of a shape with the current atoms, so that a change of colours needs no computation."""
     header, arrays = shape
     header = {**header, "source": {"file": atoms.source}, "chain_names": atoms.chain_names, **atoms.names}
     if atoms.kind_colors is not None:
         header["kind_colors"] = atoms.kind_colors
-    arrays = {**arrays, "atom.center": np.asarray(atoms.positions, np.float64), "atom.radius": np.asarray(atoms.radii, np.float64),
-              "atom.color": np.asarray(atoms.colors, np.float32), "atom.index": np.asarray(atoms.index), **atoms.numbers}
+    arrays = {
+        **arrays, "atom.center": np.asarray(atoms.positions,
+                                            np.float64), "atom.radius": np.asarray(atoms.radii, np.float64),
+        "atom.color": np.asarray(atoms.colors, np.float32), "atom.index": np.asarray(atoms.index), **atoms.numbers
+    }
     surface = mns_reader.Surface(f"{atoms.source or 'atoms'} in memory", header, arrays)
-    surface.known_closed = True  # the library gives no other
+    surface.known_closed = True  # surfaces of the library are always closed
     return surface
 
 
 def surface_by_program(tools, request, folder, task):
-    """The same of a request about a file. folder: for files that go again."""
+    """Returns a mns_reader.Surface of a request about a file. folder: a folder for temporary files. Raises
+    EngineError."""
     program = tools.program_for_files()
-    task.say("Program")
+    task.report("Program")
     with tempfile.TemporaryDirectory(dir=folder, prefix="surface_") as inner:
         target = os.path.join(inner, "run" if request.place else "surface.mns")
-        words = [program, "export", "blender", request.file, *_about_atoms(request), "--surface", SURFACES[request.kind],
-                 f"--probe={request.probe!r}",
-                 f"--density={request.density!r}" if request.density else f"--tolerance={request.tolerance!r}", "--force", "-q", "-o", target]
+        words = [
+            program, "export", "blender", request.file, *_atom_options(request), "--surface", SURFACES[request.kind],
+            f"--probe={request.probe!r}",
+            f"--density={request.density!r}" if request.density else f"--tolerance={request.tolerance!r}", "--force",
+            "-q", "-o", target
+        ]
         if request.kind == "VDW":
             words.remove(f"--probe={request.probe!r}")
         if request.place:
             number = read_atoms(tools, request, folder, task).numbers[request.place - 1]
-            words += [*_about_run(request, str(number))]
+            words += [*_run_options(request, str(number))]
         _run(words, task)
         if request.place:
             target = next(os.path.join(target, name) for name in os.listdir(target) if name.endswith(".mns"))
@@ -164,13 +233,14 @@ def surface_by_program(tools, request, folder, task):
 
 
 def read_atoms(tools, request, folder, task):
-    """The atoms.AtomFile of a request about a file, of all frames of its run if it has a place there. Read once."""
-    if request.needs_program():  # whose colours are those of a surface
+    """Returns the atoms.AtomFile of a request about a file, with all frames of its run if it has a place there. The
+    last files are kept."""
+    if request.needs_program():  # its colours belong to the surface, not to the atoms
         request = dataclasses.replace(request, color="element", numbers="")
     key = (request.atoms_key(), request.place > 0)
     with _reading:
         if key not in _files:
-            task.say("Frames" if request.place else "Atoms")
+            task.report("Frames" if request.place else "Atoms")
             found = _fresh_atoms(tools, request, folder, task)
             while len(_files) >= MOST_FILES:
                 del _files[next(iter(_files))]
@@ -179,10 +249,10 @@ def read_atoms(tools, request, folder, task):
 
 
 def _fresh_atoms(tools, request, folder, task):
-    """The library reads all but trajectories and frames that are prepared."""
+    """Reads atoms by the library or, for trajectories and prepared frames, by the program."""
     prepared = preparation.run_names(request.preparation)
     if tools.library is not None and not request.trajectory and not prepared:
-        return _said_by(tools.library, molecules.read, tools.library, request)
+        return _call(tools.library, atom_files.read_molecule, tools.library, request)
     if request.trajectory:
         program = tools.needed_program("a trajectory", ", or read it by Molecular Nodes and take its atoms")
     elif prepared:
@@ -192,14 +262,15 @@ def _fresh_atoms(tools, request, folder, task):
     descriptor, path = tempfile.mkstemp(dir=folder, prefix="atoms_")
     os.close(descriptor)
     try:
-        run = _about_run(request, request.frames or "all") if request.place else []
-        _run([program, "export", "atoms", request.file, *_about_atoms(request), *run, "--force", "-q", "-o", path], task)
+        run = _run_options(request, request.frames or "all") if request.place else []
+        _run([program, "export", "atoms", request.file, *_atom_options(request), *run, "--force", "-q", "-o", path],
+             task)
         return atom_files.read(path)
     finally:
-        os.remove(path)  # what is mapped stays readable
+        os.remove(path)  # a mapped file stays readable
 
 
-#: Files that were read, by what they were asked for, and shapes that were computed; the oldest first.
+#: Files that were read and shapes that were computed, by the keys of their requests, the oldest first.
 _files, _shapes = {}, {}
 _reading = threading.Lock()
 MOST_FILES, MOST_SHAPES = 4, 4
@@ -211,15 +282,15 @@ def forget():
         _shapes.clear()
 
 
-def _said_by(library, work, *arguments):
-    """What work(*arguments) gives. Raises EngineError with what the library, or a file, says."""
+def _call(library, work, *arguments):
+    """Returns work(*arguments). Raises EngineError with the message of the library or of a file."""
     try:
         return work(*arguments)
     except (library.Error, mns_reader.MnsError) as error:
-        raise EngineError(str(error).splitlines()[0]) from None  # other lines point into a selection
+        raise EngineError(str(error).splitlines()[0]) from None  # further lines mark a place in a selection
 
 
-def _about_atoms(request):
+def _atom_options(request):
     words = [f"--color={color}" for color in request.colors()]
     if request.numbers:
         words.append(f"--color-by-file={request.numbers}")
@@ -228,7 +299,7 @@ def _about_atoms(request):
     return words + preparation.program_words(request.preparation, False)
 
 
-def _about_run(request, frames):
+def _run_options(request, frames):
     words = [f"--frames={frames}"]
     if request.trajectory:
         words.append(f"--trajectory={request.trajectory}")
@@ -238,9 +309,10 @@ def _about_run(request, frames):
 
 
 def _run(words, task):
-    """Runs the program to its end, or ends it when its result is no longer wanted. Raises EngineError in its words."""
-    with tempfile.TemporaryFile() as said:
-        child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said)
+    """Runs the program to its end, or kills it when its result is no longer needed. Raises EngineError with its
+    message, or Cancelled."""
+    with tempfile.TemporaryFile() as log:
+        child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=log)
         try:
             while True:
                 try:
@@ -253,15 +325,16 @@ def _run(words, task):
                 child.kill()
                 child.wait()
         if code:
-            said.seek(0)
-            lines = said.read().decode("utf-8", "replace").strip().splitlines() or [f"{words[0]} ended with {code}"]
-            told = [line[len(SAYS):] for line in lines if line.startswith(SAYS)]
-            raise EngineError(told[0] if told else lines[-1])
+            log.seek(0)
+            lines = log.read().decode("utf-8", "replace").strip().splitlines() or [f"{words[0]} ended with {code}"]
+            errors = [line[len(ERROR_PREFIX):] for line in lines if line.startswith(ERROR_PREFIX)]
+            raise EngineError(errors[0] if errors else lines[-1])
 
 
 def compute(tools, request, atoms, folder, task):
-    """A mns_reader.Surface, or None where the request is about cavities alone and there are none. atoms: those that come from
-    Blender, or None: then they are those of the request's file."""
+    """Returns the mns_reader.Surface of a request, or None if it asks for parts that do not exist, such as cavities.
+    atoms: atoms that come from Blender, or None for those of the request's file. folder: a folder for temporary files.
+    """
     surface = _all_of_it(tools, request, atoms, folder, task)
     if request.cavities == "KEEP":
         return surface
@@ -278,5 +351,5 @@ def _all_of_it(tools, request, atoms, folder, task):
         return surface_by_program(tools, request, folder, task)
     if atoms is None:
         file = read_atoms(tools, request, folder, task)
-        atoms = _said_by(tools.library, file.frame, request.place) if request.place else file.atoms
+        atoms = _call(tools.library, file.frame, request.place) if request.place else file.atoms
     return surface_by_library(tools.library, atoms, request, task)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Threads that compute one surface after another; of each object only the latest request is computed."""
+"""Threads that compute one surface after another. Only the latest request of each object is computed."""
 
 import collections
 import threading
@@ -8,7 +8,8 @@ from . import engines
 
 
 class Task:
-    """owner: whose it is. key: what it is for. work: takes the task, gives the result. urgency: what waits is done in this order."""
+    """A task for a thread. owner: identifies the object that needs the result. key: identifies the task. work: a
+    function of the task that returns the result. urgency: waiting tasks are done in this order."""
 
     def __init__(self, owner, key, work, urgency=0):
         self.owner, self.key, self.work, self.urgency = owner, key, work, urgency
@@ -16,14 +17,14 @@ class Task:
         self.finished = threading.Event()
         self._unwanted = threading.Event()
 
-    def say(self, stage):
-        """What it does now, for people."""
+    def report(self, stage):
+        """Receives the name of the current stage for the user. It does nothing by default."""
 
     def cancel(self):
         self._unwanted.set()
 
     def check(self):
-        """Raises engines.Cancelled when its result is no longer wanted."""
+        """Raises engines.Cancelled if the result is no longer needed."""
         if self._unwanted.is_set():
             raise engines.Cancelled()
 
@@ -32,32 +33,34 @@ class Task:
         return self._unwanted.is_set()
 
     def run(self):
-        """To its end, whatever that is; result or error are set then, but of a cancelled one neither."""
+        """Runs the task to its end, and sets result or error. A cancelled task has neither."""
         try:
             self.check()
             self.result = self.work(self)
             self.check()
         except engines.Cancelled:
             self.result = None
-        except Exception as error:  # raised again where the result is taken
+        except Exception as error:  # reported where the result is used
             self.error = error
         finally:
             self.finished.set()
 
 
 class Worker:
-    """Threads, which live while there is something to do; of one owner they do one task at a time."""
+    """A pool of threads that live while there are tasks. They do one task of each owner at a time."""
 
     def __init__(self, give, threads=1):
-        """give: takes each task that is done, but cancelled ones, on its thread. threads: at most."""
+        """give: a function that receives each finished task on its thread, except cancelled ones. threads: their
+        greatest number."""
         self._give, self._most = give, threads
         self._lock = threading.Lock()
         self._waiting = collections.OrderedDict()  # owner -> Task
         self._running = []
         self._threads = 0
 
-    def ask(self, task):
-        """Puts a task after those that are as urgent. Tasks of the same owner that still wait are dropped; one that runs goes on."""
+    def submit(self, task):
+        """Adds a task after waiting ones of the same urgency. A waiting task of the same owner is dropped, and a
+        running one continues."""
         with self._lock:
             self._waiting.pop(task.owner, None)
             self._waiting[task.owner] = task
@@ -66,9 +69,12 @@ class Worker:
                 threading.Thread(target=self._work, name="meniscus", daemon=True).start()
 
     def cancel(self, owner):
-        """True if there was something that waited or ran."""
+        """Cancels the tasks of an owner. Returns True if there was one that waited or ran."""
         with self._lock:
-            found = [task for task in (self._waiting.pop(owner, None), *self._running) if task is not None and task.owner == owner]
+            found = [
+                task for task in (self._waiting.pop(owner, None), *self._running)
+                if task is not None and task.owner == owner
+            ]
             for task in found:
                 task.cancel()
             return bool(found)
@@ -89,7 +95,7 @@ class Worker:
                 self._give(done)
 
     def _next(self):
-        """The most urgent that may begin, and waits no more; None: there is none."""
+        """Removes and returns the most urgent waiting task whose owner has none running, or returns None."""
         busy = {task.owner for task in self._running}
         free = [task for task in self._waiting.values() if task.owner not in busy]
         return self._waiting.pop(min(free, key=lambda task: task.urgency).owner) if free else None

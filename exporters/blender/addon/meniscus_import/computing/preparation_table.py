@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panel asks about molecules and runs, written by scripts/check/scene_values.py from Meniscus' table of properties."""
+"""The fields of the panel about molecules and runs. scripts/check/scene_values.py writes this file from Meniscus' table of
+properties."""
 
 import collections
 
-#: key: of scene files. type: flag, count, word or text. words: all of a word, some usual ones of a text. initial: the default.
-#: lowest, highest: of a count.
+#: A field. key: key in scene files. type: flag, count, word or text. words: all values of a word, or some usual values of
+#: a text. initial: the default. lowest, highest: range of a count.
 Row = collections.namedtuple("Row", "key type words initial lowest highest help")
 
 ROWS = (
@@ -30,7 +31,7 @@ ROWS = (
         'Average positions over N frames around each frame; N is odd'),
 )
 
-#: Colour schemes, and whether they need more than the atoms of a file.
+#: Colour schemes, and True for those that need more than the atoms of a file.
 SCHEMES = (
     ('element', False), ('chain', False), ('copy', False), ('model', False), ('residue', False), ('kind', True), ('component', True),
     ('bfactor', False), ('occupancy', False), ('charge', False), ('hydrophobicity', False), ('element-cpk', False), ('index', False),

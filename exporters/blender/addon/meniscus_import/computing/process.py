@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The process that computes for the add-on, and the requests sent to it; knows nothing of Blender.
+"""The process that computes for the add-on, and the requests sent to it. It does not use Blender.
 
-Blender takes threads of Python badly: an operator that a script called looks things up in the script's context without the
-interpreter's lock if any thread has it just then (BPY_context_member_get and PyC_IsInterpreterActive, seen in 3.4.1), and so do
-drivers; it crashes. Its manual asks for threads to end with the script that began them. So there are none: what takes time
-happens elsewhere, and is looked at from time to time."""
+The add-on uses no threads, because they make Blender crash. An operator that a script calls reads the script's context
+without the interpreter's lock while another thread holds it (BPY_context_member_get and PyC_IsInterpreterActive, seen
+in 3.4.1), and so do drivers. Blender's manual requires that threads end with the script that started them. Therefore
+long computations run in another process, which is polled."""
 
 import os
 import signal
@@ -15,13 +15,19 @@ import time
 from . import engines, messages
 
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "worker.py")
-#: Order among tasks that wait: what shall show now, what may show next.
+#: Urgencies of waiting tasks: surfaces to show now, and surfaces that may show next.
 NOW, NEXT = 0, 1
 
 
 class Job:
-    """What was asked for. owner: whose it is; of each the newest that has not begun is done. key: what it is for. stage: what is
-    done now, for people. result or error (engines.EngineError) once it is done. make: what the result becomes, set by who asked."""
+    """A request to the process.
+
+    owner: identifies the object that needs the result. Only the newest waiting job of an owner is done.
+    key: identifies the result.
+    stage: the name of the current stage for the user.
+    began: the time of the request by time.monotonic().
+    is_done: True as soon as result or error (engines.EngineError) is set.
+    make: a function that converts the result, set by the caller."""
 
     def __init__(self, owner, key):
         self.owner, self.key = owner, key
@@ -32,20 +38,21 @@ class Job:
 
 
 class Process:
-    """Started when it is first needed, and again if it ended."""
+    """A process that starts when it is first needed, and starts again if it ended."""
 
     def __init__(self, package="", program="", folder=None):
-        """package, program: as of engines.find_tools. folder: for files that go again, or None."""
+        """package, program: arguments of engines.find_tools(). folder: a folder for temporary files, or None."""
         self.package, self.program = package, program
         self._begin = ("begin", list(sys.path), package, program, folder)
-        self._child = self._connection = self._told = None
-        self._jobs = {}  # number -> Job that is not done
-        self._over = []  # done, and nobody has taken them yet
+        self._child = self._connection = self._tools = None
+        self._jobs = {}  # number -> unfinished Job
+        self._over = []  # finished jobs that take() has not returned yet
         self._number = 0
 
-    def ask(self, owner, key, kind, about, urgency=NOW):
-        """A Job of one of works.Tools. What waits of the same owner falls away; what runs goes on, so that something shows while
-        a slider moves on and on. Raises engines.EngineError if nothing can be computed."""
+    def submit(self, owner, key, kind, about, urgency=NOW):
+        """Sends a request and returns its Job. kind: the name of a function of works.Tools; about: its arguments.
+        Waiting jobs of the same owner are dropped. A running one continues, so that surfaces show while a slider keeps
+        moving. Raises engines.EngineError if the process does not start."""
         self._start()
         self._number += 1
         self._jobs[self._number] = job = Job(owner, key)
@@ -53,14 +60,14 @@ class Process:
         return job
 
     def job_of(self, owner):
-        """The newest that is not done, or None."""
+        """Returns the newest unfinished job of an owner, or None."""
         return next((job for job in reversed(self._jobs.values()) if job.owner == owner), None)
 
     def is_busy(self):
         return bool(self._jobs or self._over)
 
     def drop(self, owner):
-        """Nobody waits for it any more: what has begun goes on to its next stage. True if there was something."""
+        """Drops the jobs of an owner. A running one continues to its next stage. Returns True if there was one."""
         numbers = [number for number, job in self._jobs.items() if job.owner == owner]
         for number in numbers:
             del self._jobs[number]
@@ -73,7 +80,8 @@ class Process:
             self.drop(owner)
 
     def stop(self, owner):
-        """The same at once, whatever it does; all others fail. True if there was something."""
+        """Stops the jobs of an owner immediately by ending the process, so that all other jobs fail. Returns True if
+        there was one."""
         if self.job_of(owner) is None:
             return False
         self.drop(owner)
@@ -81,7 +89,8 @@ class Process:
         return True
 
     def take(self, seconds=0.0):
-        """Jobs that have been done meanwhile, the oldest first; waits so long for the first message."""
+        """Returns the jobs that were finished meanwhile, the oldest first. seconds: the time to wait for the first
+        message."""
         done, self._over = self._over, []
         try:
             while self._connection is not None and self._connection.is_there(seconds):
@@ -95,24 +104,25 @@ class Process:
         return done
 
     def wait(self, job):
-        """Until it is done; gives back all that are done then, it too."""
+        """Waits until a job is done, and returns all jobs that were finished meanwhile, including it."""
         done = []
         while not job.is_done and self.is_busy():
             done += self.take(1.0)
         return done
 
-    def told(self):
-        """The same as works.Tools.told(), of the process. Raises engines.EngineError if it does not start."""
-        if self._told is None:
-            job = self.ask(None, None, "told", {})
+    def describe_tools(self):
+        """Returns the result of works.Tools.describe_tools() in the process. Raises engines.EngineError if the process
+        does not start."""
+        if self._tools is None:
+            job = self.submit(None, None, "describe_tools", {})
             self._over += [other for other in self.wait(job) if other is not job]
             if job.error is not None:
                 raise job.error
-            self._told = job.result
-        return self._told
+            self._tools = job.result
+        return self._tools
 
     def end(self):
-        """Ends it and what it started; jobs that are not done fail."""
+        """Ends the process and its children. Unfinished jobs fail."""
         self._close(0.0)
         self._fail_all("computing was stopped")
 
@@ -133,17 +143,17 @@ class Process:
         try:
             self._connection.send(message)
         except (OSError, AttributeError):
-            pass  # it is gone, which take() notices
+            pass  # the process has ended, which take() notices
 
     def _hear(self, word, number, what):
         job = self._jobs.get(number)
-        if job is None:  # nobody waits for it
+        if job is None:  # it was dropped
             return None
         if word == "stage":
             job.stage = what
             return None
         for other in [other for other, older in self._jobs.items() if older.owner == job.owner and other <= number]:
-            del self._jobs[other]  # older ones fell away for this one
+            del self._jobs[other]  # the process dropped older ones for this one
         job.is_done = True
         if word == "done":
             job.result = what
@@ -156,7 +166,8 @@ class Process:
         self._fail_all(f"the process that computes ended {f'by signal {-code}' if code < 0 else f'with {code}'}")
 
     def _close(self, seconds):
-        """How it ended; it has so long to do so, and what it started ends with it."""
+        """Closes the connection, waits up to `seconds` for the end of the process, kills it with its children, and
+        returns its exit code."""
         child, connection = self._child, self._connection
         self._child = self._connection = None
         if connection is not None:
@@ -178,19 +189,19 @@ class Process:
 
 
 def _started(connection):
-    """The process at the other end of a connection."""
+    """Starts the process at the other end of a connection, and returns it."""
     words = [python(), "-B", SCRIPT]
     if os.name != "nt":
-        return subprocess.Popen([*words, str(connection.fileno())], pass_fds=[connection.fileno()], stdin=subprocess.DEVNULL,
-                                start_new_session=True)
+        return subprocess.Popen([*words, str(connection.fileno())], pass_fds=[connection.fileno()],
+                                stdin=subprocess.DEVNULL, start_new_session=True)
     child = subprocess.Popen(words, stdin=subprocess.PIPE, creationflags=subprocess.CREATE_NO_WINDOW)
-    with child.stdin:  # Windows hands a socket to a process that is there already
+    with child.stdin:  # Windows can share a socket only with a process that exists already
         child.stdin.write(connection.share(child.pid))
     return child
 
 
 def _kill(child):
-    """With what it started; on Windows, where it starts nothing, alone."""
+    """Kills a process with its children. On Windows it has none."""
     if os.name == "nt":
         child.kill()
         return
@@ -201,8 +212,8 @@ def _kill(child):
 
 
 def python():
-    """The interpreter that belongs to this one: Blender's own says where it lies, and outside of Windows names another of the path
-    at times."""
+    """Returns the path of the Python interpreter that belongs to this one. Blender's sys.executable may name another
+    interpreter of the path outside of Windows, so sys.prefix is tried first there."""
     names = () if os.name == "nt" else (f"python{sys.version_info.major}.{sys.version_info.minor}", "python3")
     places = [*(os.path.join(sys.prefix, "bin", name) for name in names), sys.executable]
     return next((place for place in places if os.path.exists(place)), sys.executable)

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The program that computes for the add-on in a process of its own: takes tasks from a connection, and returns results.
+"""The program that computes for the add-on in a process of its own: it takes tasks from a connection and returns
+results.
 
-process.py starts it. A message is a tuple of plain values and numpy arrays, a word first. It takes "begin" (sys.path, package,
-program, folder for files that go again), "do" (number, owner, urgency, kind of work, what it is about), "forget" (owner); it gives
-"stage" (number, text), "done" (number, result), "failed" (number, text)."""
+process.py starts it. A message is a tuple of a word, plain values and numpy arrays. The program receives "begin"
+(sys.path, package, program, folder for temporary files), "do" (number, owner, urgency, kind of work, its arguments) and
+"forget" (owner). It sends "stage" (number, text), "done" (number, result) and "failed" (number, text)."""
 
 import os
 import signal
@@ -11,9 +12,9 @@ import sys
 import threading
 import types
 
-#: Surfaces that are computed at a time: the mesh of each is made by one core.
+#: The number of surfaces that are computed at a time. The mesh of each is made by one core.
 THREADS = min(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1, 4)
-_saying = threading.Lock()
+_sending = threading.Lock()
 
 
 def main(descriptor=""):
@@ -22,23 +23,23 @@ def main(descriptor=""):
 
     connection = messages.of_descriptor(int(descriptor)) if descriptor else messages.of_share(sys.stdin.buffer.read())
     _, sys.path[:], package, program, folder = connection.receive()
-    from meniscus_import.computing import jobs, works  # not before it is known where numpy is
+    from meniscus_import.computing import jobs, works  # these need sys.path to find numpy
 
     tools = works.Tools(package, program, folder)
-    worker = jobs.Worker(lambda task: say(connection, *outcome(task)), THREADS)
+    worker = jobs.Worker(lambda task: send(connection, *outcome(task)), THREADS)
     while True:
         try:
             word, *rest = connection.receive()
         except (EOFError, OSError):
             leave()
         if word == "do":
-            worker.ask(task_of(jobs.Task, tools, connection, *rest))
+            worker.submit(task_of(jobs.Task, tools, connection, *rest))
         elif word == "forget":
             worker.cancel(*rest)
 
 
 def adopt(folder):
-    """Makes the modules of the add-on importable under its name, but not the add-on, which needs Blender."""
+    """Makes the modules of the add-on importable under its name without importing the add-on, which needs Blender."""
     package = types.ModuleType("meniscus_import")
     package.__path__ = [folder]
     sys.modules["meniscus_import"] = package
@@ -46,21 +47,21 @@ def adopt(folder):
 
 def task_of(kind_of_task, tools, connection, number, owner, urgency, kind, about):
     task = kind_of_task(owner, number, lambda task: getattr(tools, kind)(task, **about), urgency)
-    task.say = lambda stage: say(connection, "stage", number, stage)
+    task.report = lambda stage: send(connection, "stage", number, stage)
     return task
 
 
-def say(connection, *message):
+def send(connection, *message):
     try:
-        with _saying:  # a message is whole
+        with _sending:  # messages of several threads must not mix
             connection.send(message)
     except OSError:
         leave()
 
 
 def leave():
-    """Blender is gone: what is computed here, or by programs started here, is no longer wanted."""
-    if os.name == "nt":  # where it starts nothing
+    """Ends this process and the programs that it started, because Blender has ended."""
+    if os.name == "nt":  # it starts no programs on Windows
         os._exit(1)
     os.killpg(0, signal.SIGKILL)
 

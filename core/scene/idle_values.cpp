@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds values without effect by a table of what each of them needs.
+#include "core/scene/idle_values.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/message.h"
+#include "core/base/parse_number.h"
+#include "core/scene/scene_values.h"
+
+namespace meniscus {
+namespace {
+
+bool is_run(const GivenScene& given) { return given.scene.frames.asked(); }
+bool has_patches(const GivenScene& given) { return given.is_live || given.any({"surface.patches"}); }
+bool has_legend(const GivenScene& given) { return given.any({"legend.shown", "legend.file"}); }
+bool names_a_scale(const GivenScene& given) { return given.is_live || has_legend(given); }
+
+bool has_letters(const GivenScene& given) {
+  return names_a_scale(given) || given.any({"annotations.labels", "annotations.scale_bar", "annotations.panel",
+                                            "annotations.title", "annotations.time_stamp", "annotations.curve"});
+}
+
+Look resulting_look(const GivenScene& given) { return look_of(given.scene.look, {1, 1}, std::nullopt, Hues::free); }
+bool has_shadows(const GivenScene& given) { return resulting_look(given).shadows > 0.0f; }
+
+/// Returns true unless colours are simply those given. Objects may have a material of their own.
+bool is_shaded(const GivenScene& given) {
+  return given.any({"figure.object"}) || resulting_look(given).material.ambient < 1.0f;
+}
+
+bool has_highlights(const GivenScene& given) {
+  return given.any({"figure.object"}) || resulting_look(given).material.specular > 0.0f;
+}
+
+bool has_transparent_pixels(const GivenScene& given) {
+  const std::string_view output = given.scene.output;
+  return given.is_live || (!given.scene.image.background &&
+                           (output.ends_with(".png") || output.ends_with(".tif") || output.ends_with(".tiff")));
+}
+
+const std::vector<Need>& needs_of_scenes() {
+  static const std::vector<Need> kNeeds{
+      {{"frames.trajectory_atoms", "frames.trust_atom_order", "frames.select_once", "frames.whole", "frames.superpose",
+        "frames.center", "frames.reference", "frames.smooth", "camera.path", "camera.turntable", "camera.follow",
+        "annotations.time_stamp", "annotations.curve", "report.csv_series", "report.csv_cavities", "report.plot"},
+       is_run,
+       "there is no run of frames; add @trajectory FILE@, @frames all@ for the models of FILE, or @repeat N@ to show "
+       "one molecule N times",
+       true},
+      {{"surface.min_patch", "look.patch_lines", "look.patch_line_color"},
+       has_patches,
+       "there are no patches; add @patches EXPR@"},
+      {{"frames.reference"},
+       {"frames.superpose", "frames.center"},
+       "it is the frame that @superpose@ and @center@ refer to; add one of them",
+       true},
+      {{"frames.trajectory_atoms", "frames.trust_atom_order"},
+       {"frames.trajectory"},
+       "the frames are models of FILE itself; add @trajectory FILE@",
+       true},
+      {{"surface.film_opacity", "surface.patches"},
+       [](const GivenScene& given) { return !given.any({"surface.shown"}); },
+       "the surface is hidden, and shapes beside it are no films, and have no patches"},
+      {{"surface.clip"},
+       [](const GivenScene& given) { return !given.any({"surface.shown"}) || given.any({"surface.clip_all"}); },
+       "the surface is hidden; add @clip-all@ to cut what is beside it"},
+      {{"surface.cap_color", "surface.cap_hatching", "surface.clip_all"},
+       {"surface.clip", "camera.look_into"},
+       "nothing is cut; add @clip PLANE@"},
+      {{"surface.film_opacity"}, {"surface.opacity"}, "all of the surface is opaque; add @opacity@"},
+      {{"shapes.stick_radius"},
+       {"figure.sticks", "figure.balls", "figure.bases", "figure.glycans"},
+       "there are no sticks; add @sticks EXPR@, @balls EXPR@ or @bases EXPR@"},
+      {{"shapes.tube_radius"}, {"figure.tube"}, "there is no tube; add @tube EXPR@"},
+      {{"legend.title", "legend.size", "legend.place", "legend.names"}, has_legend, "there is no legend; add @legend@"},
+      {{"annotations.letter_size", "annotations.letter_color"},
+       has_letters,
+       "there are no letters in the picture; add @legend@, @label@, @scale-bar@ or @panel@"},
+      {{"surface.color_title", "surface.color_unit"},
+       names_a_scale,
+       "they name the scale of a legend, and there is none"},
+      {{"look.light", "look.light_strength"},
+       [](const GivenScene& given) { return is_shaded(given) || has_highlights(given) || has_shadows(given); },
+       "with @ambient 1@, as @preset flat@ has it, colours are exactly those given; add a smaller @ambient@"},
+      {{"look.roughness"},
+       is_shaded,
+       "with @ambient 1@, as @preset flat@ has it, nothing is shaded; add a smaller @ambient@"},
+      {{"look.shininess"}, has_highlights, "there are no highlights; add @specular@"},
+      {{"look.shadow_softness"}, has_shadows, "there are no shadows; add @shadows@"},
+      {{"look.ambient_occlusion_radius", "look.ambient_occlusion_rays"},
+       [](const GivenScene& given) { return resulting_look(given).ambient_occlusion > 0.0f; },
+       "no shade is cast; add @ambient-occlusion@"},
+      {{"look.linear_alpha"}, has_transparent_pixels, "it is for the edges of transparent .png and .tif pictures"}};
+  return kNeeds;
+}
+
+/// Returns the last text of a value that was given; empty if there is none.
+std::string text_of(const GivenScene& given, std::string_view key) {
+  const Property& property = property_of(key);
+  const std::vector<std::string> texts =
+      given.is_given(key) && is_scene_value(property) ? value_texts(given.scene, property) : std::vector<std::string>();
+  return texts.empty() ? "" : texts.back();
+}
+
+/// Returns the option of a property as this door spells it.
+std::string name_of(std::string_view key) { return option_name(property_of(key).long_option().substr(2)); }
+
+void add_unlikely_values(const GivenScene& given, std::vector<SceneNote>& notes) {
+  constexpr double kSmallestUsualProbe = 0.5, kSmallestUsualSide = 200.0;  // Å, pixels
+  double number = 0.0;
+  if (const std::string probe = text_of(given, "surface.probe");
+      parse_number(probe, number) && number > 0.0 && number < kSmallestUsualProbe)
+    notes.push_back({message("warning: @probe {}@ is in Å, and no solvent is so small; {} nm would be @probe {:g}@",
+                             probe, probe, 10.0 * number)});
+  for (const std::string_view side : {"image.width", "image.height"}) {
+    const std::string length = text_of(given, side), name = name_of(side);
+    if (parse_number(length, number) && number < kSmallestUsualSide)
+      notes.push_back(
+          {fmt::format("warning: {} {} is in pixels, which makes a small picture; in millimetres it is {} {}mm", name,
+                       length, name, length)});
+  }
+}
+
+}  // namespace
+
+bool GivenScene::any(const std::vector<std::string_view>& keys) const { return std::ranges::any_of(keys, is_given); }
+
+Condition::Condition(std::initializer_list<std::string_view> keys)
+    : is_met([any = std::vector(keys)](const GivenScene& given) { return given.any(any); }) {}
+
+std::vector<SceneNote> idle_values(const GivenScene& given, std::span<const Need> needs) {
+  std::vector<SceneNote> notes;
+  const auto add = [&](const Need& need) {
+    std::vector<std::string> idle;
+    for (const std::string_view key : need.keys)
+      if (given.is_given(key)) idle.push_back(name_of(key));
+    if (idle.empty() || need.condition.is_met(given)) return;
+    notes.push_back({fmt::format("{}{} {} no effect: {}", need.is_refused ? "" : "note: ", fmt::join(idle, ", "),
+                                 idle.size() == 1 ? "has" : "have", with_options(need.missing)),
+                     need.is_refused});
+  };
+  std::ranges::for_each(needs_of_scenes(), add);
+  std::ranges::for_each(needs, add);
+  add_unlikely_values(given, notes);
+  return notes;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The two kinds of renderer: one draws finished surfaces into still pictures, the other finds and draws what each view
+// of a preview needs.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "core/base/stage_clock.h"
+#include "core/math/ball.h"
+#include "core/render/cpu/cpu_renderer.h"
+#include "core/render/hit_point.h"
+#include "core/render/picture.h"
+
+namespace meniscus {
+
+class EglContext;
+struct BesideSurface;
+struct Camera;
+struct FigureRequest;
+struct Instances;
+struct SurfaceObject;
+
+/// Draws computed surfaces and shapes into pictures in memory, one after another, for files. This one draws on the CPU.
+class StillRenderer {
+ public:
+  /// most_lanes: as of CpuRenderer.
+  explicit StillRenderer(int most_lanes = 16) : cpu_(most_lanes) {}
+  virtual ~StillRenderer() = default;
+
+  /// Returns a picture of any objects, of any size, cut and seen through as they say; the same for any block_edge.
+  /// objects: at least one; each colouring has one colour for each atom of its object, and atoms of the AOVs are places
+  /// in it. Throws InputError for a bad camera; GpuError and CapacityError where GL makes it.
+  virtual Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
+                             const RenderSettings& settings) {
+    return cpu_.render(objects, camera, settings);
+  }
+  /// Returns the picture of merged(objects), to the bit, where copies need not be in memory all at once: what its
+  /// pixels show is kept. Rays of traced light turn to each copy instead, so that the edges of shadows may differ by
+  /// rounding. Atoms and components of the AOVs are those of merged(). objects: at least one, as merged() wants them.
+  /// Throws as render().
+  virtual Framebuffer render_copies(std::span<const SurfaceObject> objects, const Camera& camera,
+                                    const RenderSettings& settings) {
+    return cpu_.render_copies(objects, camera, settings);
+  }
+
+  /// Returns the times of the stages of the last picture.
+  virtual const std::vector<StageTime>& times() const { return cpu_.times(); }
+  /// Returns the name of the device of the last picture: "cpu (2 threads)", or renderer and version of GL.
+  virtual std::string device() const { return CpuRenderer::device(); }
+
+ private:
+  CpuRenderer cpu_;
+};
+
+/// Returns a renderer that draws whole surfaces on GL, and on the CPU what has layers, copies, mattes or traced light.
+/// context: current, and lives longer.
+std::unique_ptr<StillRenderer> make_gl_still_renderer(const EglContext& context);
+
+/// Finds what a view needs of the solvent-excluded surface of some atoms, draws it, and keeps the last picture: for
+/// previews. Used by one thread.
+class PreviewRenderer {
+ public:
+  virtual ~PreviewRenderer() = default;
+
+  /// Sets the van der Waals balls, Å, of one frame; there must be one.
+  virtual void set_atoms(std::vector<Ball> atoms) = 0;
+  /// Sets one colour per atom, after atoms of another number and before the next picture.
+  virtual void set_coloring(const Coloring& coloring) = 0;
+
+  /// Sets what is cut, seen through, hidden and shown in addition to the surface (nullptr: nothing). Such views are
+  /// cast on the CPU whatever draws the others.
+  virtual void set_figure(const FigureRequest& request, std::shared_ptr<const BesideSurface> beside) = 0;
+
+  /// Draws a finished picture over the look's background. probe_radius: Å, >= 0. stop is called now and then on this
+  /// thread, also between the stages of a surface; if it returns true, the picture is given up: draw() returns false,
+  /// the picture before stays, and nothing can be picked. Throws GpuError, CapacityError, OpenSurfaceError, InputError
+  /// for a bad camera, RequestError where nothing is shown.
+  virtual bool draw(double probe_radius, const Camera& camera, const RenderSettings& settings,
+                    const std::function<bool()>& stop = {}) = 0;
+
+  /// Returns the last drawn picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.
+  virtual std::vector<std::uint8_t> rgba() const = 0;
+  /// Returns it as a GL texture (GL_RGBA8, sRGB values, first row on top) that lives until the next draw; 0: none.
+  virtual std::uint32_t texture() const { return 0; }
+  virtual glm::ivec2 size() const = 0;
+  /// Returns what a pixel of the last drawn picture shows; nothing where nothing is hit. pixel: column, row from the
+  /// top. Its object is 0 for the surface, with its atoms; 1 for the shapes drawn in addition, 2 + n for the n-th of
+  /// BesideSurface::objects, whose atoms are places in shown_atoms(). For copies see make_cpu_copies_renderer().
+  virtual std::optional<PickedPoint> pick(glm::ivec2 pixel) const = 0;
+
+  /// Returns the complete surface of the atoms, if that is what is drawn; else nullptr.
+  virtual std::shared_ptr<const Surface> surface() const { return nullptr; }
+  /// Returns by how much, Å, radii were grown at most for the last picture to tell ties apart; 0 as a rule.
+  virtual double grown_by() const = 0;
+  /// True if the CPU casts the picture that the next draw makes.
+  virtual bool draws_on_cpu() const = 0;
+  /// Returns the times of the stages of the last picture.
+  virtual const std::vector<StageTime>& times() const = 0;
+};
+
+/// Returns a renderer of the part of the surface that each view shows, which GL finds for every picture (ViewPipeline).
+/// It needs a current GL context for its whole life.
+std::unique_ptr<PreviewRenderer> make_gl_preview_renderer();
+
+/// Returns a renderer of the complete surface, which the CPU computes once for all views of the same atoms and probe.
+std::unique_ptr<PreviewRenderer> make_cpu_preview_renderer();
+
+/// Returns a renderer of one surface for each group of atoms, as if it were alone, wherever its copies are; the CPU
+/// never has all copies in memory. set_atoms(), set_coloring() and pick() are about the atoms of one copy, which
+/// `copies` name by index.
+std::unique_ptr<PreviewRenderer> make_cpu_copies_renderer(std::vector<Instances> copies);
+
+/// Returns a renderer that gives another one the atoms of all copies. No probe may touch two copies at once
+/// (closest_contact); then its pictures are those of make_cpu_copies_renderer().
+std::unique_ptr<PreviewRenderer> make_placed_atoms_renderer(std::vector<Instances> copies,
+                                                            std::unique_ptr<PreviewRenderer> renderer);
+
+}  // namespace meniscus

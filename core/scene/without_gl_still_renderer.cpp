@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Replaces the GL renderer in builds without epoxy: without a context it is never called.
+#include "core/scene/renderers.h"
+
+namespace meniscus {
+
+std::unique_ptr<StillRenderer> make_gl_still_renderer(const EglContext&) { return nullptr; }
+
+}  // namespace meniscus

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every function of the C interface uses: errors as status codes, checks of the caller's memory, and reference
+// counts of the objects behind handles.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/version.h"
+#include "exporters/bindings/c/include/meniscus/meniscus.h"
+
+namespace meniscus::c_api {
+
+// ---- Errors
+
+/// A call with invalid arguments. It becomes the status and the message of the call.
+class Refusal : public std::runtime_error {
+ public:
+  Refusal(meniscus_status status, const std::string& text) : std::runtime_error(text), status_(status) {}
+  meniscus_status status() const { return status_; }
+
+ private:
+  meniscus_status status_;
+};
+
+/// Throws a Refusal with a formatted message.
+template <typename... Values>
+[[noreturn]] void refuse(meniscus_status status, fmt::format_string<Values...> text, const Values&... values) {
+  throw Refusal(status, fmt::vformat(fmt::string_view(text), fmt::make_format_args(values...)));
+}
+
+/// Stores the message of an exception for meniscus_last_error() in this thread, and returns its status.
+meniscus_status report(const std::exception_ptr& error) noexcept;
+
+/// Calls a function, and returns the status of the exception that it throws. Each function of the interface that can
+/// fail is one such call.
+template <typename Call>
+meniscus_status guarded(const Call& call) noexcept {
+  try {
+    call();
+    return MENISCUS_OK;
+  } catch (...) {
+    return report(std::current_exception());
+  }
+}
+
+// ---- Memory of the caller
+
+/// The largest size of an array in bytes, which is half the address space. Larger sizes come from negative or
+/// overflowing numbers.
+inline constexpr std::size_t kMostBytes = std::numeric_limits<std::size_t>::max() / 2;
+
+/// Refuses NULL, and an address that is not aligned for such an object, with MENISCUS_USAGE.
+template <typename Object>
+void require(const Object* pointer, const char* name) {
+  if (!pointer) refuse(MENISCUS_USAGE, "{} is NULL", name);
+  if constexpr (!std::is_void_v<Object>)
+    if (reinterpret_cast<std::uintptr_t>(pointer) % alignof(Object) != 0)
+      refuse(MENISCUS_USAGE, "{} is not aligned: its address is not a multiple of {}", name, alignof(Object));
+}
+
+/// The layout of a caller's array: `count` rows of `width` numbers of `number` bytes each. Rows begin `stride` bytes
+/// after each other; 0 means that they are contiguous.
+struct CallerRows {
+  std::size_t count, width, number, stride = 0;
+};
+
+/// Returns the stride of the rows in bytes. Refuses an impossible array with MENISCUS_USAGE: NULL, an address or a
+/// stride that is not aligned for its numbers, a stride shorter than a row, and rows that do not fit into memory. An
+/// array without rows may be NULL.
+std::size_t require_rows(const void* data, const CallerRows& rows, const char* name);
+
+/// Refuses an impossible array of contiguous rows with MENISCUS_USAGE.
+template <typename Number>
+void require_numbers(const Number* data, std::size_t count, std::size_t width, const char* name) {
+  require_rows(data, {count, width, sizeof(Number)}, name);
+}
+
+/// Refuses arrays that overlap, of which one is written while the other is read, with MENISCUS_USAGE.
+void require_apart(const void* written, std::size_t written_bytes, const char* written_name, const void* read,
+                   std::size_t read_bytes, const char* read_name);
+
+/// Refuses a reserved field that is not 0 with MENISCUS_USAGE.
+inline void require_zero(std::int32_t reserved, const char* name) {
+  if (reserved != 0) refuse(MENISCUS_USAGE, "{} is {}; it has to be 0", name, reserved);
+}
+
+/// Refuses a number outside of the range of a property with MENISCUS_INPUT. key: that of the property. name, unit:
+/// those of the message, as in "tolerance is 2 Å".
+void check_number(std::string_view key, const char* name, double value, const char* unit);
+
+/// Refuses a number that is outside of a range, or NaN, with MENISCUS_INPUT.
+inline void check_range(const char* name, double value, double low, double high) {
+  if (!(value >= low && value <= high))
+    refuse(MENISCUS_INPUT, "{} is {}; it has to be {} to {}", name, value, low, high);
+}
+
+/// The largest size of a caller's struct in bytes, in any version. A struct is also larger than its field `size`.
+inline constexpr std::size_t kLargestStruct = 4096;
+
+inline void check_size(std::size_t size, const char* name) {
+  if (size <= sizeof(std::size_t) || size > kLargestStruct)
+    refuse(MENISCUS_USAGE, "{}.size is {}; set it to sizeof({})", name, size, name);
+}
+
+/// Returns a copy of the caller's struct. Fields that the caller's version does not have are those of `defaults`.
+/// Refuses fields that this library does not know, unless they are zero, with MENISCUS_USAGE.
+template <typename Struct>
+Struct read_struct(const Struct* given, const Struct& defaults, const char* name) {
+  require(given, name);
+  check_size(given->size, name);
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(given);
+  if (given->size > sizeof(Struct) &&
+      std::any_of(bytes + sizeof(Struct), bytes + given->size, [](unsigned char byte) { return byte != 0; }))
+    refuse(MENISCUS_USAGE, "{} asks for more than version {} of this library knows", name, MENISCUS_VERSION);
+  Struct result = defaults;
+  std::memcpy(&result, given, std::min(given->size, sizeof(Struct)));
+  result.size = sizeof(Struct);
+  return result;
+}
+
+/// Returns the caller's options, or the defaults if the pointer is NULL.
+template <typename Struct>
+Struct read_options(const Struct* given, const Struct& defaults, const char* name) {
+  return given ? read_struct(given, defaults, name) : defaults;
+}
+
+/// Copies a value to the caller's struct, but for fields that the caller's version does not have.
+template <typename Struct>
+void write_struct(Struct* given, const Struct& value, const char* name) {
+  require(given, name);
+  check_size(given->size, name);
+  const std::size_t size = given->size;
+  std::memcpy(given, &value, std::min(size, sizeof(Struct)));
+  given->size = size;
+}
+
+/// Returns a view of rows.
+template <typename Row>
+meniscus_array table_of(const std::vector<Row>& rows) {
+  return {rows.data(), rows.size(), sizeof(Row)};
+}
+
+// ---- Handles
+
+/// A reference count, with which an object begins at 1.
+class Counted {
+ public:
+  void retain() noexcept { references_.fetch_add(1, std::memory_order_relaxed); }
+  /// Returns true if that was the last reference.
+  bool remove_reference() noexcept { return references_.fetch_sub(1, std::memory_order_acq_rel) == 1; }
+  /// Returns true if the caller has the only reference.
+  bool has_one_reference() const noexcept { return references_.load(std::memory_order_acquire) == 1; }
+
+ private:
+  std::atomic<std::uint32_t> references_{1};
+};
+
+/// Adds a reference, and returns the object. NULL is allowed.
+template <typename Object>
+Object* retain(Object* object) noexcept {
+  if (object) object->retain();
+  return object;
+}
+
+/// Removes a reference, and deletes the object with the last one. NULL is allowed.
+template <typename Object>
+void release(Object* object) noexcept {
+  if (object && object->remove_reference()) delete object;
+}
+
+}  // namespace meniscus::c_api
