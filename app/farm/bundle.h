@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "app/film/film_format.h"
-#include "core/properties/property.h"
 
 namespace meniscus::farm {
 
