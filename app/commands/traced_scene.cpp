@@ -16,7 +16,7 @@ namespace meniscus {
 namespace {
 
 // Returns the middle of the balls, rounded to three decimals.
-glm::dvec3 middle_of(std::span<const Ball> balls) {
+glm::dvec3 rounded_center(std::span<const Ball> balls) {
   Box box;
   for (const Ball& ball : balls) box.include(ball.center);
   return glm::round((box.low + box.high) * 0.5e3) / 1e3;
@@ -67,7 +67,7 @@ TracedScene traced_scene(const FigureRun& run, FigureFrame frame) {
   const std::vector<Ball> balls = run.is_run() ? standing_balls(run.structure()) : figure.balls();
   const double tolerance = tolerance_of(asked.mesh, asked.picture.size(), run.camera(0), balls);
   path_tracers::Scene scene;
-  scene.origin = run.is_run() ? run.framing().origin() : middle_of(balls);
+  scene.origin = run.is_run() ? run.framing().origin() : rounded_center(balls);
   scene.camera = frame.camera;
   scene.width = asked.picture.width;
   scene.height = asked.picture.height;

@@ -17,7 +17,7 @@
 namespace meniscus {
 namespace {
 
-glm::dvec3 middle_of(std::span<const Ball> balls) {
+glm::dvec3 mean_center(std::span<const Ball> balls) {
   glm::dvec3 sum(0.0);
   for (const Ball& ball : balls) sum += ball.center;
   return sum / static_cast<double>(balls.size());
@@ -37,14 +37,14 @@ class CameraCourse {
                   "show it N times"));
     if (!motion.follow) return;
     followed_ = followed_of(frames.first());
-    start_ = middle_of(standing_balls(frames.first_shown(), followed_));
+    start_ = mean_center(standing_balls(frames.first_shown(), followed_));
     follows_others_ = run.atoms_change() || motion.follow->uses_positions();
   }
 
   bool follows() const { return !followed_.empty(); }
   glm::dvec3 shift(const Structure& read, const Structure& shown) const {
     if (!follows()) return glm::dvec3(0.0);
-    return middle_of(standing_balls(shown, follows_others_ ? followed_of(read) : followed_)) - start_;
+    return mean_center(standing_balls(shown, follows_others_ ? followed_of(read) : followed_)) - start_;
   }
   double angle(std::uint64_t place) const {
     return 2.0 * std::numbers::pi * motion_.turns * static_cast<double>(place) / count_;
@@ -117,7 +117,7 @@ std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionReque
   const ViewAim aim(view, show, frames.first());
   const std::vector<Ball> shown = aim.shown(frames.first_shown()), framed = aim.framed(frames.first_shown());
   const ViewedBalls seen{shown, framed, aim.symmetry()};
-  const CameraCourse course(motion, frames, middle_of(framed));
+  const CameraCourse course(motion, frames, mean_center(framed));
 
   const ViewBasis basis = aimed_basis(view, given.still, seen);
   Camera lens;
