@@ -182,7 +182,7 @@ class MeshMender::FaultCache {
     }
     return count;
   }
-  /// Returns how many pairs these triangles are part of that cross.
+  /// Returns the number of crossing pairs that contain one of these triangles.
   std::size_t crossings(const std::vector<std::uint32_t>& removed) {
     if (removed == removed_) return crossings_;
     std::vector<PlacedTriangle> now;

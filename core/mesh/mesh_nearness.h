@@ -55,8 +55,8 @@ class MeshNearness {
   const SurfaceWalk& walk_;
   const EvenSizes& sizes_;
   std::vector<SurfacePoint> targets_;  ///< places that the mesh has to come near
-  std::vector<std::uint64_t>
-      near_keys_;  ///< per place to reach: the key of a triangle that was near it; 0: none is known
+  /// Per target: the key of a triangle that was near it; 0: none is known.
+  std::vector<std::uint64_t> near_keys_;
   std::vector<SurfacePoint> fine_vertices_;  ///< computed on first use
   mutable std::once_flag distance_made_;
   mutable std::optional<SurfaceDistance> distance_;

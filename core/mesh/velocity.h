@@ -18,8 +18,8 @@ struct TriangleMesh;
 
 /// The velocities of the points of one surface, in the unit of the velocities of its atoms (Å per frame).
 ///
-/// A point of a convex patch moves with its atom. A probe at s that touches atoms c_i keeps |s - c_i| = r_i + p, so (s
-/// - c_i) . (s' - c_i') = 0. Three atoms determine the velocity s' of a fixed probe (more: least squares). A rolling
+/// A point of a convex patch moves with its atom. A probe at s that touches atoms c_i keeps |s - c_i| = r_i + p, so
+/// (s - c_i) . (s' - c_i') = 0. Three atoms determine the velocity s' of a fixed probe (more: least squares). A rolling
 /// probe touches two; a third equation gives its motion along its circle: that of the line through the atoms, plus a
 /// part that varies linearly with the circle's angle between the values of the fixed probes at its ends. The directions
 /// from the probe to its contacts turn with the angular velocity w that fits them best, and a point x of the probe's

@@ -200,7 +200,7 @@ class PartBuilder {
         for (const std::uint32_t f : faces) pieces[patch.piece(f - patch.first_face)] = true;
         patch.has_piece = pieces;
       }
-      if (has_no_probe()) {  // the border of the same number
+      if (has_no_probe()) {  // it has the border of the same number
         border_(t);
         surface_.borders.push_back(whole_.borders[t]);
       }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kSteps = 8;             // sections between two residues
 constexpr std::uint32_t kSides = 16;  // points of a section
-constexpr int kCapRings = 3;          ///< rings of vertices on a round end
+constexpr int kCapRings = 3;          // rings of vertices on a round end
 // Å; steps between bonded residues are 3.8 and 5 to 7.5.
 constexpr double kLongestStep = 4.5, kLongestPhosphateStep = 8.5;
 constexpr double kShortestStep = 0.5;  // Å; residues that are nearer are duplicates
