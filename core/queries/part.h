@@ -15,11 +15,11 @@ struct SurfacePart {
   std::vector<std::uint32_t> atom;  ///< per surface.atoms: its index in the whole surface
 };
 
-/// Returns the components c with keep[c] as a closed surface with tables of its own. Its faces, borders and measures are
-/// those of the whole surface; patches without a remaining face are dropped. A patch may have faces that stay and faces that go, for
-/// example on an atom between the outside and a cavity. Planes are then added that separate them, and if no plane
-/// separates some of the faces that stay from others, each gets a patch of its own. Throws CapacityError if a face
-/// cannot be separated from another one of its patch by a plane.
+/// Returns the components c with keep[c] as a closed surface with tables of its own. Its faces, borders and measures
+/// are those of the whole surface; patches without a remaining face are dropped. A patch may have faces that stay and
+/// faces that go, for example on an atom between the outside and a cavity. Planes are then added that separate them,
+/// and if no plane separates some of the faces that stay from others, each gets a patch of its own. Throws
+/// CapacityError if a face cannot be separated from another one of its patch by a plane.
 SurfacePart part_of(const Surface& surface, const std::vector<bool>& keep);
 
 /// Returns true for the components that the outside reaches: all but cavities and what lies inside of a cavity. An
