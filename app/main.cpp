@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/commands/commands.h"
+#include "app/commands/command_table.h"
 #include "app/options/named_files.h"
 #include "app/options/usage_faults.h"
 #include "app/process/program_error.h"

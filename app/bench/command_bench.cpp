@@ -9,16 +9,16 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include "app/commands/commands.h"
-#include "core/scene/molecule.h"
 #include "app/bench/paper_bench.h"
-#include "app/options/property_options.h"
-#include "app/process/program_error.h"
-#include "core/base/text.h"
-#include "core/structure/formats/structure_formats.h"
-#include "app/reports/notes.h"
-#include "app/options/scene_options.h"
 #include "app/bench/rolling_probe.h"
+#include "app/commands/command_table.h"
+#include "app/options/property_options.h"
+#include "app/options/scene_options.h"
+#include "app/process/program_error.h"
+#include "app/reports/notes.h"
+#include "core/base/text.h"
+#include "core/scene/molecule.h"
+#include "core/structure/formats/structure_formats.h"
 
 namespace meniscus {
 namespace {

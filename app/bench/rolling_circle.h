@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/base/constants.h"
-#include "core/math/geometry.h"
+#include "core/math/double_geometry.h"
 #include "core/math/quad_geometry.h"
 
 namespace meniscus {

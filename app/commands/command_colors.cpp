@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include "app/commands/commands.h"
+#include "app/commands/command_table.h"
 #include "core/base/message.h"
 #include "core/color/color_schemes.h"
 

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <memory>
 
-#include "app/commands/commands.h"
+#include "app/commands/command_table.h"
 #include "app/options/command_tree.h"
 #include "app/options/property_options.h"
 #include "app/process/program_error.h"

@@ -12,8 +12,8 @@
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
-#include "app/commands/blender_meshes.h"
-#include "app/commands/commands.h"
+#include "app/commands/command_table.h"
+#include "app/commands/figure_meshes.h"
 #include "app/commands/povray_figures.h"
 #include "app/commands/render_command.h"
 #include "app/commands/traced_scene.h"

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/commands.h"
+#include "app/commands/command_table.h"
 #include "app/commands/picture_sink.h"
 #include "app/commands/storyboard.h"
 #include "app/film/film.h"

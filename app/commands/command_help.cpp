@@ -9,14 +9,14 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include "app/commands/commands.h"
+#include "app/commands/command_table.h"
 #include "app/commands/manual_pages.h"
 #include "app/options/command_tree.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_schema.h"
 #include "app/process/program_error.h"
 #include "app/process/this_program.h"
-#include "app/reports/man_page.h"
+#include "app/reports/command_manual.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
 #include "core/base/version.h"

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include "app/commands/commands.h"
+#include "app/commands/command_table.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/reports/file_report.h"

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/commands.h"
-#include "app/commands/scene_files.h"
+#include "app/commands/command_table.h"
+#include "app/commands/shared_scenes.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_error.h"

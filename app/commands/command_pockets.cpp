@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/commands.h"
+#include "app/commands/command_table.h"
 #include "app/commands/pockets_command.h"
 #include "app/options/numbered_path.h"
 #include "app/options/property_options.h"

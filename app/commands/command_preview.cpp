@@ -19,27 +19,27 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/commands.h"
+#include "app/commands/command_table.h"
 #include "app/commands/preview_command.h"
-#include "core/scene/molecule.h"
+#include "app/options/scene_options.h"
 #include "app/preview/command_json.h"
 #include "app/preview/server/clients.h"
 #include "app/preview/server/serve.h"
 #include "app/preview/session.h"
 #include "app/preview/window/window.h"
 #include "app/process/program_error.h"
-#include "core/scene/frame_run.h"
-#include "core/scene/run_framing.h"
-#include "core/scene/settled_selections.h"
-#include "core/scene/copied_atoms.h"
+#include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "app/reports/notes.h"
-#include "app/options/scene_options.h"
 #include "core/gpu/egl_context.h"
+#include "core/scene/copied_atoms.h"
+#include "core/scene/frame_run.h"
+#include "core/scene/molecule.h"
 #include "core/scene/picture_device.h"
-#include "core/scene/view_aim.h"
 #include "core/scene/renderers.h"
+#include "core/scene/run_framing.h"
+#include "core/scene/settled_selections.h"
+#include "core/scene/view_aim.h"
 
 namespace meniscus {
 namespace {

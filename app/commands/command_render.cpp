@@ -10,12 +10,12 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/commands.h"
-#include "app/commands/figure_run.h"
+#include "app/commands/command_run.h"
+#include "app/commands/command_table.h"
 #include "app/commands/picture_sink.h"
 #include "app/commands/render_command.h"
 #include "app/commands/resumed_run.h"
-#include "app/commands/scene_files.h"
+#include "app/commands/shared_scenes.h"
 #include "app/film/film_format.h"
 #include "app/options/named_files.h"
 #include "app/options/numbered_path.h"

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/commands.h"
+#include "app/commands/command_table.h"
 #include "app/farm/worker.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "app/commands/commands.h"
+#include "app/commands/command_table.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"

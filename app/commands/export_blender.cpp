@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/blender_meshes.h"
-#include "app/commands/commands.h"
-#include "app/commands/figure_run.h"
+#include "app/commands/command_run.h"
+#include "app/commands/command_table.h"
+#include "app/commands/figure_meshes.h"
 #include "app/commands/mesh_notes.h"
 #include "app/options/scene_options.h"
 #include "app/reports/notes.h"

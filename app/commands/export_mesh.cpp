@@ -10,17 +10,17 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/commands.h"
-#include "app/commands/figure_run.h"
+#include "app/commands/command_run.h"
+#include "app/commands/command_table.h"
 #include "app/commands/mesh_notes.h"
-#include "app/options/scene_options.h"
 #include "app/options/numbered_path.h"
-#include "app/reports/notes.h"
+#include "app/options/scene_options.h"
 #include "app/process/program_error.h"
+#include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/render/look.h"
-#include "exporters/mesh_files/file_object.h"
+#include "exporters/mesh_files/mesh_file_maker.h"
 #include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus {

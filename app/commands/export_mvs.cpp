@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/commands.h"
-#include "app/commands/figure_run.h"
+#include "app/commands/command_run.h"
+#include "app/commands/command_table.h"
 #include "app/commands/traced_scene.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_error.h"

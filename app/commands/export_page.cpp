@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/commands.h"
-#include "app/commands/figure_run.h"
+#include "app/commands/command_run.h"
+#include "app/commands/command_table.h"
 #include "app/commands/page_views.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"

@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/commands.h"
-#include "app/commands/figure_run.h"
+#include "app/commands/command_run.h"
+#include "app/commands/command_table.h"
 #include "app/commands/povray_figures.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
@@ -22,8 +22,8 @@
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/queries/copies.h"
+#include "exporters/povray/povray_run.h"
 #include "exporters/povray/scene.h"
-#include "exporters/povray/sequence.h"
 
 namespace meniscus {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/commands.h"
-#include "app/commands/figure_run.h"
+#include "app/commands/command_run.h"
+#include "app/commands/command_table.h"
 #include "app/commands/number_run.h"
 #include "app/options/numbered_path.h"
 #include "app/options/property_options.h"

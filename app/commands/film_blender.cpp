@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/blender_meshes.h"
+#include "app/commands/figure_meshes.h"
 #include "app/commands/mesh_notes.h"
 #include "app/commands/storyboard.h"
 #include "app/process/program_error.h"

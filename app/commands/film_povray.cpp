@@ -20,7 +20,7 @@
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/properties/property.h"
-#include "exporters/povray/sequence.h"
+#include "exporters/povray/povray_run.h"
 
 namespace meniscus {
 namespace {

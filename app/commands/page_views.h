@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/commands/figure_run.h"
+#include "app/commands/command_run.h"
 #include "app/options/scene_options.h"
 #include "core/camera/camera.h"
 #include "core/scene/figure.h"

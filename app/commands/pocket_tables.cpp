@@ -24,7 +24,7 @@
 #include "core/scene/molecule_pockets.h"
 #include "core/scene/scene_paths.h"
 #include "core/scene/settled_selections.h"
-#include "exporters/mesh_files/file_object.h"
+#include "exporters/mesh_files/mesh_file_maker.h"
 #include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus {

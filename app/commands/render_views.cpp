@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include "app/commands/figure_run.h"
+#include "app/commands/command_run.h"
 #include "app/commands/picture_sink.h"
 #include "app/commands/render_command.h"
 #include "app/options/scene_options.h"
@@ -24,9 +24,9 @@
 #include "core/base/text.h"
 #include "core/color/color_atoms.h"
 #include "core/gpu/egl_context.h"
+#include "core/render/gl_renderer.h"
 #include "core/render/picture.h"
 #include "core/render/picture_file.h"
-#include "core/render/gl_renderer.h"
 #include "core/scene/figure_key.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/molecule.h"

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/scene_files.h"
+#include "app/commands/shared_scenes.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
 #include "core/base/parse_number.h"

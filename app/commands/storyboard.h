@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/commands/figure_run.h"
+#include "app/commands/command_run.h"
 #include "app/commands/picture_sink.h"
 #include "app/options/scene_options.h"
 #include "core/scene/picture_device.h"

@@ -4,9 +4,9 @@
 
 #include <span>
 
-#include "app/commands/figure_run.h"
+#include "app/commands/command_run.h"
 #include "core/camera/camera.h"
-#include "exporters/path_tracers/scene.h"
+#include "exporters/path_tracers/path_tracer_scene.h"
 
 namespace meniscus {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reports that there is no `meniscus preview`, in builds without window and page.
-#include "app/commands/commands.h"
+#include "app/commands/command_table.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_error.h"
 

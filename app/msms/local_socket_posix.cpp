@@ -10,7 +10,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-#include "app/msms/local_socket.h"
+#include "app/msms/socket_server.h"
 #include "core/base/uninterrupted.h"
 
 namespace meniscus::msms {

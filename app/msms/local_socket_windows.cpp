@@ -6,7 +6,7 @@
 
 #include <winsock2.h>
 
-#include "app/msms/local_socket.h"
+#include "app/msms/socket_server.h"
 
 namespace meniscus::msms {
 namespace {

@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 
 #include "app/msms/chosen_surface.h"
-#include "app/msms/local_socket.h"
+#include "app/msms/socket_server.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/version.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes manual pages.
-#include "app/reports/man_page.h"
+#include "app/reports/command_manual.h"
 
 #include <algorithm>
 #include <cctype>

@@ -13,7 +13,7 @@
 
 #include "core/math/ball_grid.h"
 #include "core/math/spiral.h"
-#include "core/queries/part.h"
+#include "core/queries/surface_parts.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {

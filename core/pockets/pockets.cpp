@@ -16,10 +16,10 @@
 #include "core/math/union_find.h"
 #include "core/pockets/hull.h"
 #include "core/pockets/probe_cells.h"
-#include "core/queries/part.h"
+#include "core/queries/surface_parts.h"
 #include "core/surface/atom_areas.h"
-#include "core/surface/primitives.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/primitives.h"
 
 namespace meniscus {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/math/geometry.h"
+#include "core/math/double_geometry.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {

@@ -13,7 +13,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/math/ball_grid.h"
-#include "core/math/geometry.h"
+#include "core/math/double_geometry.h"
 
 namespace meniscus {
 namespace {

@@ -13,10 +13,10 @@
 
 #include "core/base/error.h"
 #include "core/base/message.h"
+#include "core/camera/camera.h"
 #include "core/image/color_space.h"
 #include "core/render/label_layout.h"
-#include "core/render/text_raster.h"
-#include "core/camera/camera.h"
+#include "core/render/lettering.h"
 
 namespace meniscus {
 namespace {

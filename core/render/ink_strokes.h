@@ -11,7 +11,7 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
-#include "core/render/text_raster.h"
+#include "core/render/lettering.h"
 
 namespace meniscus {
 

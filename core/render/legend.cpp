@@ -10,9 +10,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/image/color_space.h"
-#include "core/render/text_raster.h"
 #include "core/base/constants.h"
+#include "core/image/color_space.h"
+#include "core/render/lettering.h"
 
 namespace meniscus {
 namespace {

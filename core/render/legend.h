@@ -11,9 +11,9 @@
 #include <glm/vec3.hpp>
 
 #include "core/color/color_key.h"
+#include "core/render/lettering.h"
 #include "core/render/letters.h"
 #include "core/render/picture.h"
-#include "core/render/text_raster.h"
 
 namespace meniscus {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/math/geometry.h"
+#include "core/math/double_geometry.h"
 
 namespace meniscus::geometry {
 

@@ -14,7 +14,7 @@
 #include "core/render/annotation.h"
 #include "core/render/image_output.h"
 #include "core/render/legend.h"
-#include "core/render/text_raster.h"
+#include "core/render/lettering.h"
 
 namespace meniscus {
 

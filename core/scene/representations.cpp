@@ -13,8 +13,8 @@
 #include "core/base/message.h"
 #include "core/color/color_atoms.h"
 #include "core/color/color_scale.h"
-#include "core/shapes/backbone.h"
 #include "core/shapes/bases.h"
+#include "core/shapes/cartoon.h"
 #include "core/shapes/sugar_symbols.h"
 
 namespace meniscus {

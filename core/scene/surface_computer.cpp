@@ -9,11 +9,11 @@
 #include "core/base/error.h"
 #include "core/base/message.h"
 #include "core/gpu/egl_context.h"
-#include "core/queries/compare.h"
+#include "core/queries/compare_surfaces.h"
 #include "core/scene/surface_kind.h"
 #include "core/surface/blocks.h"
-#include "core/surface/gpu/gpu_engine.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/gpu/gpu_engine.h"
 
 namespace meniscus {
 namespace {

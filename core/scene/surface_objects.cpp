@@ -15,7 +15,7 @@
 #include "core/base/error.h"
 #include "core/base/message.h"
 #include "core/queries/copies.h"
-#include "core/queries/part.h"
+#include "core/queries/surface_parts.h"
 
 namespace meniscus {
 namespace {

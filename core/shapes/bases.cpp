@@ -11,7 +11,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/shapes/backbone.h"
+#include "core/shapes/cartoon.h"
 
 namespace meniscus {
 namespace {

@@ -13,7 +13,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/shapes/backbone.h"
+#include "core/shapes/cartoon.h"
 #include "core/structure/sugars.h"
 
 namespace meniscus {

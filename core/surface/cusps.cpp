@@ -12,7 +12,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "core/math/geometry.h"
+#include "core/math/double_geometry.h"
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/parallel_tables.h"
 #include "core/surface/reduced_components.h"

@@ -16,7 +16,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "core/math/geometry.h"
+#include "core/math/double_geometry.h"
 #include "core/math/quad_geometry.h"
 #include "core/math/union_find.h"
 #include "core/surface/parallel_tables.h"

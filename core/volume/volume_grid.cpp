@@ -14,7 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/math/geometry.h"
+#include "core/math/double_geometry.h"
 
 namespace meniscus {
 namespace {

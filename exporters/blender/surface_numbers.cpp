@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/mesh/mesh_attributes.h"
 #include "core/mesh/open_sky.h"
-#include "core/mesh/smoothed_curvature.h"
 #include "core/queries/surface_point.h"
 #include "core/surface/atom_areas.h"
 #include "exporters/mesh_files/vertex_numbers.h"

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "exporters/path_tracers/scene.h"
+#include "exporters/path_tracers/path_tracer_scene.h"
 
 namespace meniscus::mvs {
 

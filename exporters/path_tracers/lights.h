@@ -9,7 +9,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "exporters/path_tracers/scene.h"
+#include "exporters/path_tracers/path_tracer_scene.h"
 
 namespace meniscus::path_tracers {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes a scene for Mitsuba 3: camera, lights and materials, then the objects, those with copies as groups.
-#include "exporters/path_tracers/scene.h"
+#include "exporters/path_tracers/path_tracer_scene.h"
 
 #include <algorithm>
 #include <array>

@@ -22,7 +22,7 @@
 #include "core/mesh/shape_mesh.h"
 #include "exporters/mesh_files/writers.h"
 #include "exporters/path_tracers/lights.h"
-#include "exporters/path_tracers/scene.h"
+#include "exporters/path_tracers/path_tracer_scene.h"
 
 namespace meniscus::path_tracers {
 namespace {

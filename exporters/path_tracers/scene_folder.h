@@ -16,7 +16,7 @@
 #include "core/queries/colored_shapes.h"
 #include "core/queries/surface_object.h"
 #include "core/structure/structure.h"
-#include "exporters/path_tracers/scene.h"
+#include "exporters/path_tracers/path_tracer_scene.h"
 
 namespace meniscus::path_tracers {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cuts the objects of a scene by planes, and writes their caps as flat meshes.
-#include "exporters/povray/cap_objects.h"
+#include "exporters/povray/scene_shapes.h"
 
 #include <algorithm>
 #include <cmath>

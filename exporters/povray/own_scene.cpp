@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "exporters/povray/scene_files.h"
+#include "exporters/povray/povray_files.h"
 #include "exporters/povray/scene_templates.h"
 #include "exporters/povray/scene_text.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Collects equal colours, and splits patches between atoms of different colours.
-#include "exporters/povray/palette.h"
+#include "exporters/povray/scene_colors.h"
 
 #include <algorithm>
 #include <span>

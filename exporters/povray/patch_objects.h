@@ -12,7 +12,7 @@
 #include "core/math/box.h"
 #include "core/render/picture_object.h"
 #include "core/surface/primitives.h"
-#include "exporters/povray/palette.h"
+#include "exporters/povray/scene_colors.h"
 #include "exporters/povray/scene_text.h"
 
 namespace meniscus::povray {

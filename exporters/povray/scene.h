@@ -6,8 +6,8 @@
 #include <span>
 
 #include "core/camera/camera.h"
-#include "exporters/povray/scene_options.h"
 #include "core/queries/surface_object.h"
+#include "exporters/povray/povray_options.h"
 
 namespace meniscus::povray {
 

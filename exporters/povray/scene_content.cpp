@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Collects the colours of everything that a picture shows, in one order, and writes it file by file.
-#include "exporters/povray/scene_content.h"
+#include "exporters/povray/povray_scene.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/color/color_key.h"
-#include "exporters/povray/palette.h"
+#include "exporters/povray/scene_colors.h"
 
 namespace meniscus::povray {
 

@@ -8,8 +8,8 @@
 
 #include "core/camera/camera.h"
 #include "core/math/box.h"
-#include "exporters/povray/geometry.h"
-#include "exporters/povray/scene_options.h"
+#include "exporters/povray/povray_options.h"
+#include "exporters/povray/surface_pieces.h"
 
 namespace meniscus::povray {
 

@@ -6,7 +6,7 @@
 
 #include "core/base/output_file.h"
 #include "core/queries/colored_shapes.h"
-#include "exporters/povray/palette.h"
+#include "exporters/povray/scene_colors.h"
 
 namespace meniscus::povray {
 

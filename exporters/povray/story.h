@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "exporters/povray/scene_options.h"
+#include "exporters/povray/povray_options.h"
 
 namespace meniscus::povray {
 

@@ -54,7 +54,7 @@ cat >app/commands/export_balls.cpp <<'COMMAND'
 #include <memory>
 #include <span>
 
-#include "app/commands/commands.h"
+#include "app/commands/command_table.h"
 #include "app/options/scene_options.h"
 #include "app/reports/notes.h"
 #include "core/base/output_file.h"

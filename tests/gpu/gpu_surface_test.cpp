@@ -5,13 +5,13 @@
 
 #include <gtest/gtest.h>
 
-#include "core/gpu/egl_context.h"
-#include "core/reduced_surface/cpu/exhaustive.h"
-#include "core/queries/compare.h"
-#include "core/surface/gpu/gpu_engine.h"
-#include "core/surface/compute_surface.h"
-#include "tests/support/molecules.h"
 #include "core/base/stage_clock.h"
+#include "core/gpu/egl_context.h"
+#include "core/queries/compare_surfaces.h"
+#include "core/reduced_surface/cpu/exhaustive.h"
+#include "core/surface/compute_surface.h"
+#include "core/surface/gpu/gpu_engine.h"
+#include "tests/support/molecules.h"
 
 namespace meniscus::testing {
 namespace {

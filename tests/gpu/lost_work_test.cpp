@@ -8,19 +8,19 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/color/coloring.h"
 #include "core/gpu/buffer.h"
 #include "core/gpu/egl_context.h"
 #include "core/gpu/kernel_records.h"
 #include "core/gpu/program.h"
 #include "core/gpu/work_proof.h"
+#include "core/queries/compare_surfaces.h"
 #include "core/render/gl_renderer.h"
-#include "core/queries/compare.h"
-#include "core/surface/gpu/gpu_engine.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/gpu/gpu_engine.h"
 #include "core/visible_surface/view_pipeline.h"
 #include "tests/gpu/gl_faults.h"
 #include "tests/support/molecules.h"
-#include "core/color/coloring.h"
 
 namespace meniscus::testing {
 namespace {

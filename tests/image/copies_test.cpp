@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/queries/copies.h"
-#include "core/queries/part.h"
+#include "core/queries/surface_parts.h"
 #include "core/render/cpu/cpu_renderer.h"
 #include "core/render/cpu/interruption.h"
 #include "core/render/cpu/visible_copies.h"

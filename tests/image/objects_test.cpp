@@ -13,12 +13,12 @@
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/render/gl_renderer.h"
 #include "core/queries/copies.h"
-#include "core/queries/part.h"
+#include "core/queries/surface_object.h"
+#include "core/queries/surface_parts.h"
+#include "core/render/gl_renderer.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
-#include "core/queries/surface_object.h"
 
 namespace meniscus {
 namespace {

@@ -17,7 +17,7 @@
 #include <imgui_internal.h>
 
 #include "app/preview/key_table.h"
-#include "core/render/text_raster.h"
+#include "core/render/lettering.h"
 
 namespace meniscus {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/math/geometry.h"
+#include "core/math/double_geometry.h"
 
 namespace meniscus {
 

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "core/math/geometry.h"
+#include "core/math/double_geometry.h"
 #include "core/reduced_surface/contour/blockers.h"
 
 namespace meniscus {

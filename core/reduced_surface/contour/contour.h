@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "core/math/geometry.h"
+#include "core/math/double_geometry.h"
 #include "core/reduced_surface/contour/blockers.h"
 #include "core/reduced_surface/contour/circle_sweep.h"
 #include "core/reduced_surface/reduced_surface.h"

@@ -15,7 +15,7 @@
 
 #include <glm/vec4.hpp>
 
-#include "core/math/geometry.h"
+#include "core/math/double_geometry.h"
 #include "core/queries/surface_object.h"
 #include "core/render/cpu/picture_scene.h"
 #include "core/render/cpu/ray_depths.h"

@@ -15,10 +15,10 @@
 #include "core/scene/surface_request.h"
 #include "core/structure/structure.h"
 #include "exporters/bindings/c/c_atoms.h"
-#include "exporters/bindings/c/c_devices.h"
 #include "exporters/bindings/c/c_calls.h"
+#include "exporters/bindings/c/c_devices.h"
 #include "exporters/bindings/c/c_surface.h"
-#include "exporters/mesh_files/file_object.h"
+#include "exporters/mesh_files/mesh_file_maker.h"
 #include "exporters/mesh_files/mesh_formats.h"
 
 /// The object behind the handle of a mesh.

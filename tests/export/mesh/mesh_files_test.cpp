@@ -12,17 +12,17 @@
 
 #include "core/base/error.h"
 #include "core/mesh/even_mesh.h"
-#include "core/mesh/smoothed_curvature.h"
+#include "core/mesh/mesh_attributes.h"
 #include "core/mesh/tessellate.h"
-#include "core/queries/surface_point.h"
 #include "core/queries/distance.h"
+#include "core/queries/surface_point.h"
+#include "core/structure/structure.h"
 #include "core/surface/compute_surface.h"
-#include "exporters/mesh_files/file_object.h"
 #include "exporters/mesh_files/inner_points.h"
+#include "exporters/mesh_files/mesh_file_maker.h"
 #include "exporters/mesh_files/mesh_formats.h"
 #include "tests/support/molecules.h"
 #include "tests/support/run_program.h"
-#include "core/structure/structure.h"
 
 namespace meniscus::testing {
 namespace {

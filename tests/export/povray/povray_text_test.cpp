@@ -11,9 +11,9 @@
 
 #include "core/base/error.h"
 #include "core/surface/compute_surface.h"
-#include "exporters/povray/palette.h"
 #include "exporters/povray/patch_objects.h"
 #include "exporters/povray/scene.h"
+#include "exporters/povray/scene_colors.h"
 #include "exporters/povray/scene_text.h"
 #include "tests/export/povray/patch_molecules.h"
 #include "tests/support/run_program.h"

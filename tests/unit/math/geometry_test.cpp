@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/math/geometry.h"
+#include "core/math/double_geometry.h"
 
 namespace meniscus::geometry {
 namespace {

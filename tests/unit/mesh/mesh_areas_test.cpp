@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh/tessellate.h"
-#include "core/queries/part.h"
+#include "core/queries/surface_parts.h"
 #include "core/surface/atom_areas.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"

@@ -15,11 +15,11 @@
 #include "core/base/error.h"
 #include "core/math/spiral.h"
 #include "core/mesh/shape_mesh.h"
-#include "core/queries/part.h"
+#include "core/mesh/triangle_mesh.h"
+#include "core/queries/surface_parts.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/sphere_tracer.h"
-#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus::testing {
 namespace {

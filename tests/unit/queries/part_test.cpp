@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parts of a surface: closed, with tables that agree with each other; what lies in what; planes between faces.
-#include "core/queries/part.h"
+#include "core/queries/surface_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,9 @@
 #include <gtest/gtest.h>
 
 #include "core/surface/atom_areas.h"
+#include "core/surface/compute_surface.h"
 #include "core/surface/measure.h"
 #include "core/surface/parting.h"
-#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/patch_samples.h"
 

@@ -13,10 +13,10 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/math/ball.h"
+#include "core/math/double_geometry.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/reduced_surface/reduced_surface.h"
-#include "core/math/ball.h"
-#include "core/math/geometry.h"
 
 namespace meniscus {
 namespace {

@@ -14,14 +14,14 @@
 
 #include "core/base/error.h"
 #include "core/mesh/shape_mesh.h"
-#include "core/shapes/backbone.h"
-#include "core/shapes/bases.h"
-#include "core/shapes/sugar_symbols.h"
-#include "core/structure/formats/read_structure.h"
-#include "core/structure/bonds.h"
-#include "tests/support/run_program.h"
-#include "tests/support/pdb_line.h"
 #include "core/queries/colored_shapes.h"
+#include "core/shapes/bases.h"
+#include "core/shapes/cartoon.h"
+#include "core/shapes/sugar_symbols.h"
+#include "core/structure/bonds.h"
+#include "core/structure/formats/read_structure.h"
+#include "tests/support/pdb_line.h"
+#include "tests/support/run_program.h"
 #include "tests/support/sample_files.h"
 
 namespace meniscus {

@@ -11,9 +11,8 @@
 
 #include "core/base/error.h"
 #include "core/base/stage_clock.h"
-#include "core/math/geometry.h"
+#include "core/math/double_geometry.h"
 #include "core/mesh/compare_mesh.h"
-#include "core/mesh/tessellate.h"
 #include "core/mesh/tessellate.h"
 #include "core/surface/blocks.h"
 #include "core/surface/components.h"

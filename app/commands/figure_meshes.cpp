@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes a figure: its surface whole or cut, and everything drawn in addition.
-#include "app/commands/blender_meshes.h"
+#include "app/commands/figure_meshes.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sets text by FreeType, as shares of pixels or as outlines.
-#include "core/render/text_raster.h"
+#include "core/render/lettering.h"
 
 #include <ft2build.h>
 #include FT_FREETYPE_H

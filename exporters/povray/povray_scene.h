@@ -17,11 +17,11 @@
 #include "core/camera/camera.h"
 #include "core/queries/colored_shapes.h"
 #include "core/queries/surface_object.h"
-#include "exporters/povray/cap_objects.h"
-#include "exporters/povray/geometry.h"
-#include "exporters/povray/palette.h"
-#include "exporters/povray/scene_files.h"
-#include "exporters/povray/scene_options.h"
+#include "exporters/povray/povray_files.h"
+#include "exporters/povray/povray_options.h"
+#include "exporters/povray/scene_colors.h"
+#include "exporters/povray/scene_shapes.h"
+#include "exporters/povray/surface_pieces.h"
 
 namespace meniscus::povray {
 

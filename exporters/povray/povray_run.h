@@ -14,10 +14,10 @@
 #include "core/camera/camera.h"
 #include "core/color/color_maps.h"
 #include "core/math/box.h"
-#include "exporters/povray/palette.h"
+#include "exporters/povray/povray_files.h"
+#include "exporters/povray/povray_scene.h"
 #include "exporters/povray/scene.h"
-#include "exporters/povray/scene_content.h"
-#include "exporters/povray/scene_files.h"
+#include "exporters/povray/scene_colors.h"
 #include "exporters/povray/story.h"
 
 namespace meniscus::povray {

@@ -10,10 +10,10 @@
 
 #include "core/base/error.h"
 
-#include "exporters/povray/own_scene.h"
-#include "exporters/povray/scene_content.h"
-#include "exporters/povray/scene_files.h"
 #include "core/base/text.h"
+#include "exporters/povray/own_scene.h"
+#include "exporters/povray/povray_files.h"
+#include "exporters/povray/povray_scene.h"
 #include "exporters/povray/scene_report.h"
 #include "exporters/povray/volume_map.h"
 

@@ -12,8 +12,8 @@
 #include "core/camera/camera.h"
 #include "core/mesh/section_mesh.h"
 #include "core/queries/surface_object.h"
-#include "exporters/povray/palette.h"
-#include "exporters/povray/scene_options.h"
+#include "exporters/povray/povray_options.h"
+#include "exporters/povray/scene_colors.h"
 
 namespace meniscus::povray {
 

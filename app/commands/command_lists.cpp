@@ -9,7 +9,7 @@
 #include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/commands.h"
+#include "app/commands/command_table.h"
 #include "app/options/property_options.h"
 #include "core/base/message.h"
 #include "core/base/text_file.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes surfaces as unions of pieces, and places their copies in the scene.
-#include "exporters/povray/geometry.h"
+#include "exporters/povray/surface_pieces.h"
 
 #include <algorithm>
 #include <cmath>

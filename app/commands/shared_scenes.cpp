@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Turns the options that scenes share into words, and lets each scene parse them.
-#include "app/commands/scene_files.h"
+#include "app/commands/shared_scenes.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Composes the text of a scene's files: settings and camera, style, buffers, .ini.
-#include "exporters/povray/scene_files.h"
+#include "exporters/povray/povray_files.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads a scene's molecule or run, aims its cameras, and passes its figures to sinks.
-#include "app/commands/figure_run.h"
+#include "app/commands/command_run.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures the curvature of a mesh at each vertex, and averages it over the vertices around it.
-#include "core/mesh/smoothed_curvature.h"
+#include "core/mesh/mesh_attributes.h"
 #include "core/mesh/triangle_mesh.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The table of commands. A command declares its options when the command line reaches it.
-#include "app/commands/commands.h"
+#include "app/commands/command_table.h"
 
 #include <algorithm>
 #include <string_view>

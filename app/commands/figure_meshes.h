@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/commands/figure_run.h"
+#include "app/commands/command_run.h"
 #include "app/options/scene_options.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/mesh/shape_mesh.h"

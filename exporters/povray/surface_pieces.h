@@ -10,11 +10,11 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/color/color_key.h"
 #include "core/base/output_file.h"
+#include "core/color/color_key.h"
 #include "core/queries/surface_object.h"
-#include "exporters/povray/cap_objects.h"
-#include "exporters/povray/palette.h"
+#include "exporters/povray/scene_colors.h"
+#include "exporters/povray/scene_shapes.h"
 #include "exporters/povray/scene_text.h"
 
 namespace meniscus::povray {

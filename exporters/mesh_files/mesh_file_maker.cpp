@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Makes objects of mesh files: surfaces with colours and numbers, and pockets each in its colour.
-#include "exporters/mesh_files/file_object.h"
+#include "exporters/mesh_files/mesh_file_maker.h"
 
 #include <algorithm>
 #include <cmath>

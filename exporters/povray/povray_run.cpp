@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes the shared files of a run, and the geometry of its frames.
-#include "exporters/povray/sequence.h"
+#include "exporters/povray/povray_run.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 #include "core/base/text.h"
 #include "core/color/color_key_json.h"
 #include "exporters/povray/own_scene.h"
-#include "exporters/povray/scene_files.h"
+#include "exporters/povray/povray_files.h"
 #include "exporters/povray/scene_report.h"
 #include "exporters/povray/scene_text.h"
 #include "exporters/povray/volume_map.h"

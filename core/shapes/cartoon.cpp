@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds guide points of residues, draws a spline through them, and sweeps an ellipse along it.
-#include "core/shapes/backbone.h"
+#include "core/shapes/cartoon.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copies the rows of the components that stay, and renumbers the references to them.
-#include "core/queries/part.h"
+#include "core/queries/surface_parts.h"
 
 #include <algorithm>
 #include <array>

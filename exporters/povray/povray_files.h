@@ -14,8 +14,8 @@
 #include "core/camera/camera.h"
 #include "core/color/color_maps.h"
 #include "core/math/box.h"
-#include "exporters/povray/palette.h"
-#include "exporters/povray/scene_options.h"
+#include "exporters/povray/povray_options.h"
+#include "exporters/povray/scene_colors.h"
 
 namespace meniscus::povray {
 
