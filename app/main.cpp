@@ -14,11 +14,9 @@
 #include <fmt/ranges.h>
 
 #include "app/commands/command_table.h"
+#include "app/options/command_tree.h"
 #include "app/options/named_files.h"
-#include "app/options/usage_faults.h"
-#include "app/process/program_error.h"
 #include "app/process/program_main.h"
-#include "app/process/this_program.h"
 #include "app/reports/version_report.h"
 #include "core/base/binary_file.h"
 #include "core/base/text.h"

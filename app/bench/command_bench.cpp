@@ -14,7 +14,7 @@
 #include "app/commands/command_table.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
 #include "core/scene/molecule.h"

@@ -8,7 +8,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "core/base/usual_probe.h"
+#include "core/base/constants.h"
 #include "core/gpu/device_choice.h"
 #include "core/surface/primitives.h"
 

@@ -11,9 +11,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/bench/rolling_circle.h"
-#include "core/reduced_surface/whole_spheres.h"
-#include "core/math/ball_grid.h"
+#include "core/math/ball.h"
+#include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
 namespace {

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus farm`: bundles a command on frames for any engine, verifies what was made, and makes the film.
+// `meniscus farm` and `meniscus work`: bundle a command on frames, make its frames, verify them.
+
 #include <algorithm>
-#include <iostream>
-#include <memory>
+#include <cstdlib>
+#include <filesystem>
 #include <initializer_list>
+#include <iostream>
+#include <iterator>
+#include <memory>
 #include <optional>
 #include <ranges>
+#include <set>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,18 +21,16 @@
 #include "app/commands/figure_meshes.h"
 #include "app/commands/povray_figures.h"
 #include "app/commands/render_command.h"
-#include "app/commands/traced_scene.h"
 #include "app/farm/bundle_folder.h"
 #include "app/farm/make_bundle.h"
-#include "app/farm/verify.h"
+#include "app/farm/worker.h"
+#include "app/options/command_tree.h"
 #include "app/options/property_options.h"
-#include "app/options/usage_faults.h"
+#include "app/options/scene_options.h"
 #include "app/process/child_process.h"
-#include "app/process/program_error.h"
-#include "app/process/stop_signals.h"
-#include "app/process/this_program.h"
+#include "app/process/program_main.h"
 #include "core/base/text.h"
-#include "core/base/utf8.h"
+#include "core/base/text_file.h"
 #include "core/render/picture_file.h"
 #include "core/trajectory/frame_list.h"
 
@@ -262,6 +265,87 @@ void add_farm(CLI::App& command) {
            "  meniscus farm bundle film -- render adk.psf --trajectory adk.dcd --frames all\n"
            "  meniscus work film            on any number of machines (meniscus work --help)\n"
            "  meniscus farm verify film");
+}
+
+namespace {
+
+struct WorkCommand {
+  std::string folder, frames, chunk, device;
+  std::optional<farm::Step> step;
+  bool require_gpu = false;
+  farm::Order order;
+  ProgressStyle progress = ProgressStyle::automatic;
+};
+
+/// Returns the frames of K/N, 1 <= K <= N.
+std::vector<std::uint64_t> frames_of_chunk(const farm::Bundle& bundle, const std::string& text) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  std::int64_t k = 0, n = 0;
+  if (!parse_whole_number(text.substr(0, slash), k) || slash == text.size() ||
+      !parse_whole_number(text.substr(slash + 1), n) || k < 1 || k > n)
+    throw UsageError(fmt::format("--chunk is {}; it must be K/N with K from 1 to N, such as 3/10", in_quotes(text)));
+  // Workers of neighbouring shares on a machine of several GPUs take one each.
+  ::setenv(kWorkerVariable, std::to_string(k - 1).c_str(), 0);
+  return farm::chunk_of(bundle, static_cast<std::uint64_t>(k), static_cast<std::uint64_t>(n));
+}
+
+/// Returns those frames of the run that are in the list: 0-30 means four frames of a run of every tenth.
+std::vector<std::uint64_t> listed_frames(const farm::Bundle& bundle, const std::string& text) {
+  const std::uint64_t largest = *std::ranges::max_element(bundle.frames);
+  const std::vector<std::uint64_t> list = parse_frame_list("--frames", text, largest + 1);
+  const std::set<std::uint64_t> wanted(list.begin(), list.end());
+  std::vector<std::uint64_t> frames;
+  std::ranges::copy_if(bundle.frames, std::back_inserter(frames), [&](std::uint64_t n) { return wanted.contains(n); });
+  if (frames.empty())
+    throw UsageError(fmt::format("--frames {}: none of them is in this bundle; it has {}", in_quotes(text),
+                                 frame_list_text(bundle.frames)));
+  return frames;
+}
+
+void run(WorkCommand command) {
+  const farm::Bundle bundle = farm::read_bundle(command.folder);
+  farm::Order& order = command.order;
+  order.folder = std::filesystem::absolute(command.folder);
+  for (const farm::Step step : bundle.steps())
+    if (!command.step || command.step == step) order.steps.push_back(step);
+  if (order.steps.empty()) throw UsageError("--step: this bundle has no such step; leave it out");
+  order.is_whole_run = command.chunk.empty() && command.frames.empty();
+  order.frames = !command.chunk.empty()    ? frames_of_chunk(bundle, command.chunk)
+                 : !command.frames.empty() ? listed_frames(bundle, command.frames)
+                                           : bundle.frames;
+  if (!command.device.empty()) order.device = {"--device", command.device};
+  if (command.require_gpu) order.device.emplace_back("--require-gpu");
+  // Software GL takes as many threads as the machine has cores unless this is set.
+  if (order.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(order.threads).c_str(), 0);
+  const StopHandler handler([] { stop_children(); }, kExitStopped);
+  farm::work(bundle, order, command.progress);
+}
+
+}  // namespace
+
+void add_work(CLI::App& command) {
+  describe(
+      command,
+      "  meniscus work film                                all that is missing\n"
+      "  meniscus work film --step render --chunk 3/10     the third of ten shares of one step\n"
+      "  meniscus work film --frames 40-49 --force         these once more",
+      "A frame that is there is not made again. So the same command continues after any interruption, even kill -9, "
+      "and\nany number of workers can share a bundle without knowing of each other; they make a few frames twice, "
+      "with the\nsame bytes. When it is stopped (SIGTERM, SIGUSR1, Ctrl-C) it leaves complete files only and ends "
+      "with exit code 9.\nIf a frame fails, the others are still made; the exit code is that of the failed frame.");
+  auto state = std::make_shared<WorkCommand>();
+  command.add_option("BUNDLE", state->folder, "Folder of the bundle")->required()->type_name("");
+  PropertyOptions options(command);
+  options.add_word("work.step", state->step, {farm::Step::surface, farm::Step::render});
+  CLI::Option* const frames = options.add("work.frames", state->frames);
+  options.add("work.chunk", state->chunk)->excludes(frames);
+  options.add("work.force", state->order.force);
+  using enum ProgressStyle;
+  options.add_word("frames.progress", state->progress, {automatic, bar, plain, json, openjd, none});
+  options.add("work.device", state->device);
+  options.add("surface.require_gpu", state->require_gpu);
+  options.add("surface.threads", state->order.threads);
+  command.callback([state] { run(*state); });
 }
 
 }  // namespace meniscus

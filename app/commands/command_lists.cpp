@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus formats`: lists the file formats that are read, and their contents.
+// Commands that print what the program knows: colours, file formats, completion scripts.
+
 #include <iostream>
 #include <memory>
 #include <string>
@@ -10,13 +11,46 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/command_table.h"
+#include "app/options/command_tree.h"
 #include "app/options/property_options.h"
-#include "core/base/message.h"
+#include "app/process/program_main.h"
+#include "app/reports/command_manual.h"
+#include "core/base/text.h"
 #include "core/base/text_file.h"
+#include "core/color/color_schemes.h"
 #include "core/structure/formats/structure_formats.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 
 namespace meniscus {
+namespace {
+
+constexpr int kColumn = 24;
+
+void print_row(std::string_view word, std::string_view description, std::string_view source) {
+  fmt::print(std::cout, "  {:<{}}{}\n", word, kColumn, with_options(description));
+  if (!source.empty()) fmt::print(std::cout, "  {:<{}}  {}\n", "", kColumn, source);
+}
+
+void list_colors() {
+  fmt::print(std::cout, "--color SCHEME\n");
+  for (const ColorSchemeMetadata& scheme : color_schemes()) print_row(scheme.word, scheme.description, scheme.source);
+  print_row("red, #rrggbb", "one colour for all: a name of CSS, #rrggbb or #rgb", "CSS Color Module Level 4, W3C");
+  print_row("EXPR=COLOR", "any of these but kind and component, for the atoms of an expression", "");
+  fmt::print(std::cout, "\n--map MAP, for numbers\n");
+  for (const ColorMapMetadata& map : color_maps()) print_row(map.name, map.source, "");
+  fmt::print(std::cout,
+             "\nNumbers beyond --color-range have the colour of its end. Atoms without a number have --missing-color; "
+             "its default is\ngrey #808080 (with cividis, which contains grey, #cc79a7). If all numbers are equal, "
+             "they have the colour in the\nmiddle of the map.\n");
+}
+
+}  // namespace
+
+void add_colors(CLI::App& command) {
+  describe(command, "  meniscus colors");
+  command.callback(list_colors);
+}
+
 namespace {
 
 constexpr std::size_t kIndent = 18, kWidth = 100;
@@ -67,6 +101,40 @@ void add_formats(CLI::App& command) {
   auto json = std::make_shared<bool>(false);
   PropertyOptions(command).add("report.json", *json);
   command.callback([json] { *json ? print_json() : print_table(); });
+}
+
+namespace {
+
+struct Shell {
+  const char* name;
+  std::string (*completion)(const CommandEntry& program);
+};
+
+constexpr Shell kShells[] = {{"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}};
+
+void run(const CLI::App& program, const std::string& name) {
+  for (const Shell& shell : kShells) {
+    if (name != shell.name) continue;
+    std::cout << shell.completion(command_tree(program));
+    return;
+  }
+  throw UsageError(in_quotes(name) + " is not a supported shell; choose bash, zsh or fish");
+}
+
+}  // namespace
+
+void add_completion(CLI::App& command) {
+  describe(command,
+           "  source <(meniscus completion bash)                 in ~/.bashrc\n"
+           "  meniscus completion zsh >~/.zfunc/_meniscus        a folder of $fpath\n"
+           "  meniscus completion fish >~/.config/fish/completions/meniscus.fish\n\n"
+           "The package of a system installs all three.");
+  auto shell = std::make_shared<std::string>();
+  command.add_option("SHELL", *shell, "bash, zsh or fish")
+      ->required()
+      ->check(proposes({"bash", "zsh", "fish"}))
+      ->type_name("");
+  command.callback([shell, &command] { run(*command.get_parent(), *shell); });
 }
 
 }  // namespace meniscus

@@ -13,11 +13,11 @@
 #include "app/commands/command_table.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/progress.h"
 #include "core/base/text.h"
-#include "core/structure/formats/write_pdb.h"
+#include "core/structure/formats/pdb_records.h"
 #include "core/trajectory/morph.h"
 
 namespace meniscus {

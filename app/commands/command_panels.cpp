@@ -12,7 +12,7 @@
 #include "app/commands/shared_scenes.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/progress.h"
 #include "core/base/text.h"

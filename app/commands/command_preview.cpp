@@ -27,7 +27,7 @@
 #include "app/preview/server/serve.h"
 #include "app/preview/session.h"
 #include "app/preview/window/window.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/text.h"

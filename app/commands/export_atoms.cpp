@@ -7,7 +7,7 @@
 
 #include "app/commands/command_table.h"
 #include "app/options/scene_options.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
 #include "core/queries/copies.h"

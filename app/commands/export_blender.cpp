@@ -12,7 +12,6 @@
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
 #include "app/commands/figure_meshes.h"
-#include "app/commands/mesh_notes.h"
 #include "app/options/scene_options.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
@@ -22,7 +21,6 @@
 #include "exporters/blender/mns_file.h"
 #include "exporters/blender/sequence_manifest.h"
 #include "exporters/blender/surface_file.h"
-#include "exporters/blender/surface_numbers.h"
 
 namespace meniscus {
 namespace {

@@ -12,10 +12,10 @@
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
-#include "app/commands/mesh_notes.h"
-#include "app/options/numbered_path.h"
+#include "app/commands/figure_meshes.h"
+#include "app/options/named_files.h"
 #include "app/options/scene_options.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/text.h"

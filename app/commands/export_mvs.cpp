@@ -11,9 +11,9 @@
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
-#include "app/commands/traced_scene.h"
+#include "app/commands/figure_meshes.h"
 #include "app/options/scene_options.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/output_file.h"
 #include "core/base/system_file.h"

@@ -13,7 +13,7 @@
 #include "app/commands/page_views.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"

@@ -16,14 +16,14 @@
 #include "app/commands/povray_figures.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/queries/copies.h"
 #include "exporters/povray/povray_run.h"
-#include "exporters/povray/scene.h"
+#include "exporters/povray/povray_scene.h"
 
 namespace meniscus {
 namespace {

@@ -8,18 +8,17 @@
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
-#include "app/commands/number_run.h"
-#include "app/options/numbered_path.h"
+#include "app/options/named_files.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
 #include "core/scene/settled_selections.h"
-#include "core/scene/surface_kind.h"
+#include "core/scene/surface_computer.h"
 #include "exporters/vdb/vdb_file.h"
 
 namespace meniscus {

@@ -1,24 +1,84 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes a figure: its surface whole or cut, and everything drawn in addition.
+// Meshes what a figure shows for Blender, path tracers and viewers.
 #include "app/commands/figure_meshes.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "app/commands/mesh_notes.h"
+#include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/mesh/mesh_colors.h"
+#include "core/mesh/mesh_objects.h"
 #include "core/mesh/section_mesh.h"
 #include "core/mesh/velocity.h"
 #include "core/queries/copies.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/figure_key.h"
 #include "exporters/mesh_files/vertex_numbers.h"
+#include "exporters/path_tracers/scene_folder.h"
 
 namespace meniscus {
+namespace {
+
+constexpr double kManyTriangles = 1e7;
+
+}  // namespace
+
+bool has_fineness(const SceneOptions& options) {
+  return options.is_given("mesh.tolerance") || options.is_given("mesh.tolerance_pixels") ||
+         options.is_given("mesh.density");
+}
+
+double expected_triangles(std::span<const SurfaceObject> objects, const MeshFineness& fineness, CopiesOfMesh copies) {
+  double triangles = 0.0;
+  for (const SurfaceObject& object : objects)
+    triangles += (copies == CopiesOfMesh::own ? static_cast<double>(object.copies.size()) : 1.0) *
+                 estimated_triangles(object.surface, fineness);
+  return triangles;
+}
+
+void warn_of_many(const SceneCommand& command, double expected_triangles) {
+  if (expected_triangles > kManyTriangles)
+    say(command, fmt::format("warning: about {:.0f} million triangles; a larger --tolerance or a smaller "
+                             "--density makes fewer",
+                             expected_triangles / 1e6));
+}
+
+std::string fineness_words(const MeshRequest& request, const MeshFineness& fineness) {
+  if (fineness.density > 0.0) return fmt::format("{:g} vertices per Å²", fineness.density);
+  if (fineness.tolerance_at)
+    return fmt::format("within {:g} pixels of the surface, {:.4g} Å or more", request.tolerance_pixels,
+                       fineness.tolerance);
+  return fmt::format("within {:.4g} Å of the surface", fineness.tolerance);
+}
+
+void refuse_even_parts(const MeshFineness& fineness, bool has_hidden_atoms, bool is_cut) {
+  if (!fineness.even && fineness.density == 0.0) return;
+  if (has_hidden_atoms)
+    throw RequestError(
+        "triangles of an even mesh cross the borders of atoms, so --show cannot cut it; leave --even and --density "
+        "out, or choose atoms by --select");
+  if (is_cut)
+    throw RequestError("planes cut a mesh whose triangles keep to patches; leave --even and --density out, or --clip");
+}
+
+std::vector<double> buried_by_chains(const MoleculeRequest& molecule, const Structure& structure,
+                                     std::vector<std::string>& names, bool all) {
+  const auto wanted = std::ranges::find(names, "buried_area");
+  if (wanted == names.end()) return {};
+  if (!structure.instances.empty()) {
+    if (!all) throw RequestError("areas buried between copies need copies made of atoms; leave --instances out");
+    names.erase(wanted);
+    return {};
+  }
+  SurfaceComputer computer(molecule.surface);
+  return buried_areas(structure, group_atoms(structure, Grouping::chain), computer, molecule.surface.kind);
+}
 
 TakenProperties blender_properties() {
   return figure_properties().with({"look.shadows", "look.shadow_softness", "frames.fps", "mesh.tolerance",
@@ -176,6 +236,71 @@ std::string add_numbers(const SceneCommand& command, blender::SurfaceNumbers wan
     if (left_out.empty()) left_out = note;
   }
   return left_out;
+}
+
+namespace {
+
+// Returns the middle of the balls, rounded to three decimals.
+glm::dvec3 rounded_center(std::span<const Ball> balls) {
+  Box box;
+  for (const Ball& ball : balls) box.include(ball.center);
+  return glm::round((box.low + box.high) * 0.5e3) / 1e3;
+}
+
+// Returns the visible part of a surface, with caps where planes cut it.
+path_tracers::SceneItem item_of(const SurfaceObject& object, std::span<const ClipPlane> planes, const CapStyle& cap,
+                                double tolerance, const glm::dvec3& origin) {
+  const CappedMesh shown = capped_mesh(object, planes, cap.color.has_value(), tolerance);
+  std::optional<path_tracers::CapRows> caps;
+  if (!planes.empty()) caps = {shown.cap_plane.size(), cap.color};
+  return path_tracers::surface_item(object, shown.mesh, origin, caps);
+}
+
+void add_surface(const Scene& asked, Figure figure, double tolerance, path_tracers::Scene& scene) {
+  std::vector<SurfaceObject>& objects = figure.molecule.objects;
+  const std::vector<ClipPlane> planes = surface_planes(asked.figure, figure.beside.cut_atoms, scene.camera, objects);
+  settle_copies(objects, !planes.empty());
+  for (const SurfaceObject& object : objects)
+    scene.items.push_back(item_of(object, planes, asked.figure.cap, tolerance, scene.origin));
+}
+
+// Adds objects with materials of their own.
+void add_more(const Scene& asked, const Figure& figure, std::span<const Atom> atoms, double tolerance,
+              path_tracers::Scene& scene) {
+  const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
+  for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
+    const FigureObject& object = figure.beside.objects[n];
+    if (!object.surface && object.shapes.empty()) continue;
+    if (!object.surface) {
+      scene.items.push_back(path_tracers::shapes_item(atoms, object.shapes, scene.origin));
+      continue;
+    }
+    const PictureObject shown = picture_object(object, asked.figure.objects[n], scene.camera, balls);
+    scene.items.push_back(item_of(*object.surface, shown.clip, shown.cap, tolerance, scene.origin));
+  }
+}
+
+}  // namespace
+
+TakenProperties traced_properties() {
+  return figure_properties().with({"look.material", "mesh.tolerance", "mesh.tolerance_pixels"});
+}
+
+TracedScene traced_scene(const FigureRun& run, FigureFrame frame) {
+  const Scene& asked = run.scene();
+  Figure& figure = frame.figure;
+  const std::vector<Ball> balls = run.is_run() ? standing_balls(run.structure()) : figure.balls();
+  const double tolerance = tolerance_of(asked.mesh, asked.picture.size(), run.camera(0), balls);
+  path_tracers::Scene scene;
+  scene.origin = run.is_run() ? run.framing().origin() : rounded_center(balls);
+  scene.camera = frame.camera;
+  scene.width = asked.picture.width;
+  scene.height = asked.picture.height;
+  const std::vector<Atom> atoms = shown_atoms(figure.molecule.structure);
+  scene.items.push_back(path_tracers::shapes_item(atoms, figure.beside.shapes, scene.origin));
+  add_more(asked, figure, atoms, tolerance, scene);
+  if (!asked.figure.hides_surface) add_surface(asked, std::move(figure), tolerance, scene);
+  return {std::move(scene), tolerance};
 }
 
 }  // namespace meniscus

@@ -1,21 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Figures in the form of files for Blender, for single scenes, runs and films.
+// Meshes of a figure for Blender, path tracers and viewers, and what is said of them.
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/commands/command_run.h"
 #include "app/options/scene_options.h"
+#include "core/camera/camera.h"
 #include "core/mesh/mesh_objects.h"
-#include "core/mesh/shape_mesh.h"
+#include "core/queries/surface_object.h"
+#include "core/scene/molecule.h"
 #include "core/structure/structure.h"
 #include "exporters/blender/surface_file.h"
-#include "exporters/blender/surface_numbers.h"
+#include "exporters/path_tracers/path_tracer_scene.h"
 
 namespace meniscus {
+
+/// True if the command line or the scene sets the fineness of a mesh.
+bool has_fineness(const SceneOptions& options);
+
+/// The choice whether each copy of an object has triangles of its own.
+enum class CopiesOfMesh { own, shared };
+
+/// Returns the approximate number of triangles of some objects.
+double expected_triangles(std::span<const SurfaceObject> objects, const MeshFineness& fineness, CopiesOfMesh copies);
+
+/// Prints a warning before a mesh is made, if it is expected to be very large, unless quiet.
+void warn_of_many(const SceneCommand& command, double expected_triangles);
+
+/// Returns "within 0.05 Å of the surface", or the other fineness that was requested.
+std::string fineness_words(const MeshRequest& request, const MeshFineness& fineness);
+
+/// Throws RequestError if an even mesh would have to end at atoms that --show leaves out, or at planes.
+void refuse_even_parts(const MeshFineness& fineness, bool has_hidden_atoms, bool is_cut);
+
+/// Returns the area of each atom that other chains bury, Å²; empty if `names` does not contain "buried_area". A
+/// molecule with copies has no such areas: then the name is removed from a list of all names, and refused by
+/// RequestError in any other list.
+std::vector<double> buried_by_chains(const MoleculeRequest& molecule, const Structure& structure,
+                                     std::vector<std::string>& names, bool all);
 
 /// Returns the properties of `meniscus export blender`.
 TakenProperties blender_properties();
@@ -50,5 +77,19 @@ void mesh_figure(const SceneCommand& command, FigureFrame& frame, const blender:
 /// Gives all objects the numbers that --attributes requests. Returns the names of numbers that had to be left out.
 std::string add_numbers(const SceneCommand& command, blender::SurfaceNumbers wanted, const Structure& structure,
                         std::vector<blender::MeshedObject>& objects);
+
+/// Returns the properties of exports for path tracers.
+TakenProperties traced_properties();
+
+/// A figure's scene, and its fineness.
+struct TracedScene {
+  path_tracers::Scene scene;
+  double tolerance = 0.0;  ///< Å
+};
+
+/// Makes the scene of a frame of the run, or of its one molecule: the surface with caps where planes cut it, and
+/// everything drawn in addition. Scenes of a run have one origin, and the fineness that its first camera needs, unless
+/// another tolerance is set. Throws like capped_mesh().
+TracedScene traced_scene(const FigureRun& run, FigureFrame frame);
 
 }  // namespace meniscus

@@ -14,15 +14,14 @@
 #include <fmt/format.h>
 
 #include "app/commands/figure_meshes.h"
-#include "app/commands/mesh_notes.h"
 #include "app/commands/storyboard.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/output_file.h"
 #include "core/base/progress.h"
 #include "core/base/text.h"
 #include "core/math/box.h"
-#include "exporters/blender/story_file.h"
+#include "exporters/blender/sequence_manifest.h"
 
 namespace meniscus {
 namespace {

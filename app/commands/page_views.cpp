@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/shared_scenes.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
 #include "core/base/system_file.h"

@@ -12,7 +12,7 @@
 
 #include "app/commands/render_command.h"
 #include "app/film/film.h"
-#include "app/options/numbered_path.h"
+#include "app/options/named_files.h"
 #include "app/reports/run_frames.h"
 #include "core/camera/camera.h"
 #include "core/render/annotation.h"

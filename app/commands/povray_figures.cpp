@@ -1,14 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Converts scenes and figures to data for POV-Ray.
+// Writes figures and films of scenes for POV-Ray.
 #include "app/commands/povray_figures.h"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <iostream>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/commands/storyboard.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
+#include "app/reports/notes.h"
+#include "core/base/progress.h"
+#include "core/base/text.h"
 #include "core/color/color_maps.h"
+#include "core/properties/properties.h"
 #include "core/queries/copies.h"
+#include "exporters/povray/povray_run.h"
 
 namespace meniscus {
 
@@ -74,5 +90,176 @@ std::vector<std::string> comment_names(const Scene& scene, const Structure& stru
   }
   return names;
 }
+
+namespace {
+
+std::shared_ptr<const VolumePaint> map_of(FilmScene& scene) {
+  if (scene.run.is_run()) return color_of(scene.run.scene().molecule).volume;
+  for (const SurfaceObject& object : scene.run.figure().molecule.objects)
+    if (object.coloring.volume) return object.coloring.volume;
+  return {};
+}
+
+Box extent_of(FilmScene& scene) {
+  if (scene.run.is_run()) return scene.run.framing().extent.shown;
+  Box box;
+  for (const Ball& ball : scene.run.figure().balls()) {
+    box.include(ball.center - ball.radius);
+    box.include(ball.center + ball.radius);
+  }
+  return box;
+}
+
+bool sees_through(std::span<const OpacityRule> rules) {
+  return std::ranges::any_of(rules, [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; });
+}
+
+/// Returns the common settings of all frames. Throws UsageError if scenes differ where they must not.
+povray::Run shared_by(Storyboard& storyboard) {
+  povray::Run all;
+  all.surface = false;
+  for (std::size_t n = 0; n < storyboard.size(); ++n) {
+    FilmScene& scene = storyboard.scene(n);
+    const Scene& asked = scene.run.scene();
+    check_povray(asked);
+    if (scene.run.is_run() && asked.molecule.color.by == ColorScheme::By::lipophilicity) all.maps_change = true;
+    if (auto map = map_of(scene)) {
+      if (all.map) all.maps_change = true;
+      all.map = std::move(map);
+    }
+    const Box box = extent_of(scene);
+    all.extent.include(box.low);
+    all.extent.include(box.high);
+    all.surface = all.surface || !asked.figure.hides_surface;
+    all.caps = all.caps || (!asked.figure.hides_surface && !asked.figure.cuts.empty());
+    all.shapes = all.shapes || !asked.figure.representations.empty();
+    all.translucent = all.translucent || sees_through(asked.molecule.color.opacities);
+    for (const FigureObjectRequest& object : asked.figure.objects) {
+      all.objects.push_back({!object.shapes, false});
+      if (!object.material.empty()) all.materials.push_back(object.material);
+      all.translucent = all.translucent || sees_through(object.opacities);
+    }
+  }
+  if (all.maps_change) all.map.reset();
+  return all;
+}
+
+/// Returns options with numbers that change during transitions in pictures, but not in POV-Ray, which has its own
+/// light.
+std::string changes_left_out(Storyboard& storyboard) {
+  std::set<std::string> names;
+  const auto look = [&](std::size_t n) {
+    FilmScene& scene = storyboard.scene(n);
+    return render_settings(scene.run.scene(), *scene.layout).look;
+  };
+  Look first = look(0);
+  for (std::size_t n = 1; n < storyboard.size(); ++n) {
+    Look other = look(n);
+    for (const LookNumber& number : look_numbers())
+      if (number.in && &number.in(first) != &first.shadows && &number.in(first) != &first.shadow_softness &&
+          number.in(first) != number.in(other))
+        names.insert(std::string(property_of(number.key).option));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::vector<std::string> left_out_of_povray(Storyboard& storyboard) {
+  std::vector<std::string> sentences;
+  const std::string& material = storyboard.scene(0).run.scene().renderer.material;
+  if (storyboard.leaves_writing_out())
+    sentences.emplace_back("titles, labels, legends and the like are left out: POV-Ray's scenes hold the molecule");
+  if (storyboard.any([](const Scene& scene) { return scene.image.motion_blur > 1; }))
+    sentences.emplace_back("--motion-blur is left out");
+  if (storyboard.any([&](const Scene& scene) { return scene.renderer.material != material; }))
+    sentences.emplace_back("--material is that of the first scene, for all");
+  if (const std::string names = changes_left_out(storyboard); !names.empty())
+    sentences.push_back("POV-Ray's light is its own; these differ in the scenes, and change nothing: " + names);
+  return sentences;
+}
+
+/// Returns the objects drawn in addition to the surface in any scene: empty objects for scenes other than that of
+/// `figure`.
+std::vector<povray::SceneObject> objects_of(Storyboard& storyboard, std::size_t scene, const MoleculeShot& shot) {
+  std::vector<povray::SceneObject> objects;
+  for (std::size_t n = 0; n < storyboard.size(); ++n) {
+    if (n == scene) {
+      const std::vector<povray::SceneObject> own = povray_objects(shot.figure, shot.scene.figure, shot.camera, true);
+      objects.insert(objects.end(), own.begin(), own.end());
+      continue;
+    }
+    for (const FigureObjectRequest& object : storyboard.scene(n).run.scene().figure.objects)
+      objects.emplace_back().material = object.material;
+  }
+  return objects;
+}
+
+class PovrayFilm : public FilmMaker {
+ public:
+  explicit PovrayFilm(Storyboard& storyboard)
+      : storyboard_(storyboard),
+        sequence_(povray::SequenceScene::Film{}, shared_by(storyboard),
+                  povray_options(storyboard.scene(0).run.scene(), storyboard.command().existing()),
+                  storyboard.command().scene.output),
+        progress_(progress_on_stderr(storyboard.command()), "film", storyboard.pictures()) {}
+
+  void make() {
+    const FilmCommand& command = storyboard_.command();
+    storyboard_.tell_left_out(left_out_of_povray(storyboard_));
+    storyboard_.play(*this, nullptr, 0);
+    film_.rate = command.scene.film.frames_per_second;
+    const povray::SceneReport report = sequence_.write_shared(&film_);
+    say(command, fmt::format("{} pictures, {:.1f} s, of {} that POV-Ray renders", with_thousands(film_.pictures.size()),
+                             static_cast<double>(film_.pictures.size()) / film_.rate, with_thousands(frames_)));
+    std::cout << escaped(report.command) << "\n";
+  }
+
+ private:
+  void begin(std::size_t n) override { scene_ = n; }
+
+  void show(const Shot& shot, std::uint64_t, std::uint64_t times) override {
+    const std::uint64_t number = write({shot.scene, shot.figure, shot.camera, settings_of(shot)}, scene_);
+    for (std::uint64_t n = 0; n < times; ++n) film_.pictures.push_back({number});
+    progress_.advance(times);
+  }
+
+  void show(Transition& transition, double share) override {
+    const std::vector<MoleculeShot> shots = transition.shots(share);
+    povray::StoryPicture& picture = film_.pictures.emplace_back();
+    picture.first = write(shots.front(), scene_ - 1);
+    if (shots.size() > 1) {
+      picture.second = write(shots.back(), scene_);
+      picture.share = share;
+    }
+    progress_.advance(1);
+  }
+
+  /// Returns the number of the frame. scene: the scene of the shot.
+  std::uint64_t write(const MoleculeShot& shot, std::size_t scene) {
+    const Look& look = shot.settings.look;
+    const FigureRequest& asked = shot.scene.figure;
+    const std::size_t place = sequence_.add_frame(shot.camera, {look.background, look.shadows, look.shadow_softness});
+    const std::vector<povray::SceneObject> objects = objects_of(storyboard_, scene, shot);
+    const std::vector<std::string> names = comment_names(shot.scene, shot.figure.molecule.structure);
+    std::span<const SurfaceObject> surface = shot.figure.molecule.objects;
+    if (asked.hides_surface) surface = {};
+    const povray::SceneReport report =
+        sequence_.write_frame(place, {surface, povray_cut(shot.figure, asked, shot.camera), &shot.figure.beside.shapes,
+                                      objects, names, asked.thickens});
+    if (frames_++ == 0)
+      for (const std::string& note : report.notes) say(storyboard_.command(), "note: " + note);
+    return place + 1;
+  }
+
+  Storyboard& storyboard_;
+  povray::SequenceScene sequence_;
+  povray::Story film_;
+  Progress progress_;
+  std::size_t scene_ = 0;
+  std::uint64_t frames_ = 0;
+};
+
+}  // namespace
+
+void write_povray_film(Storyboard& storyboard) { PovrayFilm(storyboard).make(); }
 
 }  // namespace meniscus

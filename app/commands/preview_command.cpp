@@ -1,14 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adds the options of the preview, with its own defaults.
+// Options of the preview, and the scenes that it reads again, opens and makes films of.
 #include "app/commands/preview_command.h"
 
+#include <algorithm>
 #include <charconv>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <numeric>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "app/options/property_options.h"
+#include "app/process/child_process.h"
+#include "app/process/program_main.h"
+#include "core/base/error.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
-#include "core/scene/surface_kind.h"
+#include "core/queries/surface_object.h"
+#include "core/render/legend.h"
+#include "core/scene/figure_key.h"
+#include "core/scene/frame_run.h"
+#include "core/scene/molecule.h"
+#include "core/scene/scene_picture.h"
+#include "core/scene/scene_values.h"
+#include "core/scene/surface_computer.h"
+#include "core/scene/view_aim.h"
 
 namespace meniscus {
 namespace {
@@ -89,6 +110,153 @@ void take_preview(DeclaredPreview& declared, const std::vector<std::string>& nam
   if (is_scene || options.is_given("image.samples")) state.wishes.samples = scene.image.samples;
   state.wishes.transparent = !scene.image.background;
   state.wishes.dots_per_inch = scene.picture.dots_per_inch;
+}
+
+namespace {
+
+/// Returns the value of a property, with paths normalized.
+std::vector<std::string> settled_texts(const Scene& scene, const Property& property) {
+  std::vector<std::string> texts = value_texts(scene, property);
+  if (property.type == ValueType::file)
+    for (std::string& path : texts) path = std::filesystem::weakly_canonical(path).string();
+  return texts;
+}
+
+}  // namespace
+
+ShownReader::ShownReader(const PreviewCommand& command)
+    : molecule_(command.scene.molecule), frames_(command.scene.frames), models_(command.models) {}
+
+Structure ShownReader::operator()(const FigureRequest& figure, std::size_t frame) const {
+  if (molecule_.file == "-")
+    throw RequestError("a molecule from standard input cannot be read again; give FILE to draw atoms beside a surface");
+  MoleculeRequest wanted = molecule_;
+  figure.ask_for(wanted.reading);
+  if (models_) {
+    wanted.reading.model = {};
+    wanted.reading.model.number = static_cast<int>(frame) + 1;
+  }
+  if (!frames_.asked()) return read_molecule(wanted);
+  FrameRun run(wanted, frames_);
+  return run.at(run.chunk()[frame]);
+}
+
+Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, const ColorScheme& color,
+                    const Structure& structure) {
+  ViewRequest layout = scene.picture;
+  if (scene.legend.within) {
+    const ColorKey colors = figure_key(structure, color, {std::vector<bool>(structure.atoms.size(), true)},
+                                       scene.figure, make_beside(structure, scene.figure, color));
+    const Legend legend(colors, layout.size(), legend_style(scene.legend.style, scene.annotations.letters));
+    layout.width = legend.molecule_size().x;
+    layout.height = legend.molecule_size().y;
+  }
+  const Strips strips = scene_strips(scene, layout.size());
+  layout.height -= strips.top + strips.bottom;
+  // Framing needs only atoms and their copies.
+  const SurfaceRequest& surface = scene.molecule.surface;
+  const std::vector<Ball> balls = grown(balls_of(structure), growth_of(surface.kind, surface.probe_radius));
+  std::vector<SurfaceObject> objects;
+  const auto add = [&](const std::vector<std::uint32_t>& atoms) -> SurfaceObject& {
+    SurfaceObject& object = objects.emplace_back();
+    for (const std::uint32_t atom : atoms) object.surface.atoms.push_back(balls[atom]);
+    object.atom = atoms;
+    return object;
+  };
+  for (const Instances& group : structure.instances) add(group.atoms).copies = group.motions;
+  std::vector<std::uint32_t> all(balls.size());
+  std::iota(all.begin(), all.end(), 0u);
+  if (objects.empty()) add(all);
+  const ViewAim aim(layout, scene.molecule.show, structure);
+  return aim.camera(layout, given, aim.viewed(objects));
+}
+
+void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch) {
+  using namespace std::chrono_literals;
+  using Json = nlohmann::json;
+  if (scene.molecule.file == "-")
+    throw RequestError("export: a molecule from standard input cannot be read again; give FILE to make a film");
+  check_output(target.path, target.existing);
+  scene.output = target.path.string();
+  std::vector<std::string> words = render_words(scene);
+  words.front() = system_file::program_path().string();
+  words.insert(words.end(), {"-q", "--progress", "json"});
+  if (target.existing == Existing::replace) words.emplace_back("--force");
+  const StopHandler handler([] { stop_children(); }, std::nullopt);
+  ChildProcess child(words, ".");
+  std::uint64_t frames = 0, done = 0;
+  std::string fault = "the film was not made";
+  try {
+    for (;;) {
+      const double share = static_cast<double>(done) / static_cast<double>(std::max<std::uint64_t>(frames, 1));
+      watch(frames ? fmt::format("frame {} of {}", done, frames).c_str() : "reading", share);
+      if (!child.has_news(100ms)) continue;
+      const std::optional<std::string> line = child.next_line();
+      if (!line) break;
+      const Json event = Json::parse(*line, nullptr, false);
+      if (!event.is_object()) fault = *line;
+      if (!event.is_object()) continue;
+      if (event.value("event", "") == "start") frames = event.value("frames", frames);
+      if (event.value("event", "") != "frame") continue;
+      ++done;
+      fault = event.value("error", fault);
+    }
+  } catch (...) {
+    child.stop();  // the child removes its incomplete file
+    while (child.next_line()) {
+    }
+    child.wait();
+    throw;
+  }
+  constexpr std::string_view kPrefix = "meniscus: error: ";
+  if (child.wait() != 0)
+    throw RequestError("export: " + (fault.starts_with(kPrefix) ? fault.substr(kPrefix.size()) : fault));
+}
+
+SceneOpener::SceneOpener(const DeclaredPreview& begun) : begun_(begun.state.scene), models_(begun.state.models) {
+  const CLI::App& command = begun.options.command();
+  if (command.count("--trust-scene") > 0) named_.emplace_back("--trust-scene");
+  for (const CLI::Option* option : command.get_options())
+    named_.insert(named_.end(), option->results().begin(), option->results().end());
+}
+
+bool SceneOpener::is_of_this_molecule(const Scene& scene) const {
+  return std::ranges::all_of(properties(), [&](const Property* property) {
+    if (!property->has(in_scene) || (models_ && property->key == "molecule.model")) return true;
+    const bool reads = property->section() == "molecule" || property->section() == "frames";
+    // These properties of surfaces are the files of colours.
+    const bool colors =
+        property->section() == "surface" && (property->type == ValueType::file || property->name() == "color_column");
+    if (!reads && !colors) return true;
+    const std::vector<std::string> own = settled_texts(scene, *property);
+    return (colors && own.empty()) || own == settled_texts(begun_, *property);
+  });
+}
+
+OpenedScene SceneOpener::operator()(const std::filesystem::path& path) const {
+  CLI::App app("", "preview");
+  DeclaredPreview declared(app, preview_properties());
+  declared.options.name_file(path.string());
+  declared.state.reporting.quiet = true;
+  try {
+    take_preview(declared, named_);
+  } catch (const SelectionError& error) {
+    throw RequestError(error.sentence());
+  } catch (const CLI::Error& error) {
+    throw RequestError(error.what());
+  }
+  PreviewCommand& opened = declared.state;
+  if (!is_of_this_molecule(opened.scene))
+    throw RequestError(fmt::format(
+        "open: {} has other atoms, frames or numbers than {}, which is shown; start another preview with --scene",
+        escaped(path.string()), escaped(begun_.molecule.file)));
+  const ColorScheme color = color_of(opened.scene.molecule);
+  OpenedScene scene{figure_of(opened.scene, color), opened.wishes, 0};
+  scene.figure.camera = aimed_camera(opened.scene, given_camera(opened.scene.picture), color,
+                                     ShownReader(opened)(opened.scene.figure, 0));
+  scene.figure.overview = false;
+  if (models_) scene.frame = opened.scene.molecule.reading.model.number - 1;
+  return scene;
 }
 
 }  // namespace meniscus

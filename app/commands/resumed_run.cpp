@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/farm/bundle_folder.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
 #include "core/image/png_file.h"

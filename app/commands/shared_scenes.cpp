@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/render_command.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "core/base/text.h"
 
 namespace meniscus {

@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 
 #include "app/commands/shared_scenes.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/reports/notes.h"
-#include "core/base/parse_number.h"
 #include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/color/color_key.h"
 
 namespace meniscus {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Computes the files of `meniscus surface --csv-summary` in a pipeline, and keeps tables that a later call can
 // continue.
-#include "app/commands/surface_command.h"
 #include "app/commands/resumed_run.h"
+#include "app/commands/surface_command.h"
 
 #include <cerrno>
 #include <chrono>
@@ -22,10 +22,10 @@
 #include <tbb/task_arena.h>
 
 #include "app/process/memory.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/reports/csv_tables.h"
 #include "app/reports/notes.h"
-#include "app/reports/run_progress.h"
+#include "app/reports/run_frames.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"

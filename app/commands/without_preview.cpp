@@ -2,7 +2,7 @@
 // Reports that there is no `meniscus preview`, in builds without window and page.
 #include "app/commands/command_table.h"
 #include "app/options/scene_options.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 
 namespace meniscus {
 

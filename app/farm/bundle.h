@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/film/film_format.h"
+#include "app/film/film.h"
 
 namespace meniscus::farm {
 
@@ -73,7 +73,7 @@ struct Chunking {
 /// Everything that a worker needs to know. Nothing in it depends on time, machine or user, except the measurements of
 /// the trial frame and the number of tasks that follows from them.
 struct Bundle {
-  std::string program_version;        ///< with its commit (app/process/this_program.h)
+  std::string program_version;        ///< with its commit (app/process/program_main.h)
   std::vector<std::string> command;   ///< {"render", "inputs/a.pdb", ...}: this program's words, run in the bundle
   std::vector<std::string> device;    ///< options that say where this program computes
   std::vector<std::string> renderer;  ///< options of POV-Ray or of Blender's driver

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The folder of a bundle on the disk: checksums of its inputs, the frames that it lacks, and unfinished files.
+// The folder of a bundle on the disk: checksums, missing frames, unfinished files, faults of pictures, and the film.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,7 +14,7 @@
 
 #include "app/farm/bundle.h"
 #include "app/process/child_process.h"
-#include "app/process/stop_signals.h"
+#include "app/process/program_main.h"
 
 namespace meniscus::farm {
 
@@ -69,5 +70,30 @@ void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, boo
 
 /// Removes the unfinished files that killed workers left in a bundle.
 void remove_leftovers(const std::filesystem::path& folder);
+
+/// A frame that is not good.
+struct FrameFault {
+  std::string sentence;   ///< what is wrong
+  bool is_there = false;  ///< true if a worker would not make it again
+};
+
+/// Faults by the number of the frame.
+using FrameFaults = std::map<std::uint64_t, FrameFault>;
+
+/// Finds frames that are missing, and pictures that cannot be read, have the wrong size, or are blank: all pixels
+/// equal.
+FrameFaults faults_of(const Bundle& bundle, const std::filesystem::path& folder);
+
+/// The choice of what a film shows instead of a frame that is not good.
+enum class InPlace {
+  hold,  ///< the frame before once more; before the first good frame that one
+  drop   ///< nothing: the film is shorter
+};
+
+/// Makes the film of the bundle's pictures (app/film/film.h): the same bytes for the same pictures. White shows through
+/// transparent parts where the film keeps no alpha. Some frames are not among the `faults`. Throws OutputError if
+/// ffmpeg is not there or fails.
+void encode_film(const Bundle& bundle, const std::filesystem::path& folder, const FrameFaults& faults,
+                 InPlace in_place);
 
 }  // namespace meniscus::farm

@@ -17,8 +17,7 @@
 
 #include "app/farm/bundle_folder.h"
 #include "app/process/child_process.h"
-#include "app/process/program_error.h"
-#include "app/process/this_program.h"
+#include "app/process/program_main.h"
 #include "core/base/output_file.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/farm/bundle.h"
-#include "app/reports/run_progress.h"
+#include "app/reports/run_frames.h"
 
 namespace meniscus::farm {
 

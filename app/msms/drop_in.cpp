@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/parse_number.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"

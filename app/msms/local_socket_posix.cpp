@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "app/msms/socket_server.h"
-#include "core/base/uninterrupted.h"
+#include "core/base/system_file.h"
 
 namespace meniscus::msms {
 namespace {

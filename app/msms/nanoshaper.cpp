@@ -13,12 +13,10 @@
 #include <fmt/format.h>
 
 #include "app/msms/drop_in.h"
-#include "app/process/program_error.h"
 #include "app/process/program_main.h"
 #include "app/process/system_process.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
-#include "core/base/parse_number.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "app/process/program_error.h"
 #include "app/process/program_main.h"
 #include "app/process/system_process.h"
 #include "core/base/system_file.h"

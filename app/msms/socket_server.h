@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A blocking socket on this machine only, implemented in local_socket_posix.cpp and local_socket_windows.cpp.
+// Serves one surface over a socket on this machine, as VMD requests it from MSMS.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,15 @@
 #include <span>
 #include <string>
 
+#include "app/msms/arguments.h"
+
 namespace meniscus::msms {
+
+/// Listens only on 127.0.0.1, greets the first client, reads probe, density and spheres in the machine's own byte
+/// order, and answers with triangles, vertices and the sphere of each vertex, of component 0. Ends after one client, or
+/// when none comes. Throws UsageError if the port is not available; InputError if no client comes in time, or if a
+/// client disconnects, is silent too long, or sends invalid spheres; and the errors of ChosenSurface.
+void serve(std::uint16_t port);
 
 /// A socket, closed by the destructor. If a function fails, last_error() has the reason.
 class LocalSocket {

@@ -1,17 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files that a command names: what it reads is never replaced, and no two outputs are the same file.
+// Files that a command line names: numbered outputs, and outputs that would replace inputs.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 namespace meniscus {
+
+class NumberedPath {
+ public:
+  /// The last run of # in the file's name stands for the number. Nothing if there is none.
+  static std::optional<NumberedPath> parse(const std::string& path);
+
+  /// With zeros before the number, at least as many digits as there are #.
+  std::string at(std::uint64_t number) const;
+  /// Whether at() gives this path for some number.
+  bool names(std::string_view path) const;
+
+ private:
+  std::string before_, behind_;
+  std::size_t digits_ = 0;
+};
+
+/// The path with "_#####" before its ending, to be proposed.
+std::string numbered_name(const std::string& path);
 
 /// Before a command begins whose options are parsed.
 class NamedFiles {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The properties that a command takes, and its options as the table of properties declares them; the caller only binds
-// their values.
+// The properties that a command takes, options for them, and a scene as options of a command line.
 #pragma once
 
 #include <concepts>
@@ -8,6 +7,7 @@
 #include <initializer_list>
 #include <optional>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -17,6 +17,7 @@
 
 #include "core/properties/properties.h"
 #include "core/scene/idle_values.h"
+#include "core/scene/scene.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {
@@ -121,5 +122,16 @@ std::string group_of(const Property& property);
 
 /// Understands an expression that is the value of an option. Throws SelectionError, which names the option.
 Selection parse_selection_option(const std::string& option, const std::string& text);
+
+/// Returns FILE, and an option for each value that differs from Scene{}, but for where its output goes. path: what is
+/// written instead of the path of a file that is read.
+std::vector<std::string> scene_words(const Scene& scene,
+                                     const std::function<std::string(const std::string& path)>& path = {});
+
+/// "meniscus", "render" and the same, with the output.
+std::vector<std::string> render_words(const Scene& scene);
+
+/// As a shell takes them, in one line.
+std::string shell_line(std::span<const std::string> words);
 
 }  // namespace meniscus

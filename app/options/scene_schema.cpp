@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/scene/object_json.h"
 #include "core/properties/properties.h"
+#include "core/scene/scene_json.h"
 
 namespace meniscus {
 namespace {

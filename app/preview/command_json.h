@@ -14,7 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/base/output_file.h"
-#include "core/properties/property.h"
+#include "core/properties/properties.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {

@@ -9,14 +9,14 @@
 
 #include <fmt/format.h>
 
-#include "app/film/film_format.h"
-#include "app/options/scene_words.h"
+#include "app/film/film.h"
+#include "app/options/property_options.h"
 #include "app/preview/commands.h"
 #include "app/preview/preview_state.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_schemes.h"
 #include "core/properties/properties.h"
 #include "core/render/image_output.h"
 #include "core/scene/scene_json.h"

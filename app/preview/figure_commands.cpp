@@ -7,13 +7,13 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/object_json.h"
 #include "app/preview/commands.h"
 #include "core/base/error.h"
 #include "core/properties/properties.h"
 #include "core/scene/cut.h"
 #include "core/scene/molecule.h"
-#include "core/scene/surface_request.h"
+#include "core/scene/scene_json.h"
+#include "core/scene/surface_computer.h"
 
 namespace meniscus {
 namespace {

@@ -10,7 +10,7 @@
 #include "app/preview/look_json.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/color/color_rule.h"
+#include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
 #include "core/properties/properties.h"
 

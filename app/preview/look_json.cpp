@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/color/named_colors.h"
 #include "core/properties/properties.h"
 #include "core/render/look.h"

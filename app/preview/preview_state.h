@@ -21,7 +21,7 @@
 #include "core/render/look.h"
 #include "core/scene/figure.h"
 #include "core/scene/scene.h"
-#include "core/scene/surface_kind.h"
+#include "core/scene/surface_computer.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {

@@ -14,13 +14,12 @@
 #include "core/base/text.h"
 #include "core/camera/camera_json.h"
 #include "core/color/color_maps.h"
-#include "core/color/color_rule.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
 #include "core/color/ordered_classes.h"
 #include "core/properties/properties.h"
 #include "core/scene/copied_atoms.h"
-#include "core/scene/object_json.h"
+#include "core/scene/scene_json.h"
 #include "core/structure/element_tables.h"
 
 namespace meniscus {

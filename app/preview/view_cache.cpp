@@ -15,8 +15,8 @@
 #include "app/preview/look_json.h"
 #include "core/base/error.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
-#include "core/surface/atom_areas.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/measure.h"
 
 namespace meniscus {
 namespace {

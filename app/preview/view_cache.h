@@ -15,8 +15,8 @@
 #include <glm/vec2.hpp>
 
 #include "app/preview/shown_molecule.h"
-#include "core/scene/surface_kind.h"
 #include "core/scene/renderers.h"
+#include "core/scene/surface_computer.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {

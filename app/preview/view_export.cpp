@@ -30,7 +30,7 @@
 #include "core/surface/compute_surface.h"
 #include "exporters/blender/mns_file.h"
 #include "exporters/blender/surface_file.h"
-#include "exporters/povray/scene.h"
+#include "exporters/povray/povray_scene.h"
 
 namespace meniscus {
 namespace {

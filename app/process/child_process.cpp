@@ -22,7 +22,7 @@
 
 #include <fmt/format.h>
 
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/process/system_process.h"
 
 extern char** environ;

@@ -6,16 +6,20 @@
 #include <cerrno>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "app/process/memory.h"
-#include "app/process/program_error.h"
-#include "app/process/stop_signals.h"
 #include "app/process/system_process.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
@@ -23,6 +27,109 @@
 #include "core/base/text.h"
 
 namespace meniscus {
+namespace {
+
+template <typename Kind>
+bool is(const std::exception& error) {
+  return dynamic_cast<const Kind*>(&error) != nullptr;
+}
+
+/// Returns the code for something that the system refused: memory or another thread, or to make, rename or remove a
+/// folder.
+ExitCode code_of_system(const std::system_error& error) {
+  if (error.code() == std::errc::not_enough_memory || error.code() == std::errc::resource_unavailable_try_again)
+    return kExitCapacity;
+  return is<std::filesystem::filesystem_error>(error) ? kExitOutput : kExitInternal;
+}
+
+}  // namespace
+
+ExitCode exit_code_of(const std::exception& error) {
+  if (const auto* run = dynamic_cast<const RunError*>(&error)) return run->code();
+  if (is<RequestError>(error) || is<SelectionError>(error)) return kExitUsage;
+  if (is<InputError>(error)) return kExitInput;
+  if (is<GpuError>(error)) return kExitGpu;
+  if (is<CapacityError>(error) || is<std::bad_alloc>(error)) return kExitCapacity;
+  if (is<OutputError>(error)) return kExitOutput;
+  if (is<OpenSurfaceError>(error)) return kExitNotClosed;
+  if (std::string_view(error.what()).starts_with("pthread_create"))
+    return kExitCapacity;  // oneTBB reports it in these words
+  if (const auto* system = dynamic_cast<const std::system_error*>(&error)) return code_of_system(*system);
+  return kExitInternal;
+}
+
+namespace {
+
+struct Registered {
+  const StopHandler* handler;
+  std::function<void()> stop;
+  std::optional<int> exit_code;
+};
+
+struct Handling {
+  std::mutex mutex;  // held from the signal to the end of the program, so that a handler outlives its call
+  std::vector<Registered> all;
+};
+
+Handling& handling() {
+  static Handling instance;
+  return instance;
+}
+
+void stop(int signal) {
+  const auto held = hold_stops();
+  std::optional<int> exit_code;
+  for (auto one = handling().all.rbegin(); one != handling().all.rend(); ++one) {
+    one->stop();
+    if (!exit_code) exit_code = one->exit_code;
+  }
+  remove_unfinished_outputs();
+  system_process::end(exit_code.value_or(128 + signal));
+}
+
+}  // namespace
+
+void clean_up_on_signals() { system_process::await_stop(stop); }
+
+std::unique_lock<std::mutex> hold_stops() { return std::unique_lock(handling().mutex); }
+
+StopHandler::StopHandler(std::function<void()> stop, std::optional<int> exit_code) {
+  const auto held = hold_stops();
+  handling().all.push_back({this, std::move(stop), exit_code});
+}
+
+StopHandler::~StopHandler() {
+  const auto held = hold_stops();
+  std::erase_if(handling().all, [this](const Registered& one) { return one.handler == this; });
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string& remembered() {
+  static std::string line;
+  return line;
+}
+
+}  // namespace
+
+std::filesystem::path addon_folder() {
+  std::error_code none;
+  const fs::path program = system_file::program_path().parent_path();
+  const fs::path installed = program.parent_path() / "share/meniscus/addon", built = program / "share/meniscus/addon";
+  return !fs::exists(installed, none) && fs::exists(built, none) ? built : installed;
+}
+
+void remember_command_line(std::span<const char* const> words) {
+  std::string& line = remembered();
+  line.clear();
+  for (std::size_t n = 0; n < words.size(); ++n)
+    line += n == 0 ? fs::path(words[0]).filename().string() : " " + escaped(shell_word(words[n]));
+}
+
+std::string command_line() { return remembered(); }
+
 namespace {
 
 constinit const char* program_name = "meniscus";

@@ -17,10 +17,10 @@
 #include <sys/prctl.h>
 #endif
 
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/process/system_process.h"
 #include "core/base/error.h"
-#include "core/base/uninterrupted.h"
+#include "core/base/system_file.h"
 
 namespace meniscus::system_process {
 

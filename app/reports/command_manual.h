@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes manual pages in the macros of man(7) from the help.
+// Manual pages and completion scripts of commands.
 #pragma once
 
 #include <string>
@@ -27,5 +27,14 @@ std::string topic_man_page(std::string_view name, std::string_view summary, std:
 /// Returns the name of a page without its section: "meniscus-export-povray".
 std::string man_page_name(const CommandEntry& command);
 std::string man_page_name(std::string_view topic);
+
+/// Returns a script to be sourced by bash, or put into a folder of bash-completion under the program's name.
+std::string bash_completion(const CommandEntry& program);
+
+/// Returns a script to be put into a folder of zsh's fpath as _NAME.
+std::string zsh_completion(const CommandEntry& program);
+
+/// Returns a script to be put into a folder of fish's completions as NAME.fish.
+std::string fish_completion(const CommandEntry& program);
 
 }  // namespace meniscus

@@ -11,7 +11,6 @@
 #include "core/queries/cavity_tracks.h"
 #include "core/queries/surface_object.h"
 #include "core/scene/area_columns.h"
-#include "core/scene/gradient_columns.h"
 #include "core/scene/molecule.h"
 #include "core/structure/structure.h"
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the frames of a run, several at once, continues after a failed frame, and reports all frames in order.
+// Makes the frames of a run on several threads, and reports how far it is.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -15,6 +16,31 @@
 #include "core/scene/molecule.h"
 
 namespace meniscus {
+
+/// Reports the progress of one run; for one thread.
+class RunProgress {
+ public:
+  /// at_once: number of frames at work at the same time. word: the word for a frame here.
+  RunProgress(ProgressStyle style, bool quiet, std::uint64_t frames, std::size_t at_once = 1,
+              const char* word = "frame");
+
+  /// Reports a finished frame. empty: its picture shows nothing.
+  void done(std::uint64_t frame, const std::vector<std::string>& files, double milliseconds, bool empty = false);
+  void failed(std::uint64_t frame, int exit_code, const std::string& message);
+  /// Prints a line for people about what delays the run.
+  void tell(const std::string& line) const;
+  /// Must be called after the last frame, in case of failure, too.
+  void end();
+
+ private:
+  void advance();
+
+  ProgressStyle style_;
+  const std::string word_;
+  std::uint64_t total_, done_ = 0, failed_ = 0;
+  int last_tenth_ = -1;
+  std::chrono::steady_clock::time_point begin_;
+};
 
 /// The result of a frame.
 struct MadeFrame {

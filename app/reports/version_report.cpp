@@ -20,7 +20,7 @@
 #include <libdeflate.h>
 #include <zlib.h>
 
-#include "app/process/this_program.h"
+#include "app/process/program_main.h"
 #include "core/base/version.h"
 #include "core/gpu/egl_context.h"
 #include "core/image/image_codec.h"

@@ -18,8 +18,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
 #include "core/base/system_file.h"
+#include "core/base/text.h"
 
 namespace meniscus {
 namespace {

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Progress of long tasks: the library reports to a callback, and ProgressText turns reports into a bar or plain lines.
+// Progress of long tasks as reports to a callback, a text display of these reports, and a clock of named stages.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace meniscus {
 
@@ -53,6 +57,85 @@ class ProgressText {
   std::function<void(std::string_view)> write_;
   std::string task_;
   int last_tenth_ = -1;
+};
+
+/// The name of a stage and its duration.
+struct StageTime {
+  std::string name;
+  double milliseconds = 0.0;
+};
+
+/// How stages account for work that another device does in parallel.
+enum class StageTiming {
+  rough,  ///< does not wait: work of one stage may count for a later stage that needs it; sums are right
+  exact   ///< waits until the device is idle at both ends of each stage, which costs a round trip each
+};
+
+/// Adds up the times of stages by name. times() has them in the order in which they first ended.
+class StageClock {
+ public:
+  /// A running stage. It ends when this object is destroyed.
+  class Stage {
+   public:
+    Stage(StageClock& clock, std::string name)
+        : clock_(clock), time_{std::move(name), 0.0}, begin_(std::chrono::steady_clock::now()) {
+      clock_.reserve_entry();
+    }
+    ~Stage() {
+      time_.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
+      clock_.end(std::move(time_));
+    }
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+
+   private:
+    StageClock& clock_;
+    StageTime time_;
+    std::chrono::steady_clock::time_point begin_;
+  };
+
+  explicit StageClock(StageTiming timing = StageTiming::rough) : is_exact_(timing == StageTiming::exact) {}
+
+  /// Begins a stage.
+  [[nodiscard]] Stage stage(const std::string& name) {
+    if (check_) check_();
+    return Stage(*this, name);
+  }
+
+  /// Sets a function that is called before each stage. An exception that it throws ends the work.
+  void before_stages(std::function<void()> check) { check_ = std::move(check); }
+
+  /// Adds time that was measured elsewhere.
+  void add(std::string name, double milliseconds) {
+    reserve_entry();
+    end({std::move(name), milliseconds});
+  }
+
+  /// Forgets all times.
+  void restart() { times_.clear(); }
+  bool is_exact() const { return is_exact_; }
+  const std::vector<StageTime>& times() const { return times_; }
+
+ private:
+  /// Reserves room for the time of a stage when it begins, so that the stage can end without allocating memory.
+  void reserve_entry() {
+    times_.reserve(times_.size() + open_ + 1);
+    ++open_;
+  }
+
+  void end(StageTime time) noexcept {
+    --open_;
+    const auto known = std::ranges::find(times_, time.name, &StageTime::name);
+    if (known == times_.end())
+      times_.push_back(std::move(time));
+    else
+      known->milliseconds += time.milliseconds;
+  }
+
+  bool is_exact_;
+  std::function<void()> check_;
+  std::vector<StageTime> times_;
+  std::size_t open_ = 0;
 };
 
 }  // namespace meniscus

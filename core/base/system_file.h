@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of the operating system. system_file_posix.cpp (Linux, macOS) and system_file_windows.cpp implement the
-// functions.
+// Files as the operating system has them; system_file_posix.cpp (Linux, macOS) and system_file_windows.cpp implement
+// the functions.
 #pragma once
 
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -12,6 +13,16 @@
 #include <utility>
 
 namespace meniscus {
+
+/// Returns the result of `call`, which returns a negative number and sets errno if it fails. It is called again as long
+/// as a signal interrupts it before it does anything (EINTR). close() must not be called this way, because it closes
+/// the file even if interrupted.
+template <typename Call>
+auto uninterrupted(const Call& call) {
+  auto result = call();
+  while (result < 0 && errno == EINTR) result = call();
+  return result;
+}
 
 /// Convert between UTF-8, which all texts of Meniscus use, and paths of the operating system.
 std::filesystem::path path_of_text(std::string_view text);

@@ -13,7 +13,6 @@
 #include <ctime>
 
 #include "core/base/system_file.h"
-#include "core/base/uninterrupted.h"
 
 namespace meniscus {
 

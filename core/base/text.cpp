@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Escapes, shortens and wraps texts, spells options, finds the nearest known word, and fills templates.
+// Decodes UTF-8, escapes and wraps texts, spells options in messages, finds the nearest known word, and fills
+// templates.
 #include "core/base/text.h"
 
 #include <algorithm>
@@ -8,9 +9,39 @@
 
 #include <fmt/format.h>
 
-#include "core/base/utf8.h"
-
 namespace meniscus {
+
+Character first_character(std::string_view text) {
+  const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(text[n]); };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return {lead, 1};
+  const std::size_t bytes = lead >> 5 == 6 ? 2 : lead >> 4 == 14 ? 3 : lead >> 3 == 30 ? 4 : 0;
+  if (bytes == 0 || bytes > text.size()) return {};
+  char32_t code = lead & (0x7fu >> bytes);
+  for (std::size_t n = 1; n < bytes; ++n) {
+    if (byte(n) >> 6 != 2) return {};
+    code = code << 6 | (byte(n) & 0x3fu);
+  }
+  constexpr char32_t kLeast[] = {0x80, 0x800, 0x10000};  // with 2, 3 and 4 bytes; smaller codes have a shorter form
+  const bool is_surrogate = code >= 0xd800 && code < 0xe000;
+  if (code < kLeast[bytes - 2] || is_surrogate || code > 0x10ffff) return {};
+  return {code, bytes};
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t bytes = first_character(text).bytes;
+    if (bytes == 0) return false;
+    text.remove_prefix(bytes);
+  }
+  return true;
+}
+
+bool is_control(char32_t code) {
+  const auto is_within = [code](char32_t first, char32_t last) { return code >= first && code <= last; };
+  return code < 0x20 || is_within(0x7f, 0x9f) || code == 0x61c || is_within(0x200e, 0x200f) ||
+         is_within(0x2028, 0x202e) || is_within(0x2066, 0x2069);
+}
 
 std::string escaped(std::string_view text) {
   std::string result;
@@ -193,6 +224,18 @@ std::string filled(std::string_view text, const std::vector<Filling>& fillings) 
     result.append(is_mark ? filling->text : "@");
     text.remove_prefix(is_mark ? filling->name.size() + 2 : 1);
   }
+}
+
+std::string with_options(std::string_view text) {
+  std::string spelled;
+  for (std::size_t begin; (begin = text.find('@')) != std::string_view::npos;) {
+    spelled += text.substr(0, begin);
+    text.remove_prefix(begin + 1);
+    const std::size_t end = text.find('@');
+    spelled += option_name(text.substr(0, end));
+    text.remove_prefix(end + 1);
+  }
+  return spelled.append(text);
 }
 
 }  // namespace meniscus

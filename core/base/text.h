@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Texts of messages and files: escaped quotes, numbers with separators, names of options, the nearest known word, and
-// templates.
+// Texts of messages and files: UTF-8, escaped quotes, line breaks, numbers with separators, names of options, the
+// nearest known word, and templates.
+//
+// Core writes "@NAME@", and each interface (command line, library) spells it in its own way.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +12,26 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
 namespace meniscus {
+
+/// A character and its number of bytes in UTF-8.
+struct Character {
+  char32_t code = 0;
+  std::size_t bytes = 0;
+};
+
+/// Decodes the first character of a text that is not empty. It has 0 bytes if the text does not begin with UTF-8 (RFC
+/// 3629).
+Character first_character(std::string_view text);
+
+/// True if the whole text is UTF-8.
+bool is_utf8(std::string_view text);
+
+/// True if a character is invisible but controls a terminal or the display of other characters: control characters of
+/// ASCII and U+0080 to U+009F, marks of direction (Unicode's Bidi_Control), and separators of lines and paragraphs.
+bool is_control(char32_t code);
 
 /// Returns the text with control characters (is_control() in utf8.h) and bytes that are not UTF-8 written as \xNN. So a
 /// text from a file cannot control a terminal or reverse the direction of words. All other UTF-8 is unchanged.
@@ -73,5 +94,16 @@ struct Filling {
 /// Returns a template with each "@NAME@" replaced by its filling. Names without a filling stay. Inserted texts are not
 /// searched again.
 std::string filled(std::string_view text, const std::vector<Filling>& fillings);
+
+/// Returns the text with each "@NAME@" and "@NAME VALUE@" spelled as this interface writes an option and its value
+/// (option_name() in text.h). For example "@frames all@" becomes "frames=all" in libraries.
+std::string with_options(std::string_view text);
+
+/// Formats such a text by fmt::format(). Options are replaced in the text only, not in the values.
+template <typename... Values>
+std::string message(fmt::format_string<Values...> text, Values&&... values) {
+  const fmt::string_view form = text;
+  return fmt::vformat(with_options({form.data(), form.size()}), fmt::make_format_args(values...));
+}
 
 }  // namespace meniscus

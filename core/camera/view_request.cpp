@@ -13,10 +13,9 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
-#include "core/base/parse_number.h"
+#include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/camera/camera_json.h"
-#include "core/camera/foreign_cameras.h"
 #include "core/camera/open_side.h"
 #include "core/math/ball.h"
 #include "core/math/rigid_motion.h"

@@ -1,23 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours atoms one by one, and numbers their chains.
-#include "core/color/color_atoms.h"
+// Finds the numbers by which a structure is coloured, and colours its atoms one by one.
+#include "core/color/color_schemes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
-#include "core/color/color_scale.h"
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/color/coloring.h"
 #include "core/color/lipophilicity.h"
 #include "core/color/named_colors.h"
 #include "core/color/ordered_classes.h"
+#include "core/structure/element_tables.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
@@ -133,6 +141,295 @@ Coloring color_object(const Structure& structure, std::span<const std::uint32_t>
   if (!opacities.empty())
     for (const std::uint32_t a : atom) coloring.opacity.push_back(opacities[a]);
   return coloring;
+}
+
+namespace {
+
+using By = ColorScheme::By;
+
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array<double, 2> kPlaces{0.0, 1.0},
+    kGrades{1.0, 9.0};  // ranges of positions in a chain, and of ConSurf's grades
+
+[[noreturn]] void no_atom_named(const Structure& structure, const NumberFile& file, const char* what,
+                                std::size_t count) {
+  throw InputError(file.path, 0,
+                   fmt::format("names {} {}, none of which is among the atoms used of {}", with_thousands(count), what,
+                               structure.file));
+}
+
+/// Returns the only chain of polymers, or of all atoms if there are none, for numbers of residues without chains.
+std::string only_chain(const Structure& structure, const NumberFile& file) {
+  std::set<std::string> chains;
+  const bool polymers =
+      std::ranges::any_of(structure.atoms, [](const Atom& a) { return a.kind == AtomClass::polymer; });
+  for (const Atom& atom : structure.atoms)
+    if (!polymers || atom.kind == AtomClass::polymer) chains.insert(chain_of_file(atom));
+  if (chains.size() != 1)
+    throw InputError(
+        file.path, 0,
+        fmt::format("names residues without their chains, but the atoms used of {} are of {} chains, such "
+                    "as {} and {}; add a column chain",
+                    structure.file, chains.size(), in_quotes(*chains.begin()), in_quotes(*std::next(chains.begin()))));
+  return *chains.begin();
+}
+
+std::vector<double> numbers_by_name(const Structure& structure, const NumberFile& file) {
+  std::vector<double> numbers(structure.atoms.size(), kMissing);
+  bool found = false;
+  const std::string chain = file.without_chains ? only_chain(structure, file) : std::string();
+  const auto take = [&](const auto& table, const auto& key, double& number) {
+    const auto entry = table.find(key);
+    if (entry == table.end()) return;
+    number = entry->second;
+    found = true;
+  };
+  for (std::size_t a = 0; a < numbers.size(); ++a) {
+    const Atom& atom = structure.atoms[a];
+    if (!file.by_atom.empty())
+      take(file.by_atom, atom.index, numbers[a]);
+    else if (!file.without_chains)
+      take(file.by_residue, ResidueName{chain_of_file(atom), atom.residue_number, atom.insertion_code}, numbers[a]);
+    else if (chain_of_file(atom) == chain)
+      take(file.by_residue, ResidueName{{}, atom.residue_number, atom.insertion_code}, numbers[a]);
+  }
+  if (!found && !file.by_atom.empty()) no_atom_named(structure, file, "atoms", file.by_atom.size());
+  if (!found) no_atom_named(structure, file, "residues", file.by_residue.size());
+  return numbers;
+}
+
+/// Returns the numbers of a file for the atoms in use: by name, or in the order of these atoms, or in the order of all
+/// atoms of the molecule's file.
+std::vector<double> numbers_of_file(const Structure& structure, const NumberFile& file) {
+  if (file.numbers.empty() && !file.empty()) return numbers_by_name(structure, file);
+  const auto other_models = structure.report.excluded.find(kExcludedModel);
+  const std::size_t read =
+      structure.report.read - (other_models == structure.report.excluded.end() ? 0 : other_models->second);
+  const std::size_t used = structure.atoms.size(), given = file.numbers.size();
+  if (given == used) return file.numbers;
+  std::vector<double> numbers;
+  for (const Atom& atom : structure.atoms) {
+    if (given == read && atom.index < given) numbers.push_back(file.numbers[atom.index]);
+  }
+  if (numbers.size() != used) {
+    throw InputError(file.path, 0,
+                     fmt::format("holds {} numbers; {} holds {} atoms, of which {} are used; {}", with_thousands(given),
+                                 structure.file, with_thousands(read), with_thousands(used), kNumberLayouts));
+  }
+  return numbers;
+}
+
+std::vector<glm::dvec3> positions_of(const Structure& structure) {
+  std::vector<glm::dvec3> positions;
+  positions.reserve(structure.atoms.size());
+  for (const Atom& atom : structure.atoms) positions.push_back(atom.position);
+  return positions;
+}
+
+/// Returns grades of conservation, from 1 to 9.
+std::vector<double> grades_of(const Structure& structure, const NumberFile& file) {
+  std::vector<double> grades = numbers_of_file(structure, file);
+  for (const double grade : grades)
+    if (grade < kGrades[0] || grade > kGrades[1])
+      throw InputError(file.path, 0,
+                       message("holds {:g}; @color conservation@ takes ConSurf's grades, from 1 (variable) to 9 "
+                               "(conserved); @color file@ takes any numbers",
+                               grade));
+  return grades;
+}
+
+/// Returns positions from 0, for the first residue of each chain of polymers, to 1, for its last; also for atoms drawn
+/// in addition to the surface, so that sticks and cartoons have the same positions. NaN: not part of a polymer.
+std::vector<double> places_in_chains(const Structure& structure) {
+  using Chain = std::tuple<std::int32_t, std::uint32_t, std::string_view>;
+  std::map<Chain, std::set<std::uint32_t>> residues;
+  const auto chain_of = [](const Atom& atom) { return Chain(atom.model, atom.copy, atom.chain); };
+  for (const std::vector<Atom>* atoms : {&structure.atoms, &structure.extra_atoms})
+    for (const Atom& atom : *atoms)
+      if (atom.kind == AtomClass::polymer) residues[chain_of(atom)].insert(atom.residue);
+  std::map<std::pair<Chain, std::uint32_t>, double> places;
+  for (const auto& [chain, of_chain] : residues) {
+    const double last = of_chain.size() > 1 ? static_cast<double>(of_chain.size() - 1) : 1.0;
+    double place = 0.0;
+    for (const std::uint32_t residue : of_chain) places[{chain, residue}] = place++ / last;
+  }
+  std::vector<double> numbers;
+  for (const Atom& atom : structure.atoms)
+    numbers.push_back(atom.kind == AtomClass::polymer ? places[{chain_of(atom), atom.residue}] : kMissing);
+  return numbers;
+}
+
+/// Returns the names of the first and the last residue of these chains.
+std::array<std::string, 2> ends_of_chains(const Structure& structure) {
+  const auto any = [&](auto is_of) { return std::ranges::any_of(structure.atoms, is_of); };
+  const bool protein = any([](const Atom&atom) { return atom.kind == AtomClass::polymer && atom.name == "CA"; }),
+             nucleic = any([](const Atom&atom) {
+               return atom.kind == AtomClass::polymer && (atom.name == "C4'" || atom.name == "C4*");
+             });
+  if (protein && nucleic) return {"N or 5′", "C or 3′"};
+  return nucleic ? std::array<std::string, 2>{"5′", "3′"} : std::array<std::string, 2>{"N", "C"};
+}
+
+/// Returns one number per atom, NaN if there is none.
+std::vector<double> numbers_of(const Structure& structure, const ColorScheme& scheme) {
+  if (scheme.by == By::file) return numbers_of_file(structure, scheme.file.of_frame(structure.frame));
+  if (scheme.by == By::conservation) return grades_of(structure, scheme.file.of_frame(structure.frame));
+  if (scheme.by == By::rainbow) return places_in_chains(structure);
+  if (scheme.by == By::radial) return distances_from_middle(positions_of(structure));
+  if (scheme.is_measured()) return numbers_of_file(structure, scheme.file);
+  const auto number = [&](const Atom& atom) -> double {
+    switch (scheme.by) {
+      case By::bfactor:
+        return atom.b_factor;
+      case By::occupancy:
+        return atom.occupancy;
+      case By::charge:
+        return atom.charge;
+      case By::hydrophobicity:
+        return hydropathy(atom.residue_name);
+      default:
+        return atom.index;
+    }
+  };
+  std::vector<double> numbers;
+  numbers.reserve(structure.atoms.size());
+  for (const Atom& atom : structure.atoms) numbers.push_back(number(atom));
+  return numbers;
+}
+
+struct ScaleWords {
+  std::string_view title, unit;
+};
+
+ScaleWords words_of(By by) {
+  switch (by) {
+    case By::bfactor:
+      return {"B-factor", "Å²"};
+    case By::occupancy:
+      return {"occupancy", ""};
+    case By::charge:
+      return {"partial charge", "e"};
+    case By::hydrophobicity:
+      return {"hydrophobicity (Kyte & Doolittle 1982)", ""};
+    case By::index:
+      return {"place in the file", ""};
+    case By::radial:
+      return {"distance from the middle", "Å"};
+    case By::rainbow:
+      return {"place in the chain", ""};
+    case By::conservation:
+      return {"conservation", ""};
+    case By::buried:
+      return {"buried area", "Å²"};
+    case By::rmsf:
+      return {"fluctuation (RMSF)", "Å"};
+    case By::accessibility:
+      return {"relative accessibility (Tien et al. 2013)", ""};
+    default:
+      return {"number from file", ""};
+  }
+}
+
+[[noreturn]] void no_numbers(const Structure& structure, const ColorScheme& scheme) {
+  switch (scheme.by) {
+    case By::bfactor:
+      throw InputError(structure.file, 0, message("has no B-factors to colour by; choose another @color@"));
+    case By::occupancy:
+      throw InputError(structure.file, 0, message("has no occupancies to colour by; choose another @color@"));
+    case By::charge:
+      throw InputError(structure.file, 0, "has no partial charges to colour by; PQR files have them");
+    case By::rmsf:
+      throw RequestError(message("@color rmsf@ measures fluctuations over frames; add @frames all@"));
+    case By::buried:
+      throw RequestError(
+          message("buried areas colour the whole surface; choose @color buried@, or another colour for EXPR"));
+    case By::accessibility:
+      throw InputError(
+          structure.file, 0,
+          message("has no complete amino acids, so there is no relative accessibility; choose another @color@"));
+    case By::rainbow:
+      throw InputError(structure.file, 0,
+                       message("has no chains of amino acids or nucleotides to colour along; choose another @color@"));
+    case By::hydrophobicity:
+      throw InputError(
+          structure.file, 0,
+          message("has no amino acids, so the hydrophobicity scale does not apply; choose another @color@"));
+    default:
+      throw InputError(scheme.file.path, 0, "all numbers are missing; there is nothing to colour by");
+  }
+}
+
+ColorMap default_map(By by) {
+  if (by == By::charge) return ColorMap::red_white_blue;
+  if (by == By::rainbow) return ColorMap::rainbow;
+  if (by == By::conservation) return ColorMap::consurf;
+  if (by == By::buried || by == By::rmsf) return ColorMap::ylorrd;
+  return by == By::hydrophobicity ? ColorMap::blue_white_red : ColorMap::viridis;
+}
+
+std::array<double, 2> automatic_range(const std::vector<double>& defined, By by) {
+  if (by == By::hydrophobicity) return {-4.5, 4.5};
+  if (by == By::rainbow || by == By::accessibility) return kPlaces;
+  if (by == By::conservation) return kGrades;
+  const auto [low, high] = std::ranges::minmax(defined);
+  if (by == By::buried || by == By::rmsf) return {0.0, high};
+  if (by != By::charge) return {low, high};
+  const double largest = std::max(std::abs(low), std::abs(high));
+  return {-largest, largest};
+}
+
+void count_classes(ColorScale& scale, const std::vector<double>& defined, const std::string& file) {
+  const std::set<double> different(defined.begin(), defined.end());
+  if (different.size() > kCategoricalCount) {
+    throw InputError(file, 0,
+                     message("has {} different numbers, but the categorical map has {} colours; choose another @map@",
+                             with_thousands(different.size()), kCategoricalCount));
+  }
+  scale.classes.assign(different.begin(), different.end());
+}
+
+}  // namespace
+
+std::vector<double> distances_from_middle(std::span<const glm::dvec3> points) {
+  glm::dvec3 middle(0.0);
+  for (const glm::dvec3& point : points) middle += point / static_cast<double>(points.size());
+  std::vector<double> distances;
+  distances.reserve(points.size());
+  for (const glm::dvec3& point : points) distances.push_back(glm::distance(point, middle));
+  return distances;
+}
+
+ColorScale color_scale(const Structure& structure, const ColorScheme& scheme) {
+  if (scheme.by == By::volume) return scheme.volume->scale;
+  if (scheme.by == By::lipophilicity) return lipophilicity_scale(scheme);
+  ColorScale scale;
+  const ScaleWords words = words_of(scheme.by);
+  scale.title = scheme.by == By::file && !scheme.file.column.empty() ? scheme.file.column : std::string(words.title);
+  scale.unit = std::string(words.unit);
+  if (!scheme.title.empty()) scale.title = scheme.title;
+  if (!scheme.unit.empty()) scale.unit = scheme.unit;
+  scale.map = scheme.map.value_or(default_map(scheme.by));
+  scale.own_map = scheme.own_map;
+  scale.missing_color = scheme.missing.value_or(default_missing_color(scale.map));
+  if (scheme.is_measured() && scheme.file.numbers.empty()) no_numbers(structure, scheme);
+  scale.value = numbers_of(structure, scheme);
+  std::vector<double> defined;
+  std::ranges::copy_if(scale.value, std::back_inserter(defined), [](double number) { return !std::isnan(number); });
+  if (defined.empty()) no_numbers(structure, scheme);
+  scale.missing = scale.value.size() - defined.size();
+  scale.range = scheme.range          ? *scheme.range
+                : scheme.frames_range ? *scheme.frames_range
+                                      : automatic_range(defined, scheme.by);
+  if (scheme.by == By::rainbow && scale.range == kPlaces) scale.ends = ends_of_chains(structure);
+  if (scheme.by == By::conservation && scale.range == kGrades) scale.ends = {"variable", "conserved"};
+  scale.of_colors = scheme.takes_file() && scheme.file.of_colors;
+  if (scale.of_colors) {
+    const std::set<double> different(defined.begin(), defined.end());
+    scale.classes.assign(different.begin(), different.end());
+  } else if (scale.map == ColorMap::categorical) {
+    count_classes(scale, defined, structure.file);
+  }
+  return scale;
 }
 
 }  // namespace meniscus

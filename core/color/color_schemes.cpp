@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parses colour schemes from the words of users.
+// Reads colour schemes and rules as users write them.
 #include "core/color/color_schemes.h"
 
 #include <algorithm>
@@ -15,9 +15,10 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/color/named_colors.h"
-#include "core/base/parse_number.h"
+#include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
@@ -204,6 +205,22 @@ std::optional<std::array<double, 2>> parse_color_range(std::string_view text) {
     return std::nullopt;
   }
   return range;
+}
+
+ColorRule named_color_rule(std::string_view text) {
+  const auto parted = selection_and_text(text);
+  if (!parted) return parse_color_rule(text);  // reports the error
+  const std::size_t colon = parted->text.find(':');
+  if (colon == std::string_view::npos) return parse_color_rule(text);
+  ColorRule rule = parse_color_rule(text.substr(0, text.size() - parted->text.size() + colon));
+  rule.name = parted->text.substr(colon + 1);
+  if (rule.name.empty())
+    throw RequestError(in_quotes(text) + " has no name after its colon; as in 'chain A=red:Alpha'");
+  return rule;
+}
+
+std::string color_rule_text(const ColorRule& rule) {
+  return rule.atoms.text() + "=" + scheme_word(rule.paint) + (rule.name.empty() ? "" : ":" + rule.name);
 }
 
 }  // namespace meniscus

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colour schemes: by a property of the atoms, by a number, or one colour for all.
+// Colour schemes: by a property of the atoms, by a number or one colour for all, their rules as users write them, and
+// the colours of atoms by them.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -14,9 +16,9 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/structure/atom_numbers.h"
 #include "core/color/color_maps.h"
 #include "core/color/named_colors.h"
+#include "core/structure/atom_numbers.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {
@@ -149,5 +151,37 @@ std::map<std::string, std::size_t> places_of_chains(const Structure& structure);
 
 /// Parses "lo:hi" with lo < hi and a finite difference; nothing for any other text.
 std::optional<std::array<double, 2>> parse_color_range(std::string_view text);
+
+/// Parses "EXPR=red" or "EXPR=red:Name"; the part before the colon as parse_color_rule does. Throws RequestError,
+/// SelectionError.
+ColorRule named_color_rule(std::string_view text);
+
+/// Formats a rule as named_color_rule reads it.
+std::string color_rule_text(const ColorRule& rule);
+
+struct ColorScheme;
+struct Coloring;
+struct Structure;
+
+/// Returns one colour per atom of the structure, for a surface that is one object. Rules override the scheme, except
+/// where it colours by kind of patch. Throws InputError if colours are by a number and no atom has one, if a file has a
+/// different number of numbers than there are atoms, and if the categorical map has fewer colours than there are
+/// different numbers.
+Coloring color_atoms(const Structure& structure, const ColorScheme& scheme);
+
+/// Returns the colours of one of several objects. atom: per atom of the object, its index into structure.atoms.
+/// object_number: its index in the list of objects, by which By::component colours. Ranges are those of the whole
+/// structure. Parts are chains.
+Coloring color_object(const Structure& structure, std::span<const std::uint32_t> atom, const ColorScheme& scheme,
+                      std::size_t object_number);
+
+/// Returns the distance of each point from the mean of all points, by which By::radial colours.
+std::vector<double> distances_from_middle(std::span<const glm::dvec3> points);
+
+/// Returns the scale of a scheme that has one. Automatic ranges are the smallest and the largest number, of all frames
+/// where these are known; for charges symmetric about 0; for hydrophobicity, rainbow and conservation the ends of their
+/// scales. Default maps: charge red-white-blue (negative is red), hydrophobicity blue-white-red, ..., others viridis.
+/// Throws like color_atoms.
+ColorScale color_scale(const Structure& structure, const ColorScheme& scheme);
 
 }  // namespace meniscus

@@ -16,7 +16,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
 #include "core/math/box.h"

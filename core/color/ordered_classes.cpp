@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/color/named_colors.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/martini.h"

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/gpu/kernel_files.h"
 #include "core/gpu/context_description.h"
+#include "core/gpu/egl_context.h"
 #include "core/gpu/work_proof.h"
 
 namespace meniscus {

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/base/stage_clock.h"
+#include "core/base/progress.h"
 #include "core/gpu/buffer.h"
 #include "core/gpu/shader_source.h"
 

@@ -9,7 +9,7 @@
 #include <epoxy/gl.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/gpu/context_description.h"
 
 namespace meniscus {

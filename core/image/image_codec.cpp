@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loads the module of OpenImageIO that reads and writes pictures.
+// Loads the module with OpenImageIO, and finds the time that files bear.
 #include "core/image/image_codec.h"
 
 #include <array>
+#include <charconv>
 #include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
 
 #include "core/base/module_file.h"
 #include "core/base/version.h"
@@ -32,6 +36,15 @@ std::size_t pixel_bytes(const ImageToEncode& image) {
 const ImageCodec& image_codec() {
   static const ImageCodec& codec = load();
   return codec;
+}
+
+std::time_t source_date() {
+  const char* const text = std::getenv("SOURCE_DATE_EPOCH");
+  if (!text) return 0;
+  std::int64_t seconds = 0;
+  const std::string_view digits(text);
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), seconds);
+  return error == std::errc() && end == digits.data() + digits.size() ? seconds : 0;
 }
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Encodes and decodes pictures with OpenImageIO, which is loaded when the first picture is made.
+// Encodes and decodes pictures with OpenImageIO, which is loaded with the first picture, and the time that files bear.
 //
 // OpenImageIO loads two hundred libraries, a quarter of a second and a hundred megabytes before main(), and most
 // commands make no picture. So the code that needs it is a module of its own (openimageio_codec.cpp), found near the
@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <ctime>
 #include <memory>
 #include <span>
 #include <string>
@@ -82,5 +83,9 @@ class ImageCodec {
 /// Returns the codec, and loads the module at the first call; from any thread. Throws Error if it is missing or of
 /// another build, CapacityError if the system cannot load it.
 const ImageCodec& image_codec();
+
+/// Returns the time in SOURCE_DATE_EPOCH (reproducible-builds.org), or 0, so that a command always writes the same
+/// bytes.
+std::time_t source_date();
 
 }  // namespace meniscus

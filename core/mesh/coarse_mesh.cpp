@@ -17,7 +17,7 @@
 
 #include "core/base/error.h"
 #include "core/mesh/border_samples.h"
-#include "core/mesh/filled_faces.h"
+#include "core/mesh/tessellate.h"
 #include "core/surface/walks.h"
 
 namespace meniscus {

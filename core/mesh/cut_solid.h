@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/mesh/mesh_colors.h"
-#include "core/render/picture_object.h"
+#include "core/render/picture.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {

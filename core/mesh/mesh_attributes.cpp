@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures the curvature of a mesh at each vertex, and averages it over the vertices around it.
+// Averages the curvature of a mesh around each vertex, and computes how much of the sky vertices and atoms see.
 #include "core/mesh/mesh_attributes.h"
-#include "core/mesh/triangle_mesh.h"
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <numeric>
 
@@ -12,6 +12,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+
+#include "core/mesh/triangle_mesh.h"
+#include "core/render/cpu/occluders.h"
 
 namespace meniscus {
 namespace {
@@ -120,6 +123,25 @@ std::vector<Curvature> smoothed_curvatures(const TriangleMesh& mesh, double radi
                         smoothed[v] = smoothing.average_around(v, radius, scratch.seen, scratch.queue);
                     });
   return smoothed;
+}
+
+std::vector<float> vertex_open_sky(const Surface& surface, const TriangleMesh& mesh) {
+  return sky_visibility(surface, {mesh.positions, mesh.normals});
+}
+
+std::vector<double> atom_open_sky(const Surface& surface, const TriangleMesh& mesh) {
+  const std::vector<float> seen = vertex_open_sky(surface, mesh);
+  std::vector<double> means(surface.atoms.size(), 0.0), areas = means;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const glm::dvec3 &from = mesh.positions[a], side = mesh.positions[b] - from, other = mesh.positions[c] - from;
+    const double area = glm::length(glm::cross(side, other));
+    means[mesh.atom[t]] += area * static_cast<double>(seen[a] + seen[b] + seen[c]) / 3.0;
+    areas[mesh.atom[t]] += area;
+  }
+  for (std::size_t n = 0; n < means.size(); ++n)
+    if (areas[n] > 0.0) means[n] /= areas[n];
+  return means;
 }
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The curvature of a mesh, averaged over a few Å around each vertex: that of bumps and clefts rather than of atoms.
+// Numbers of mesh vertices: the curvature averaged around them, and the part of the sky that they see.
 #pragma once
 
 #include <vector>
@@ -19,5 +19,15 @@ inline constexpr double kSmoothingRadius = 2.0;
 /// `radius` (Å) and can be reached along edges between such vertices, and divided by their area. Cusps count, too, with
 /// their angles. Runs on all cores that TBB may use.
 std::vector<Curvature> smoothed_curvatures(const TriangleMesh& mesh, double radius = kSmoothingRadius);
+
+struct Surface;
+struct TriangleMesh;
+
+/// Returns sky_visibility() at each vertex of a mesh of the surface.
+std::vector<float> vertex_open_sky(const Surface& surface, const TriangleMesh& mesh);
+
+/// Returns for each of Surface::atoms the mean of that over its triangles, weighted by area; 0 for atoms without
+/// triangles.
+std::vector<double> atom_open_sky(const Surface& surface, const TriangleMesh& mesh);
 
 }  // namespace meniscus

@@ -10,7 +10,6 @@
 
 #include "core/color/coloring.h"
 #include "core/math/ball.h"
-#include "core/math/ball_grid.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {

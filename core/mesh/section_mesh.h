@@ -13,7 +13,7 @@
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/queries/surface_object.h"
-#include "core/render/picture_object.h"
+#include "core/render/picture.h"
 
 namespace meniscus {
 

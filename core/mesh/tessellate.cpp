@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes a surface in five steps: sample borders, fill faces, split doubled edges, colour, number the vertices.
+// Triangulates faces in rounds, joins them to a closed mesh in five steps, and checks areas and volumes by such meshes.
 #include "core/mesh/tessellate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -11,6 +12,7 @@
 #include <tuple>
 #include <unordered_map>
 #include <utility>
+
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -20,13 +22,88 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/mesh/border_samples.h"
 #include "core/mesh/compare_mesh.h"
 #include "core/mesh/face_mesh.h"
-#include "core/mesh/filled_faces.h"
 #include "core/surface/compute_surface.h"
 
 namespace meniscus {
+namespace {
+
+/// The most rounds in which rims that cross themselves are sampled more finely before a face is given up.
+constexpr int kUntanglingRounds = 24;
+
+}  // namespace
+
+FaceFilling::FaceFilling(const Surface& surface, const EdgeRule& rule, BorderSamples& samples)
+    : surface_(surface), rule_(rule), samples_(samples), is_requested_(surface.faces.size(), false) {}
+
+void FaceFilling::make_lattices(const std::vector<std::uint32_t>& faces) {
+  for (const std::uint32_t f : faces) {
+    const Face& face = surface_.faces[f];
+    if (face.kind == PatchKind::toroidal) continue;
+    const int n = frequency(face);
+    if (!lattices_.contains(n)) lattices_[n] = sphere_lattice(n);
+  }
+}
+
+FaceOutline FaceFilling::outline(std::uint32_t f) const {
+  const Face& face = surface_.faces[f];
+  if (face.kind == PatchKind::toroidal) return torus_outline(surface_, face, samples_, rule_);
+  return sphere_outline(surface_, face, samples_, lattices_.at(frequency(face)), edge(face));
+}
+
+FaceMesh FaceFilling::filled(std::uint32_t f) const {
+  const Face& face = surface_.faces[f];
+  if (face.loop_count == 0) return whole_sphere(surface_, face, lattices_.at(frequency(face)));
+  FaceOutline rim = outline(f);
+  if (rim.edges.size() < 3) return {};  // shrunk to a point or to one line
+  FaceMesh mesh = fill_outline(std::move(rim), tolerance_of(rule_, surface_, face));
+  shrink_lists(mesh);
+  return mesh;
+}
+
+void FaceFilling::fan(std::uint32_t f, FaceMesh& mesh) const {
+  if (!mesh.triangles.empty()) return;
+  FaceOutline rim = outline(f);
+  if (rim.edges.size() < 3) return;
+  if (rim.loop_count > 1) {
+    throw OpenSurfaceError(
+        fmt::format("the mesh cannot be closed: the borders of face {} cross; give a smaller tolerance", f));
+  }
+  mesh = fan_outline(std::move(rim));
+}
+
+void FaceFilling::fill(std::vector<std::uint32_t> todo, std::vector<FaceMesh>& meshes) {
+  make_lattices(todo);
+  for (const std::uint32_t f : todo) is_requested_[f] = true;
+  for (int round = 0; round < kUntanglingRounds && !todo.empty(); ++round) {
+    tbb::parallel_for(std::size_t{0}, todo.size(), [&](std::size_t i) { meshes[todo[i]] = filled(todo[i]); });
+    std::set<std::pair<std::uint32_t, std::uint32_t>> segments;
+    for (std::uint32_t f : todo) {
+      for (const Segment& s : meshes[f].too_coarse) segments.insert({s.border, s.index});
+    }
+    std::set<std::uint32_t> dirty;
+    for (auto s = segments.rbegin(); s != segments.rend(); ++s) {  // from the back, so that indices remain valid
+      samples_.split(s->first, s->second);
+      for (std::uint32_t f : surface_.borders[s->first].face)
+        if (is_requested_[f]) dirty.insert(f);
+    }
+    todo.assign(dirty.begin(), dirty.end());
+  }
+  tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t f) {
+    if (is_requested_[f]) fan(static_cast<std::uint32_t>(f), meshes[f]);
+  });
+}
+
+void shrink_lists(FaceMesh& mesh) {
+  mesh.points.shrink_to_fit();
+  mesh.triangles.shrink_to_fit();
+  mesh.atom.shrink_to_fit();
+  mesh.bridges.shrink_to_fit();
+}
+
 namespace {
 
 /// The distance between the seam names of two faces: more than the points of any seam.
@@ -376,6 +453,23 @@ TriangleMesh tessellate(const Surface& surface, const MeshOptions& options) {
                                        mesh.tolerance, found.front()));
   }
   return mesh;
+}
+
+namespace {
+
+constexpr std::array kTolerances{0.1, 0.03, 0.01};  // Å, the finer ones after the others have failed
+
+}  // namespace
+
+void check_by_mesh(const Surface& surface) {
+  for (const double tolerance : kTolerances) {
+    try {
+      tessellate(surface, {tolerance, false});
+      return;
+    } catch (const OpenSurfaceError& error) {
+      if (tolerance == kTolerances.back()) throw OpenSurfaceError(message("@verify@: {}", error.what()));
+    }
+  }
 }
 
 }  // namespace meniscus

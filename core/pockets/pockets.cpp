@@ -12,13 +12,12 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/math/union_find.h"
 #include "core/pockets/hull.h"
-#include "core/pockets/probe_cells.h"
 #include "core/queries/surface_parts.h"
-#include "core/surface/atom_areas.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/measure.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {

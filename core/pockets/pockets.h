@@ -13,7 +13,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/base/usual_probe.h"
+#include "core/base/constants.h"
 #include "core/queries/cavity_tracks.h"
 #include "core/queries/distance.h"
 #include "core/surface/primitives.h"

@@ -2,7 +2,7 @@
 // Properties of the legend and of what is written into a picture.
 #include <array>
 
-#include "core/properties/tables.h"
+#include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {

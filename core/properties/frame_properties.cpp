@@ -2,7 +2,7 @@
 // Properties of a run of frames: which frames, how their atoms are moved, and films of them.
 #include <array>
 
-#include "core/properties/tables.h"
+#include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {

@@ -2,7 +2,7 @@
 // Properties of the look: light, material, shade, lines, and fading into the background.
 #include <array>
 
-#include "core/properties/tables.h"
+#include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {

@@ -2,7 +2,7 @@
 // Properties of meshes, and of the files that commands write.
 #include <array>
 
-#include "core/properties/tables.h"
+#include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {

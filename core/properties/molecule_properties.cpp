@@ -2,7 +2,7 @@
 // Properties of the molecule: the file, the atoms that are used, their radii, and assemblies.
 #include <array>
 
-#include "core/properties/tables.h"
+#include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {

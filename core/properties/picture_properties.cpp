@@ -2,7 +2,7 @@
 // Properties of the camera and of the picture that it makes.
 #include <array>
 
-#include "core/properties/tables.h"
+#include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {

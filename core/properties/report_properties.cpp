@@ -2,7 +2,7 @@
 // Properties of reports: tables, JSON, curves; and options that belong to a single command.
 #include <array>
 
-#include "core/properties/tables.h"
+#include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {

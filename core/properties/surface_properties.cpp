@@ -2,7 +2,7 @@
 // Properties of the surface and of what is drawn with it: kind, probe, device, colours, cuts, sticks, pockets.
 #include <array>
 
-#include "core/properties/tables.h"
+#include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {

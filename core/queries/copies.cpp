@@ -18,7 +18,7 @@
 
 #include "core/base/error.h"
 #include "core/color/coloring.h"
-#include "core/math/ball_grid.h"
+#include "core/math/ball.h"
 #include "core/math/rigid_motion.h"
 #include "core/queries/surface_object.h"
 

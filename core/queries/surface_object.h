@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A surface as an object of a picture or an export: its name, its colours, and the places of its copies.
+// A surface and shapes as objects of a picture or an export, with their colours.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "core/color/coloring.h"
-#include "core/surface/primitives.h"
 #include "core/math/rigid_motion.h"
+#include "core/shapes/shapes.h"
+#include "core/surface/primitives.h"
 
 namespace meniscus {
 
@@ -21,6 +22,13 @@ struct SurfaceObject {
   /// The places of the surface; the first is usually the identity. Copies share everything else.
   std::vector<RigidMotion> copies{RigidMotion{}};
   bool whole = true;  ///< true if no part of the surface of its atoms is left out
+};
+
+struct ColoredShapes {
+  Shapes shapes;
+  Coloring coloring;  ///< one colour and part for each atom that shapes name; empty if there are no shapes
+
+  bool empty() const { return shapes.empty(); }
 };
 
 }  // namespace meniscus

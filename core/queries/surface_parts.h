@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Extracts closed parts of a surface as a surface of their own, such as the surface without its cavities.
+// Parts of a surface: closed components as a surface of their own, and the contiguous areas of chosen atoms.
 #pragma once
 
 #include <cstdint>
@@ -30,5 +30,25 @@ std::vector<bool> reached_from_outside(const Surface& surface);
 /// in the solid that it encloses, -1 around a point in a cavity that it encloses, 0 otherwise. The point (Å) is in no
 /// ball that the component touches unless the component encloses that ball, and in no probe that touches it.
 int winding_number(const Surface& surface, std::uint32_t component, const glm::dvec3& point);
+
+struct Surface;
+
+/// A maximal connected set of points that take the colours of the chosen atoms (coloring.h).
+struct AtomPatch {
+  double area = 0.0;  ///< Å², exact
+  /// Indices into Surface::atoms, ascending; an atom may have parts of several patches.
+  std::vector<std::uint32_t> atoms;
+  std::vector<double> areas;  ///< Å², the part of the patch that each of these atoms has
+};
+
+/// Returns all patches, the largest first; equally large ones in the order of their first atoms. `chosen` has one entry
+/// for each of Surface::atoms. Faces of one re-entrant patch count as joined (atom_shares). The areas of the patches
+/// add up to those of the chosen atoms. The faces of the surface must be measured.
+std::vector<AtomPatch> atom_patches(const Surface& surface, const std::vector<bool>& chosen);
+
+/// Returns true for the chosen atoms that have a part of a patch of at least `least` Å². It is for pictures, which know
+/// only the atom of each point: an atom may have parts of several patches, and a smaller patch is taken, too, as a
+/// whole, if one of its atoms is. The conditions of atom_patches() apply.
+std::vector<bool> atoms_of_patches(const Surface& surface, std::vector<bool> chosen, double least);
 
 }  // namespace meniscus

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reduced surface as pure combinatorics: the circles with exposed arcs, and the atoms that end these arcs.
+// The reduced surface as pure combinatorics: the exposed arcs of circles, the atoms that end them, and whole spheres.
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstddef>
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -104,5 +104,18 @@ class SwallowedAtoms {
   bool crowded_ = false;                             ///< true if there are too many pairs to list
   std::vector<std::array<std::uint32_t, 2>> pairs_;  ///< pairs with the lower index first
 };
+
+struct Ball;
+
+/// Computes lone_atoms and lost_atoms of a reduced surface. Its arcs must have been found already.
+///
+/// A sphere without an exposed arc is exposed as a whole or not at all, so each of its points decides (theorem 4). Two
+/// opposite points are tested against the balls alone, by the decision weights, independently of the method that found
+/// the arcs. Exposed spheres that meet no other are lone. If the points of a sphere disagree, or if it is exposed and
+/// meets another, arcs are missing: its atom is lost.
+///
+/// atoms: van der Waals balls in Å; weights, swallowed: decision_weights() and swallowed_atoms() of these.
+void find_whole_spheres(std::span<const Ball> atoms, std::span<const double> weights,
+                        const std::vector<bool>& swallowed, ReducedSurface& rs);
 
 }  // namespace meniscus

@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/camera/camera.h"
 #include "core/image/color_space.h"
 #include "core/render/label_layout.h"

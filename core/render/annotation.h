@@ -10,8 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/render/ink_strokes.h"
-#include "core/render/letters.h"
+#include "core/render/lettering.h"
 #include "core/render/picture.h"
 
 namespace meniscus {

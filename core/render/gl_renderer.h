@@ -11,13 +11,12 @@
 
 #include <glm/vec2.hpp>
 
-#include "core/base/stage_clock.h"
+#include "core/base/progress.h"
 #include "core/camera/camera.h"
 #include "core/gpu/buffer.h"
 #include "core/render/gpu_scene.h"
-#include "core/render/hit_point.h"
-#include "core/render/look_pass.h"
 #include "core/render/picture.h"
+#include "core/render/picture_block.h"
 #include "core/render/ray_cast_scene.h"
 #include "core/render/ray_caster.h"
 #include "core/surface/primitives.h"

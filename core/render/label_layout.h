@@ -9,7 +9,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "core/render/ink_strokes.h"
+#include "core/render/lettering.h"
 
 namespace meniscus {
 

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws a legend into the picture it was laid out for.
+// Lays out a legend in its strip of the picture, and draws it.
 #include "core/render/legend.h"
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/base/constants.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/color/named_colors.h"
 #include "core/image/color_space.h"
 #include "core/render/lettering.h"
 
@@ -121,6 +126,334 @@ Framebuffer Legend::alone(const std::optional<glm::vec3>& background) const {
     legend.color[static_cast<std::size_t>(place.y) * legend.size.x + place.x] = pixel;
   });
   return legend;
+}
+
+namespace {
+
+constexpr int kReadableLetters = 9, kSmallestLetters = 6;  // pixels
+constexpr int kMostCharacters = 40;                        // of a name
+
+int letter_height(glm::ivec2 size) { return std::max(kReadableLetters, std::min(size.x, size.y) / 30); }
+
+/// Some names for a message.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 12;
+  std::string text;
+  for (std::size_t n = 0; n < std::min(names.size(), kMost); ++n) text += (n > 0 ? ", " : "") + in_quotes(names[n]);
+  return text + (names.size() > kMost ? ", …" : "");
+}
+
+std::string number_text(double number) { return fmt::format("{:.4g}", number == 0.0 ? 0.0 : number); }
+
+/// A number, or the colour that it is.
+std::string class_text(const ColorScale& scale, double number) {
+  return scale.of_colors ? hex_color(scale.color(number)) : number_text(number);
+}
+
+/// Whether a name is before another one: numbers in them count as numbers, so that chain 2 is before chain 10.
+bool by_name(std::string_view a, std::string_view b) {
+  const auto digits = [](std::string_view text) { return std::min(text.find_first_not_of("0123456789"), text.size()); };
+  while (!a.empty() && !b.empty()) {
+    const std::size_t in_a = digits(a), in_b = digits(b);
+    if (in_a > 0 && in_b > 0) {
+      if (in_a != in_b) return in_a < in_b;
+      if (const int order = a.substr(0, in_a).compare(b.substr(0, in_b)); order != 0) return order < 0;
+    } else if (a.front() != b.front()) {
+      return a.front() < b.front();
+    }
+    a.remove_prefix(std::max<std::size_t>(in_a, 1));
+    b.remove_prefix(std::max<std::size_t>(in_b, 1));
+  }
+  return a.size() < b.size();
+}
+
+/// The text of a tick; at an end it is what that means, after the number where colours are steps. At an end of a fixed
+/// range beyond which there are numbers, it says so.
+std::string tick_text(const ColorScale& scale, double number) {
+  if (!scale.ends[0].empty() && (number == scale.range[0] || number == scale.range[1])) {
+    const std::string& word = scale.ends[number == scale.range[0] ? 0 : 1];
+    return scale.steps() > 0 ? number_text(number) + " " + word : word;
+  }
+  const auto beyond = [&](auto is_beyond) { return std::ranges::any_of(scale.value, is_beyond); };
+  std::string text = number_text(number);
+  if (number == scale.range[0] && beyond([&](double v) { return v < number; })) return "≤ " + text;
+  if (number == scale.range[1] && beyond([&](double v) { return v > number; })) return "≥ " + text;
+  return text;
+}
+
+/// Where a bar has ticks, the more important first: both ends, and round numbers between, at most so many, unless the
+/// ends have words instead.
+std::vector<double> tick_numbers(const ColorScale& scale, int most) {
+  const double low = scale.range[0], high = scale.range[1];
+  if (low == high) return {low};
+  std::vector<double> numbers{low, high};
+  if (!scale.ends[0].empty()) return numbers;
+  const std::vector<double> round = round_numbers(low, high, most);
+  numbers.insert(numbers.end(), round.begin(), round.end());
+  return numbers;
+}
+
+/// Words in lines no wider than `width`, if the words allow it.
+std::vector<std::string> wrapped(const std::string& text, const Font& font, int width) {
+  std::vector<std::string> lines{""};
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
+    if (lines.back().empty() || font.width(longer) <= width)
+      lines.back() = longer;
+    else
+      lines.push_back(word);
+    begin = end + 1;
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::vector<double> round_numbers(double low, double high, int most) {
+  if (!(low < high) || most < 1) return {};
+  const double rough = (high - low) / most, power = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10.0 * power;
+  for (const double factor : {5.0, 2.0, 1.0})
+    if (factor * power >= rough) step = factor * power;
+  std::vector<double> numbers;
+  // Where the range is narrow beside its numbers, steps get lost in their last digits; `most` is as many as there are.
+  const double first = std::floor(low / step) + 1.0;
+  for (int n = 0; n <= most && (first + n) * step < high; ++n) numbers.push_back((first + n) * step);
+  return numbers;
+}
+
+Legend::Legend(const ColorKey& key, glm::ivec2 picture_size, const LegendStyle& style)
+    : color_(style.color),
+      font_(style.letters.value_or(letter_height(picture_size))),
+      picture_size_(picture_size),
+      molecule_size_(picture_size) {
+  std::vector<const ColorKey*> parts = key.parts();
+  if (key.heading().empty())
+    std::rotate(parts.begin(), parts.begin() + 1, parts.end());  // what has no title comes last
+  for (const ColorKey* const part : parts) add_entries(*part, part == parts.front());
+  if (all_.empty() && !bar_) return;  // one colour for all needs no words
+  rename_entries(style.names);
+  for (Entry& entry : all_) entry.name = drawable(entry.name, kMostCharacters);
+  if (style.title) title_ = *style.title;
+  const bool is_high = picture_size.y > picture_size.x;
+  const bool at_right =
+      style.place != LegendStyle::Place::below && (style.place == LegendStyle::Place::right || !is_high);
+  const int usual = font_.height();
+  for (const bool may_drop : {false, true})
+    for (int letters = usual; letters >= kSmallestLetters; letters = std::min(letters - 1, 9 * letters / 10)) {
+      // Letters half as high hold more; dropping entries is better than smaller ones.
+      if (letters < usual && (style.letters || (!may_drop && letters < std::max(kReadableLetters, usual / 2)))) break;
+      if (lay_out(at_right, letters, may_drop)) return;
+    }
+  throw RequestError(
+      message("@legend@ does not fit into {} x {} pixels beside the molecule; make the picture larger{}, or write it "
+              "apart by @legend-file@",
+              picture_size.x, picture_size.y, style.letters ? ", its letters smaller" : ""));
+}
+
+void Legend::add_entries(const ColorKey& key, bool is_first) {
+  const std::string title = key.heading();
+  if (is_first)
+    title_ = title;
+  else if (!title.empty())
+    all_.push_back({title, {}, Entry::Kind::title});
+  const auto first = static_cast<std::ptrdiff_t>(all_.size());
+  for (const ColorClass& entry : key.classes) all_.push_back({entry.name, entry.color});
+  if (key.title == "chain")
+    std::stable_sort(all_.begin() + first, all_.end(),
+                     [](const Entry& a, const Entry& b) { return by_name(a.name, b.name); });
+  if (!key.scale) return;
+  const ColorScale& scale = *key.scale;
+  for (const double number : scale.classes) all_.push_back({class_text(scale, number), scale.color(number)});
+  if (scale.classes.empty() && is_first) bar_ = scale;
+  if (scale.classes.empty() && !is_first) {
+    const std::string ends = tick_text(scale, scale.range[0]) + " to " + tick_text(scale, scale.range[1]);
+    all_.push_back({ends, {}, Entry::Kind::bar, scale});
+  }
+  if (scale.missing > 0)
+    all_.push_back({fmt::format("none ({} atoms)", with_thousands(scale.missing)), scale.missing_color});
+}
+
+void Legend::rename_entries(const std::vector<std::string>& names) {
+  std::vector<std::string> given;
+  for (const Entry& entry : all_) given.push_back(entry.name);
+  for (const std::string& text : names) {
+    bool is_known = false;
+    for (std::size_t n = 0; n < given.size(); ++n) {
+      if (!text.starts_with(given[n] + "=")) continue;
+      is_known = true;
+      all_[n].name = text.substr(given[n].size() + 1);
+    }
+    if (!is_known)
+      throw RequestError(message("@legend-name {}@: the legend has no such entry; it has {}", in_quotes(text),
+                                 given.empty() ? "none" : listed(given)));
+  }
+}
+
+bool Legend::lay_out(bool at_right, int letters, bool may_drop) {
+  if (letters != font_.height()) font_ = Font(letters);
+  entries_ = all_;
+  texts_.clear();
+  boxes_.clear();
+  molecule_size_ = picture_size_;
+  return at_right ? lay_out_right(may_drop) : lay_out_bottom(may_drop);
+}
+
+/// With the room behind it.
+int Legend::box_width(const Entry& entry) const {
+  const int em = font_.height();
+  return entry.kind == Entry::Kind::title ? 0 : (entry.kind == Entry::Kind::bar ? 4 * em : em) + em / 2;
+}
+
+int Legend::entry_width(const Entry& entry) const { return box_width(entry) + font_.width(entry.name); }
+
+void Legend::add_entry(const Entry& entry, glm::ivec2 place) {
+  const int em = font_.height();
+  texts_.push_back({entry.name, {place.x + box_width(entry), place.y}});
+  if (entry.kind == Entry::Kind::title) return;
+  const glm::ivec2 low(place.x, place.y - em / 2);
+  LegendBox& box = boxes_.emplace_back(LegendBox{low, low + em, {entry.color}});
+  if (entry.kind != Entry::Kind::bar) return;
+  box.high.x = low.x + 4 * em;
+  box.colors.clear();
+  const auto [from, to] = entry.bar->range;
+  for (int n = 0; n < 4 * em; ++n) box.colors.push_back(entry.bar->color(from + (to - from) * (n + 0.5) / (4 * em)));
+}
+
+bool Legend::keep_entries(std::size_t most, bool may_drop) {
+  if (entries_.size() <= most) return true;
+  if (!may_drop || most == 0) return false;
+  const std::size_t more = entries_.size() - most + 1;
+  entries_.resize(most - 1);
+  entries_.push_back({fmt::format("+{} more", with_thousands(more)), glm::vec3(-1.0f)});
+  return true;
+}
+
+void Legend::shorten_entries(int most_pixels) {
+  for (Entry& entry : entries_) {
+    std::string name = entry.name;
+    while (name.size() > 1 && entry_width(entry) > most_pixels) {
+      do name.pop_back();
+      while (name.size() > 1 && (static_cast<unsigned char>(name.back()) >> 6) == 2);  // whole characters
+      if ((static_cast<unsigned char>(name.back()) >> 6) == 3) name.pop_back();
+      entry.name = name + "…";
+    }
+  }
+}
+
+void Legend::add_bar(glm::ivec2 low, glm::ivec2 high, bool upright) {
+  const int length = upright ? high.y - low.y : high.x - low.x;
+  const double width = bar_->range[1] - bar_->range[0];
+  std::vector<glm::ivec2> taken;  // along the bar
+  const auto add_tick = [&](double number, int along) {
+    const std::string text = tick_text(*bar_, number);
+    const int half = upright ? line() / 2 : (font_.width(text) + font_.height()) / 2;
+    if (std::ranges::any_of(taken, [&](const glm::ivec2& t) { return along - half < t.y && along + half > t.x; }))
+      return;
+    taken.emplace_back(along - half, along + half);
+    texts_.push_back({text, upright ? glm::ivec2(high.x + font_.height() / 2, high.y - along)
+                                    : glm::ivec2(low.x + along - font_.width(text) / 2, high.y + font_.height())});
+  };
+  if (const auto steps = static_cast<int>(bar_->steps()); steps > 0 && width > 0.0) {
+    const auto number_of = [&](int n) { return bar_->range[0] + width * n / (steps - 1); };
+    const auto edge = [&](int n) { return n * length / steps; };
+    for (int n = 0; n < steps; ++n) {
+      const int from = edge(n), to = edge(n + 1);
+      boxes_.push_back({upright ? glm::ivec2(low.x, high.y - to) : glm::ivec2(low.x + from, low.y),
+                        upright ? glm::ivec2(high.x, high.y - from) : glm::ivec2(low.x + to, high.y),
+                        {bar_->color(number_of(n))}});
+    }
+    add_tick(number_of(steps - 1), (edge(steps - 1) + edge(steps)) / 2);  // both ends have words, which need room
+    for (int n = 0; n < steps - 1; ++n) add_tick(number_of(n), (edge(n) + edge(n + 1)) / 2);
+    return;
+  }
+  LegendBox box{low, high, {}};
+  for (int n = 0; n < length; ++n) box.colors.push_back(bar_->color(bar_->range[0] + width * (n + 0.5) / length));
+  boxes_.push_back(std::move(box));
+  for (const double number : tick_numbers(*bar_, std::min(5, length / line() / 2)))
+    add_tick(number, static_cast<int>(std::lround((width > 0.0 ? (number - bar_->range[0]) / width : 0.5) * length)));
+}
+
+void Legend::shift_to(glm::ivec2 place) {
+  for (LegendText& text : texts_) text.place += place;
+  for (LegendBox& box : boxes_) {
+    box.low += place;
+    box.high += place;
+  }
+}
+
+bool Legend::lay_out_right(bool may_drop) {
+  const int em = font_.height(), room = picture_size_.y - 2 * em;
+  std::vector<std::string> lines = wrapped(title_, font_, picture_size_.x / 4);
+  if (title_.empty()) lines.clear();
+  const int title_height = static_cast<int>(lines.size()) * line() + em / 2;
+  const int least_bar = bar_ ? 5 * line() : 0;
+  const int rows = (room - title_height - least_bar) / line();
+  if (rows < 1) return false;
+  shorten_entries(picture_size_.x / 2 - 2 * em);  // half of the picture is left
+  int column = 1;
+  for (const Entry& entry : entries_) column = std::max(column, entry_width(entry) + em);
+  const int most_columns = std::max(1, picture_size_.x / 2 / column);
+  if (!keep_entries(static_cast<std::size_t>(most_columns) * rows, may_drop)) return false;
+  const int count = static_cast<int>(entries_.size());
+  const int columns = std::max(1, (count + rows - 1) / rows), per_column = (count + columns - 1) / columns;
+  int y = line() / 2;
+  for (const std::string& text : lines) {
+    texts_.push_back({text, {0, y}});
+    y += line();
+  }
+  y += em / 2;
+  if (bar_) {
+    const int height = std::min(18 * em, room - title_height - per_column * line() - line());
+    add_bar({0, y}, {em + em / 2, y + height}, true);
+    y += height + line();
+  }
+  for (int n = 0; n < count; ++n)
+    add_entry(entries_[static_cast<std::size_t>(n)], {n / per_column * column, y + n % per_column * line()});
+  y += per_column * line();
+  int width = 0;
+  for (const LegendText& text : texts_) width = std::max(width, text.place.x + font_.width(text.text));
+  molecule_size_.x = picture_size_.x - width - 2 * em;
+  if (molecule_size_.x < picture_size_.x / 3) return false;
+  shift_to({molecule_size_.x + em, (picture_size_.y - (y - line() / 2)) / 2});
+  return true;
+}
+
+bool Legend::lay_out_bottom(bool may_drop) {
+  const int em = font_.height(), room = picture_size_.x - 2 * em;
+  int y = line() / 2;
+  if (title_.empty()) y = 0;
+  for (const std::string& text : wrapped(title_, font_, room)) {
+    if (title_.empty()) break;
+    texts_.push_back({text, {0, y}});
+    y += line();
+  }
+  if (bar_) {
+    int end = 2 * em;  // half a number reaches past each end of the bar
+    for (const double number : bar_->range) end = std::max(end, (font_.width(tick_text(*bar_, number)) + em) / 2);
+    if (room < 14 * em || room < 4 * end) return false;
+    add_bar({end, y}, {std::min(room - end, 30 * em), y + em + em / 2}, false);
+    y += 3 * em + em / 2;
+  }
+  shorten_entries(room);
+  int column = 1;
+  for (const Entry& entry : entries_) column = std::max(column, entry_width(entry) + em);
+  const int columns = std::max(1, (room + em) / column);
+  const int rows = (picture_size_.y / 2 - y - em - line() / 2) / line();
+  if (!keep_entries(static_cast<std::size_t>(columns) * std::max(rows, entries_.empty() ? 0 : 1), may_drop))
+    return false;
+  for (std::size_t n = 0; n < entries_.size(); ++n)
+    add_entry(entries_[n],
+              {static_cast<int>(n) % columns * column, y + line() / 2 + static_cast<int>(n) / columns * line()});
+  y += (static_cast<int>(entries_.size()) + columns - 1) / columns * line() + line() / 2;
+  int width = 0;
+  for (const LegendText& text : texts_) width = std::max(width, text.place.x + font_.width(text.text));
+  molecule_size_.y = picture_size_.y - y - em;
+  if (width > room + em || molecule_size_.y < picture_size_.y / 3) return false;
+  shift_to({em, molecule_size_.y + em / 2});
+  return true;
 }
 
 }  // namespace meniscus

@@ -12,7 +12,6 @@
 
 #include "core/color/color_key.h"
 #include "core/render/lettering.h"
-#include "core/render/letters.h"
 #include "core/render/picture.h"
 
 namespace meniscus {

@@ -13,7 +13,6 @@
 #include "core/base/error.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
-#include "core/base/utf8.h"
 
 namespace meniscus {
 namespace {

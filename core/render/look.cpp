@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/color/color_schemes.h"
 
 namespace meniscus {

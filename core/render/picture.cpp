@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Decides which objects need layers, and finds balls that enclose what a picture shows.
-#include "core/render/picture_object.h"
 #include "core/color/coloring.h"
-#include "core/surface/primitives.h"
+#include "core/render/picture.h"
 #include "core/shapes/shapes.h"
+#include "core/surface/primitives.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 
 #include <glm/common.hpp>
 
-#include "core/camera/camera_matrices.h"
+#include "core/camera/camera.h"
 
 namespace meniscus {
 namespace {

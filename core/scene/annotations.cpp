@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
+#include "core/base/constants.h"
 #include "core/base/error.h"
-#include "core/base/message.h"
-#include "core/base/time_unit.h"
+#include "core/base/text.h"
 #include "core/scene/copied_atoms.h"
-#include "core/structure/selection/selection_and_text.h"
-#include "core/trajectory/series_table.h"
+#include "core/structure/selection/selection.h"
+#include "core/trajectory/frame_list.h"
 
 namespace meniscus {
 namespace {

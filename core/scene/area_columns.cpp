@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adds up the areas of atoms over objects, and columns over groups.
+// Sums areas and gradients by the atoms of a file.
 #include "core/scene/area_columns.h"
 
 #include <numeric>
+#include <utility>
 
-#include "core/surface/atom_areas.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/surface/measure.h"
 
 namespace meniscus {
 
@@ -40,6 +43,44 @@ std::vector<AreaColumn> area_columns(const Structure& structure, const std::vect
   }
   if (kind == SurfaceKind::ses) return {surface, accessible};
   return {surface};
+}
+
+namespace {
+
+void refuse_ties(const Structure& structure, const std::vector<SurfaceObject>& objects) {
+  for (const SurfaceObject& object : objects) {
+    std::string names;
+    for (const std::uint32_t a : tied_atoms(object.surface))
+      names += (names.empty() ? "" : ", ") + label_of(structure.atoms[object.atom[a]]);
+    if (names.empty()) continue;
+    throw InputError(structure.file, 0,
+                     message("one probe touches more than three atoms at once ({}), so the surface has no derivatives "
+                             "there; move one atom slightly, or choose @surface sas@",
+                             names));
+  }
+}
+
+}  // namespace
+
+std::vector<GradientColumn> gradient_columns(const Structure& structure, const std::vector<SurfaceObject>& objects,
+                                             SurfaceKind kind) {
+  std::vector<GradientColumn> columns;
+  const auto add = [&](std::string name, auto&& gradient_of) {
+    GradientColumn column{std::move(name), Gradient(structure.atoms.size(), glm::dvec3(0.0))};
+    for (const SurfaceObject& object : objects) {
+      const Gradient gradient = gradient_of(object.surface);
+      for (std::size_t a = 0; a < gradient.size(); ++a) column.values[object.atom[a]] += gradient[a];
+    }
+    columns.push_back(std::move(column));
+  };
+  if (kind == SurfaceKind::ses) refuse_ties(structure, objects);
+  const std::string word = kind_word(kind);
+  add(word + "_area", area_gradient);
+  add(word + "_volume", volume_gradient);
+  if (kind != SurfaceKind::ses) return columns;
+  add("sas_area", [](const Surface& surface) { return accessible_area_gradient(surface); });
+  add("sas_volume", accessible_volume_gradient);
+  return columns;
 }
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The areas of atoms as columns of numbers, for tables, JSON and CSV.
+// Areas of atoms and their derivatives, as columns of tables.
 #pragma once
 
 #include <string>
@@ -8,6 +8,7 @@
 #include "core/queries/surface_object.h"
 #include "core/scene/surface_computer.h"
 #include "core/structure/structure.h"
+#include "core/surface/measure.h"
 
 namespace meniscus {
 
@@ -28,5 +29,17 @@ std::vector<AreaColumn> area_totals(const std::vector<SurfaceObject>& objects, S
 /// several objects has the sum, of one copy of each.
 std::vector<AreaColumn> area_columns(const Structure& structure, const std::vector<SurfaceObject>& objects,
                                      SurfaceKind kind);
+
+/// A derivative by the position of each atom of a structure.
+struct GradientColumn {
+  std::string name;  ///< "ses_area", "ses_volume", "sas_area", "sas_volume", "vdw_area", "vdw_volume"; a word of ours
+  Gradient values;   ///< Å²/Å, or Å³/Å
+};
+
+/// Area and volume of the surface that was made, summed over objects; of a solvent-excluded one those of the
+/// accessible one, too. Objects must be surfaces of whole groups of atoms. Throws InputError, naming the
+/// atoms, where a probe touches more than three.
+std::vector<GradientColumn> gradient_columns(const Structure& structure, const std::vector<SurfaceObject>& objects,
+                                             SurfaceKind kind);
 
 }  // namespace meniscus

@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/scene/surface_objects.h"
 
 namespace meniscus {

@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/camera/open_side.h"
 #include "core/queries/copies.h"
 #include "core/scene/copied_atoms.h"

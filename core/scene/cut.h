@@ -14,7 +14,7 @@
 #include "core/camera/camera.h"
 #include "core/math/ball.h"
 #include "core/queries/surface_object.h"
-#include "core/render/picture_object.h"
+#include "core/render/picture.h"
 #include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"
 

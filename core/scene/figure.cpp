@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Merges surfaces that can be merged, and gives the renderer the rest as objects.
+// Makes the objects of a picture from a figure, and moves their points.
 #include "core/scene/figure.h"
 
 #include <algorithm>
@@ -10,12 +10,41 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/base/constants.h"
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
+#include "core/camera/camera.h"
 #include "core/queries/copies.h"
+#include "core/queries/surface_object.h"
 #include "core/scene/renderers.h"
 
 namespace meniscus {
+
+std::vector<glm::dvec3> placed_ways(std::span<const SurfaceObject> objects, std::span<const glm::dvec3> atoms) {
+  std::vector<glm::dvec3> ways;
+  for (const SurfaceObject& object : objects)
+    for (const RigidMotion& copy : object.copies)
+      for (const std::uint32_t atom : object.atom) ways.push_back(copy.rotation * atoms[atom]);
+  return ways;
+}
+
+void PointMotion::add(const Surface& surface, std::span<const glm::dvec3> atoms) {
+  Object& object = objects_.emplace_back();
+  object.atoms.assign(atoms.begin(), atoms.end());
+  object.surface.emplace_back(surface, atoms);
+}
+
+glm::vec2 PointMotion::at(const SeenPoint& point) const {
+  if (point.atom == kNone) return glm::vec2(0.0f);
+  const Object& object = objects_[point.object];
+  glm::dvec3 way = (object.surface.empty() ? motion_.atoms : object.atoms)[point.atom];
+  if (!object.surface.empty() && point.kind < Framebuffer::kShape)
+    way = object.surface.front().at(static_cast<PatchKind>(point.kind), point.patch, point.position, point.normal);
+  const glm::dvec2 change =
+      place_in_picture(motion_.camera, size_, point.position + way) - place_in_picture(camera_, size_, point.position);
+  return {static_cast<float>(change.x), static_cast<float>(-change.y)};
+}
+
 namespace {
 
 /// Of copies with more atoms than this a picture is made without having all of them in memory: with fewer it would

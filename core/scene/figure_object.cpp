@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
-#include "core/color/color_atoms.h"
+#include "core/base/text.h"
+#include "core/color/color_schemes.h"
 #include "core/queries/copies.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/surface_computer.h"

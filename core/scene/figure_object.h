@@ -9,12 +9,11 @@
 
 #include "core/color/color_schemes.h"
 #include "core/math/ball.h"
-#include "core/queries/colored_shapes.h"
 #include "core/queries/surface_object.h"
-#include "core/render/picture_object.h"
+#include "core/render/picture.h"
 #include "core/scene/cut.h"
 #include "core/scene/representations.h"
-#include "core/scene/surface_request.h"
+#include "core/scene/surface_computer.h"
 #include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"
 

@@ -9,15 +9,14 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
-#include "core/color/color_atoms.h"
+#include "core/base/text.h"
 #include "core/color/color_maps.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_schemes.h"
 #include "core/color/lipophilicity.h"
 #include "core/color/ordered_classes.h"
 #include "core/math/box.h"
-#include "core/queries/atom_patches.h"
 #include "core/queries/copies.h"
+#include "core/queries/surface_parts.h"
 #include "core/scene/area_columns.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/map_reach.h"

@@ -7,13 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "core/base/stage_clock.h"
+#include "core/base/progress.h"
 #include "core/color/color_schemes.h"
 #include "core/queries/surface_object.h"
 #include "core/scene/open_book.h"
 #include "core/scene/surface_computer.h"
 #include "core/scene/surface_objects.h"
-#include "core/scene/surface_request.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"

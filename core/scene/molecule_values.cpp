@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/base/message.h"
-#include "core/base/parse_number.h"
+#include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/scene/scene_value.h"
 #include "core/scene/scene_values.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/scene/transition.h"
 
 namespace meniscus {

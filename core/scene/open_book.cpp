@@ -12,7 +12,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/camera/camera.h"
 #include "core/scene/area_columns.h"
 #include "core/scene/surface_objects.h"

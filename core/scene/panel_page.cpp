@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
-#include "core/color/color_scale.h"
+#include "core/base/text.h"
+#include "core/color/color_schemes.h"
 #include "core/render/vector_page.h"
 #include "core/scene/figure_key.h"
-#include "core/scene/seen_atoms.h"
+#include "core/scene/scene_picture.h"
 
 namespace meniscus {
 namespace {

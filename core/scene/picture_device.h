@@ -7,8 +7,7 @@
 
 #include "core/gpu/egl_context.h"
 #include "core/scene/renderers.h"
-#include "core/scene/surface_request.h"
-#include "core/scene/thread_limit.h"
+#include "core/scene/surface_computer.h"
 
 namespace meniscus {
 

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/base/parse_number.h"
 #include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/color/named_colors.h"
 #include "core/scene/scene_lengths.h"
 #include "core/scene/scene_value.h"

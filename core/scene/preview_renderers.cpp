@@ -7,14 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/stage_clock.h"
+#include "core/base/progress.h"
 #include "core/queries/surface_object.h"
 #include "core/render/cpu/cpu_renderer.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/figure.h"
 #include "core/scene/renderers.h"
 #include "core/surface/compute_surface.h"
-#include "core/surface/reduced_surface_engine.h"
 
 namespace meniscus {
 namespace {

@@ -13,11 +13,11 @@
 
 #include <glm/vec2.hpp>
 
-#include "core/base/stage_clock.h"
+#include "core/base/progress.h"
 #include "core/math/ball.h"
 #include "core/render/cpu/cpu_renderer.h"
-#include "core/render/hit_point.h"
 #include "core/render/picture.h"
+#include "core/render/picture_block.h"
 
 namespace meniscus {
 

@@ -10,10 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
-#include "core/color/color_atoms.h"
-#include "core/color/color_scale.h"
-#include "core/shapes/bases.h"
+#include "core/base/text.h"
+#include "core/color/color_schemes.h"
 #include "core/shapes/cartoon.h"
 #include "core/shapes/sugar_symbols.h"
 

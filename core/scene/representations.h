@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/color/color_schemes.h"
-#include "core/queries/colored_shapes.h"
+#include "core/queries/surface_object.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"

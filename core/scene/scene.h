@@ -12,7 +12,7 @@
 #include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
 #include "core/scene/outputs.h"
-#include "core/scene/run_cameras.h"
+#include "core/scene/run_framing.h"
 
 namespace meniscus {
 

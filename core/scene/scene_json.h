@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes as JSON, both ways: {"meniscus_scene": 1, SECTION: {KEY: VALUE, ...}, ..., "objects": [...]}.
+// Scenes, their objects and their values as JSON, both ways.
 #pragma once
 
 #include <span>
@@ -7,11 +7,38 @@
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "core/properties/properties.h"
+#include "core/scene/figure_object.h"
 #include "core/scene/scene.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
+
+/// The value as set_value() takes it; empty: it says nothing. Throws RequestError that says what the JSON is not.
+std::vector<std::string> texts_of_json(const Property& property, const nlohmann::ordered_json& value);
+
+/// JSON that texts_of_json() reads as these texts. Paths are as seen from the folder; of an empty one they are names.
+nlohmann::ordered_json json_of_texts(const Property& property, const std::vector<std::string>& texts,
+                                     const std::string& folder);
+
+/// A key of such an object, besides "representation" and "selection".
+struct ObjectKey {
+  std::string_view name;
+  const Property* property;  ///< that says what it means and which values it takes
+  bool of_surfaces, of_shapes;
+};
+
+/// In the order of their table.
+const std::vector<ObjectKey>& object_keys();
+
+/// Reads {"representation": "surface" | "sticks" | "balls" | "spheres" | "tube", "selection": EXPR, ...};
+/// docs/how-to/scenes.md has all keys. Throws RequestError that names the key, SelectionError.
+FigureObjectRequest parse_figure_object(std::string_view json);
+
+/// What parse_figure_object reads as this object, exactly; what is as usual is left out.
+nlohmann::ordered_json figure_object_json(const FigureObjectRequest& object);
 
 /// A value that a scene file sets.
 struct SceneSetting {

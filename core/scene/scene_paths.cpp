@@ -8,9 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
 #include "core/base/system_file.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 #include "core/scene/scene_values.h"
 
 namespace meniscus {

@@ -1,17 +1,122 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a scene's molecule, aims its camera, draws its figure, and finishes the picture.
+// Lays out the picture of a scene, and finds atoms that cannot be seen in it.
 #include "core/scene/scene_picture.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unordered_set>
 #include <utility>
 
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
+#include "core/camera/open_side.h"
+#include "core/color/color_schemes.h"
 #include "core/scene/figure_key.h"
 #include "core/scene/scene_values.h"
-#include "core/scene/seen_atoms.h"
 #include "core/scene/settled_selections.h"
 
 namespace meniscus {
+namespace {
+
+constexpr double kFewPixels = 3e5, kMostPixels = 2e6;
+
+/// Atoms of which a picture should show some.
+struct Sought {
+  std::string what;
+  std::vector<std::uint32_t> atoms;  ///< places in shown_atoms()
+  PlaceLabel* label = nullptr;
+  bool is_seen = false;
+};
+
+glm::ivec2 smaller(glm::ivec2 size, double most_pixels) {
+  const double share = std::min(1.0, std::sqrt(most_pixels / (static_cast<double>(size.x) * size.y)));
+  return glm::max(glm::ivec2(glm::dvec2(size) * share), glm::ivec2(1));
+}
+
+bool is_seen_through(const Scene& scene) {
+  return !scene.molecule.color.opacities.empty() ||
+         std::ranges::any_of(scene.figure.objects, [](const auto& object) { return !object.opacities.empty(); });
+}
+
+std::vector<Sought> sought_in(const Scene& scene, const std::vector<Atom>& atoms, Annotations& annotations,
+                              bool with_colors) {
+  std::vector<Sought> sought;
+  std::vector<bool> taken(atoms.size());
+  const auto add = [&](const char* option, const std::string& text, const Selection& selection) -> Sought& {
+    Sought& added = sought.emplace_back();
+    added.what = option_name(fmt::format("{} {}", option, in_quotes(text)));
+    const std::vector<bool> selected = selection.evaluate(atoms);
+    for (std::uint32_t a = 0; a < atoms.size(); ++a)
+      if (selected[a] && !taken[a]) added.atoms.push_back(a);
+    return added;
+  };
+  for (std::size_t n = 0; n < annotations.labels.size(); ++n) {
+    const LabelRequest& label = scene.annotations.labels[n];
+    add("label", label.text, label.atoms).label = &annotations.labels[n];
+  }
+  if (!with_colors) return sought;
+  if (scene.molecule.patches) add("patches", scene.molecule.patches->text(), *scene.molecule.patches);
+  const std::vector<ColorRule>& rules = scene.molecule.color.rules;
+  for (auto rule = rules.rbegin(); rule != rules.rend(); ++rule)  // the last one counts
+    for (const std::uint32_t a : add("color", color_rule_text(*rule), rule->atoms).atoms) taken[a] = true;
+  return sought;
+}
+
+void look_for(std::vector<Sought>& sought, const std::vector<Atom>& atoms, const Framebuffer& picture) {
+  const std::unordered_set<std::uint32_t> seen(picture.atom.begin(), picture.atom.end());
+  for (Sought& one : sought)
+    one.is_seen =
+        one.is_seen || std::ranges::any_of(one.atoms, [&](std::uint32_t a) { return seen.contains(atoms[a].index); });
+}
+
+/// The end of a sentence: the turns after which some of the atoms are seen.
+std::string advice(const Sought& hidden, const std::vector<Atom>& atoms, const Camera& camera, const CastSurvey& cast,
+                   glm::ivec2 size) {
+  std::vector<Ball> all, own;
+  for (const Atom& atom : atoms) all.push_back({atom.position, atom.radius});
+  for (const std::uint32_t a : hidden.atoms) own.push_back(all[a]);
+  const ViewBasis now = view_basis(camera);
+  const glm::dvec3 toward = -open_side(own, all).forward;
+  const double x = glm::dot(toward, now.right), y = glm::dot(toward, now.up), z = -glm::dot(toward, now.forward);
+  const auto degrees = [](double radians) { return std::round(radians * 180.0 / std::numbers::pi) + 0.0; };
+  ViewRequest turned;
+  turned.turns = {{1, degrees(std::atan2(-x, z))}, {0, degrees(std::atan2(y, std::hypot(x, z)))}};
+  std::vector<Sought> again{hidden};
+  look_for(again, atoms, cast(view_camera(turned, camera, {all, all, {}}), size));
+  if (!again.front().is_seen) return "no side was found that shows them";
+  std::string words;
+  for (const Turn& turn : turned.turns)
+    if (turn.degrees != 0.0) words += message("@turn {}{}@ ", "xyz"[turn.axis], turn.degrees);
+  return words + "shows some";
+}
+
+}  // namespace
+
+Survey survey_of(const Scene& scene, const Structure& structure, const Camera& camera, glm::ivec2 size,
+                 Annotations& annotations, std::vector<std::string>* sentences) {
+  if ((annotations.labels.empty() && !sentences) || is_seen_through(scene)) return {};
+  std::vector<Atom> atoms = shown_atoms(structure);
+  std::vector<Sought> sought = sought_in(scene, atoms, annotations, sentences != nullptr);
+  std::erase_if(sought, [](const Sought& one) { return one.atoms.empty(); });
+  if (sought.empty()) return {};
+  return [&camera, sentences, atoms = std::move(atoms), sought = std::move(sought), few = smaller(size, kFewPixels),
+          many = smaller(size, kMostPixels)](const CastSurvey& cast) {
+    std::vector<Sought> found = sought;
+    look_for(found, atoms, cast(camera, few));
+    if (few != many && !std::ranges::all_of(found, &Sought::is_seen)) look_for(found, atoms, cast(camera, many));
+    for (const Sought& one : found) {
+      if (one.label) one.label->is_hidden = !one.is_seen;
+      if (sentences && !one.is_seen)
+        sentences->push_back(
+            fmt::format("{}: no pixel shows any of its atoms; {}", one.what, advice(one, atoms, camera, cast, few)));
+    }
+  };
+}
 
 PictureLayout::PictureLayout(const Scene& scene, const ColorKey& key) : size(scene.picture) {
   const LegendStyle style = legend_style(scene.legend.style, scene.annotations.letters);

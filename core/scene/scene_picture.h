@@ -1,19 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a scene to its picture: its size, its renderer, its annotations and its legend.
+// From a scene to the settings and the layout of its picture, and the atoms that it hides.
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/color/color_key.h"
 #include "core/render/annotation.h"
 #include "core/render/legend.h"
 #include "core/render/picture.h"
 #include "core/scene/figure.h"
-#include "core/scene/run_cameras.h"
+#include "core/scene/run_framing.h"
 #include "core/scene/scene.h"
 #include "core/scene/view_aim.h"
 
 namespace meniscus {
+
+/// The survey of a picture of the structure by this camera: marks labels of whose atoms no pixel shows any
+/// (PlaceLabel::is_hidden). Copies count as one, and where something is seen through nothing is said. size: of the
+/// molecule's picture. sentences: get one for each label, rule and patch of which nothing is seen, with the turn that
+/// shows it; nullptr: none is made. All but the size must stay until the picture is drawn.
+Survey survey_of(const Scene& scene, const Structure& structure, const Camera& camera, glm::ivec2 size,
+                 Annotations& annotations, std::vector<std::string>* sentences = nullptr);
 
 /// The picture's size, from which the molecule has what the legend and the strips above and below leave.
 struct PictureLayout {

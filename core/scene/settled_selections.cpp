@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 
 namespace meniscus {
 namespace {

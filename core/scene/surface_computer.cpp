@@ -1,21 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the engine and, with `verify`, the one that checks it.
+// Computes surfaces on the CPU or the GPU, and checks what was requested of them.
+//
+// Makes accessible surfaces of excluded ones: the probe's centre moves on balls enlarged by its radius (Lee and
+// Richards 1971).
 #include "core/scene/surface_computer.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/gpu/egl_context.h"
 #include "core/queries/compare_surfaces.h"
-#include "core/scene/surface_kind.h"
 #include "core/surface/blocks.h"
 #include "core/surface/compute_surface.h"
-#include "core/surface/gpu/gpu_engine.h"
 
 namespace meniscus {
+namespace {
+
+// Below 0.001 Å the patches between atoms are thinner than any file's coordinates are precise; above 100 Å the probe is
+// larger than most molecules and every atom neighbours every other.
+constexpr double kSmallestProbe = 1e-3;
+constexpr double kLargestProbe = 100.0;
+
+}  // namespace
+
+const char* kind_word(SurfaceKind kind) {
+  constexpr const char* kWords[] = {"ses", "sas", "vdw"};
+  return kWords[static_cast<std::size_t>(kind)];
+}
+
+std::string probe_fault(double radius) {
+  if (radius != 0.0 && radius < kSmallestProbe)
+    return fmt::format("{} Å is {}; use at least {} Å, or the van der Waals surface", radius,
+                       radius < 0.0 ? "negative" : "too small", kSmallestProbe);
+  if (radius > kLargestProbe) return fmt::format("{} Å is too large; use at most {} Å", radius, kLargestProbe);
+  return {};
+}
+
+double growth_of(SurfaceKind kind, double probe_radius) { return kind == SurfaceKind::sas ? probe_radius : 0.0; }
+
+double rolling_probe(SurfaceKind kind, double probe_radius) { return kind == SurfaceKind::ses ? probe_radius : 0.0; }
+
+std::vector<Ball> grown(std::span<const Ball> balls, double growth) {
+  std::vector<Ball> larger(balls.begin(), balls.end());
+  for (Ball& ball : larger) ball.radius += growth;
+  return larger;
+}
+
+void require_probe_of_kind(const SurfaceRequest& request) {
+  if (request.kind == SurfaceKind::vdw && request.probe_named)
+    throw RequestError(message("@probe@: the van der Waals surface has no probe; leave @probe@ or @surface vdw@ out"));
+}
+
 namespace {
 
 /// Any GL will do, but hardware is better.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes a surface from balls on the device that a user asked for, and times every stage.
+// Computes the surface of balls on the device that a request chooses.
 #pragma once
 
+#include <cstddef>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <span>
@@ -9,12 +11,78 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/stage_clock.h"
-#include "core/scene/surface_request.h"
-#include "core/scene/thread_limit.h"
+#include <tbb/global_control.h>
+
+#include "core/base/constants.h"
+#include "core/base/progress.h"
+#include "core/gpu/device_choice.h"
+#include "core/math/ball.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
+
+/// Holds as long as it lives; 0: all threads.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads) {
+    if (threads > 0)
+      limit_.reset(
+          new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)));
+  }
+
+ private:
+  /// Not when an exception passes: oneTBB that got no memory may hold a lock for ever, and would wait for it. The limit
+  /// stays in force then, as all of a program have the same.
+  struct End {
+    void operator()(tbb::global_control* limit) const noexcept {
+      if (std::uncaught_exceptions() == 0) delete limit;
+    }
+  };
+
+  std::unique_ptr<tbb::global_control, End> limit_;
+};
+
+struct Surface;
+
+/// Which surface of the atoms.
+enum class SurfaceKind {
+  ses,  ///< solvent-excluded: what the probe cannot reach
+  sas,  ///< solvent-accessible: where the probe's centre can be; the boundary of the balls of radius r + probe radius
+  vdw   ///< van der Waals: the boundary of the balls themselves; no probe
+};
+
+/// "ses", "sas" or "vdw".
+const char* kind_word(SurfaceKind kind);
+
+/// What is wrong with a probe radius (Å) and what would be right; empty if nothing is.
+std::string probe_fault(double radius);
+
+/// Which surface is computed, and where: on the CPU, or through GL.
+struct SurfaceRequest {
+  SurfaceKind kind = SurfaceKind::ses;
+  double probe_radius = kUsualProbe;  ///< Å
+  bool probe_named = false;           ///< whether someone asked for it; a van der Waals surface has none
+  bool cpu = false;                   ///< on the CPU; else on GL
+  DeviceChoice gl;                    ///< automatic: a hardware GPU if there is one, else the CPU
+  bool verify = false;                ///< compute on the other device too and compare
+  /// With `verify`, a further look at each closed surface, such as by its mesh; throws OpenSurfaceError. May be empty.
+  std::function<void(const Surface&)> check;
+  bool drawn = true;     ///< false: for numbers only, see ClipPlanes::left_out
+  bool bordered = true;  ///< false: nobody needs tables of vertices, borders and faces; large surfaces may lack them
+  int threads = 0;       ///< CPU threads; 0: all
+  StageTiming timing = StageTiming::rough;  ///< exact: someone looks at the times of stages
+};
+
+/// What the balls grow by (Å) before a probe rolls over them.
+double growth_of(SurfaceKind kind, double probe_radius);
+/// The radius (Å) of the probe that rolls over the grown balls; 0: the surface is theirs.
+double rolling_probe(SurfaceKind kind, double probe_radius);
+
+/// The balls with radii larger by `growth` (Å).
+std::vector<Ball> grown(std::span<const Ball> balls, double growth);
+
+/// Throws RequestError where a probe is named for a surface that has none.
+void require_probe_of_kind(const SurfaceRequest& request);
 
 class EglContext;
 class ReducedSurfaceEngine;

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/queries/copies.h"
 #include "core/queries/surface_parts.h"
 

@@ -8,12 +8,12 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/message.h"
-#include "core/base/parse_number.h"
+#include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/color/color_maps.h"
-#include "core/color/color_rule.h"
+#include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
-#include "core/scene/object_json.h"
+#include "core/scene/scene_json.h"
 #include "core/scene/scene_value.h"
 
 namespace meniscus::scene_values {

@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/queries/copies.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/hidden_atoms.h"

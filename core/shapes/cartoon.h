@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws the backbone of proteins and nucleic acids as a smooth swept body: ribbons, arrows and tubes.
+// The cartoon of proteins and nucleic acids: ribbons, arrows and tubes along the backbone, and bases as filled rings.
 #pragma once
 
 #include <cstdint>
@@ -36,5 +36,11 @@ std::vector<MiddlePoint> nucleic_middle_lines(const Structure& structure);
 
 /// Returns the indices of the atoms, copy by copy, in the order of their file.
 std::vector<std::uint32_t> file_order(std::span<const Atom> atoms);
+
+/// Returns the shapes of each nucleotide with a selected base: its rings as plates with round rims, twice the radius
+/// (Å) thick, and a rung from there by C1' to the middle line of backbone(). Rings are recognised by the numbers of
+/// their atoms, so that modified bases have them, too; a ring that is incomplete or not closed is left out. Plates have
+/// the colour of C4, rims those of their atoms.
+Shapes bases(const Structure& structure, const std::vector<bool>& selected, double radius = kStickRadius);
 
 }  // namespace meniscus

@@ -13,8 +13,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
-#include "core/base/parse_number.h"
+#include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/math/rigid_motion.h"
 #include "core/structure/structure.h"

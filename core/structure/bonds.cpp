@@ -18,7 +18,7 @@
 #include <gemmi/elem.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/math/ball_grid.h"
+#include "core/math/ball.h"
 #include "core/structure/martini.h"
 #include "core/structure/residue_names.h"
 

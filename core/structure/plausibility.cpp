@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 #include <glm/vec3.hpp>
 
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/math/vector_loops.h"
 #include "core/structure/structure.h"
 

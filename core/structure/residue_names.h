@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of residues and atoms: their class, their canonical spelling, and the bonds of their heavy atoms.
+// Names of residues and atoms: their class, their canonical spelling, the bonds of their heavy atoms, and which
+// residues are lipids.
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -38,5 +40,12 @@ std::string_view bonding_class(const std::string& residue_name, const std::strin
 
 /// Returns how many atoms of the residue have a class, including OXT. Returns 0 if the residue is not known.
 std::size_t heavy_atoms_of(const std::string& residue_name);
+
+struct Atom;
+
+/// True if the residue is a lipid, a fatty acid or a sterol. Names are those of the wwPDB's chemical components and of
+/// CHARMM, AMBER Lipid21 (where heads and tails are residues), GROMOS and Martini. Most of these have two letters for
+/// the tails and two for the head, as in POPC. Polymers, water, ions and detergents are not lipids.
+bool is_lipid(std::span<const Atom> residue);
 
 }  // namespace meniscus

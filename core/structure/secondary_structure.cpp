@@ -11,7 +11,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/math/ball_grid.h"
+#include "core/math/ball.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {

@@ -13,7 +13,7 @@
 #include <tbb/global_control.h>
 
 #include "core/base/error.h"
-#include "core/base/stage_clock.h"
+#include "core/base/progress.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/boundary.h"
@@ -21,7 +21,6 @@
 #include "core/surface/cusps.h"
 #include "core/surface/fixed_probes.h"
 #include "core/surface/measure.h"
-#include "core/surface/reduced_surface_engine.h"
 #include "core/surface/trim.h"
 
 namespace meniscus {

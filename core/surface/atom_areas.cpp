@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cuts saddles by a latitude and re-entrant faces by bisector planes; integrates along the borders of the shares.
-#include "core/surface/atom_areas.h"
+#include "core/surface/measure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,6 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
-#include "core/surface/arc_intervals.h"
-#include "core/surface/measure.h"
 #include "core/surface/spherical.h"
 #include "core/surface/walks.h"
 

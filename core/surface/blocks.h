@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A surface whose tables are too large for memory, computed block by block of its atoms: its numbers and, if need be,
-// its patches.
+// Computes surfaces too large for memory block by block: their numbers and, on request, their patches.
 //
 // The faces that an atom takes part in depend on atoms within 2 R + 4 p of it alone (R: the largest radius, p: the
 // probe's): a fixed probe that touches it is within R + p, a probe that cuts that one within 2 p more, and what that
@@ -10,11 +9,17 @@
 // of another block, bit by bit, or the surface is not closed there. Seams join pieces to components.
 #pragma once
 
+#include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
+#include "core/surface/components.h"
 #include "core/surface/compute_surface.h"
 #include "core/surface/primitives.h"
 
@@ -44,5 +49,100 @@ Surface surface_in_blocks(std::span<const Ball> atoms, double probe_radius,
 
 /// By blocks, if the atoms are so many that these are worth while; else compute_surface() on the CPU.
 Surface compute_without_borders(std::span<const Ball> atoms, double probe_radius, ClipPlanes planes, StageClock& clock);
+
+class StageClock;
+struct BlockPatches;
+
+/// What a face contributes to its component. Each block numbers its own pieces.
+struct FaceSum {
+  std::uint32_t atom = 0;  ///< the lowest that it touches
+  std::uint32_t piece = 0;
+  double area = 0.0;
+  double flux = 0.0;
+};
+
+/// A border between a face of this block and one of another, seen from this one.
+struct SeamBorder {
+  std::uint64_t key = 0;
+  std::uint32_t piece = 0;
+  std::uint32_t atom_and_side = 0;
+  auto operator<=>(const SeamBorder&) const = default;
+};
+
+/// An end of such a border.
+struct SeamVertex {
+  std::uint64_t key = 0;
+  std::uint32_t piece = 0;
+  auto operator<=>(const SeamVertex&) const = default;
+};
+
+/// What is kept of a block.
+struct BlockPart {
+  std::array<std::vector<FaceSum>, 3> faces;  ///< by kind, of rising atoms
+  std::vector<Farthest> farthest;             ///< by piece
+  std::vector<int> euler;                     ///< by piece, without the vertices at seams
+  std::vector<SeamBorder> borders;
+  std::vector<SeamVertex> vertices;
+  SurfaceCounts counts;
+  std::vector<double> atom_surface, atom_accessible;  ///< of its own atoms
+  std::vector<std::uint32_t> open_atoms;
+  double exact_within = 0.0;
+};
+
+/// The place of a kind's faces in BlockPart::faces.
+inline std::size_t place_of(PatchKind kind) { return static_cast<std::size_t>(kind); }
+
+/// Computes the surface of a block's atoms and its halo; keeps of it what is the block's own: faces whose lowest atom
+/// is. atoms: those of the whole with these numbers, rising; is_own: of each; origin: of integrals (measure.h);
+/// patches: get those of the block, unless it is nullptr.
+BlockPart compute_block(std::vector<Ball> atoms, std::span<const std::uint32_t> numbers, std::vector<char> is_own,
+                        double probe_radius, const glm::dvec3& origin, BlockPatches* patches, StageClock& clock);
+
+/// An end of a toroidal patch at a fixed probe of another block, which has the same centre there, to the last bit.
+struct OutsideEnd {
+  std::uint32_t patch = 0;  ///< into BlockPatches::toroidal
+  int end = 0;
+  glm::dvec3 probe{0.0};  ///< Å
+};
+
+/// The block's own patches: those whose lowest atom is. Atoms have the numbers of the whole; `planes`, `contacts` and
+/// ToroidalPatch::probe are of this block.
+struct BlockPatches {
+  std::vector<ConvexPatch> convex;
+  std::vector<ToroidalPatch> toroidal;
+  std::vector<ConcavePatch> concave;  ///< of rising first contacts
+  std::vector<Plane> planes;
+  std::vector<std::uint32_t> contacts;
+  std::vector<OutsideEnd> outside;
+};
+
+/// surface: of a block and its halo, with clip planes; number: of its atoms in the whole; is_own: of each.
+BlockPatches take_patches(const Surface& surface, std::span<const std::uint32_t> number, std::span<const char> is_own);
+
+/// Gives the whole surface the patches of all blocks, in the order in which it would have them, and takes them from
+/// there. Returns the atoms at which a toroidal patch ends at no probe of any block: none, if the seams of all blocks
+/// match. block_of: the block of each atom. Throws CapacityError.
+std::vector<std::uint32_t> join_patches(std::span<const std::uint32_t> block_of, std::span<BlockPatches> blocks,
+                                        Surface& whole);
+
+/// Calls visit(block, place) for the rows of all blocks in the order of their atoms. block_of: the block of each atom;
+/// rows: the member of a block that has its rows, of rising atom_of(block, row).
+template <typename Blocks, typename Rows, typename AtomOf, typename Visit>
+void for_each_by_atom(std::span<const std::uint32_t> block_of, const Blocks& blocks, const Rows& rows,
+                      const AtomOf& atom_of, const Visit& visit) {
+  std::vector<std::uint32_t> next(blocks.size(), 0);
+  for (std::uint32_t a = 0; a < block_of.size(); ++a) {
+    const auto& block = blocks[block_of[a]];
+    const auto& own = std::invoke(rows, block);
+    for (std::uint32_t& n = next[block_of[a]]; n < own.size() && atom_of(block, own[n]) == a; ++n)
+      visit(block_of[a], n);
+  }
+}
+
+/// Joins pieces to components where blocks meet, adds up faces in the order in which the whole surface has them, and
+/// makes the checks of components (certificate.h). Seams that do not match make the surface open at their atoms.
+/// blocks: the own atoms of each part; block_of: the block of each atom. The surface has no tables and no atoms.
+Surface sum_blocks(std::span<const Ball> atoms, double probe_radius, std::span<const std::vector<std::uint32_t>> blocks,
+                   std::span<const std::uint32_t> block_of, std::span<const BlockPart> parts);
 
 }  // namespace meniscus

@@ -14,8 +14,8 @@
 #include <tbb/parallel_for.h>
 
 #include "core/math/spiral.h"
-#include "core/surface/atom_areas.h"
 #include "core/surface/convex_planes.h"
+#include "core/surface/measure.h"
 #include "core/surface/walks.h"
 
 namespace meniscus {

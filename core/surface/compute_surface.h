@@ -1,14 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes the finished solvent-excluded surface with its certificate, from balls or from a reduced surface.
+// Computes the solvent-excluded surface with its certificate, on the CPU or the GPU.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "core/gpu/device_choice.h"
+#include "core/gpu/program.h"
+#include "core/reduced_surface/reduced_surface.h"
+#include "core/surface/cusp_tracer.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
+
+class StageClock;
+
+/// Finds reduced surfaces on one device, frame after frame. All engines find the same ones. One thread uses it at a
+/// time.
+class ReducedSurfaceEngine {
+ public:
+  virtual ~ReducedSurfaceEngine() = default;
+
+  /// Finds the reduced surface. atoms: van der Waals balls in Å; probe_radius >= 0 in Å. Adds the time of each stage to
+  /// `clock`, with batches added up. Throws GpuError, CapacityError.
+  virtual ReducedSurface reduce(std::span<const Ball> atoms, double probe_radius, StageClock& clock) = 0;
+
+  /// Returns the tracer on the same device. It lives as long as the engine.
+  virtual CuspTracer& cusp_tracer() = 0;
+
+  /// Returns the statistics of the last reduce().
+  virtual const CircleStats& stats() const = 0;
+
+  /// Returns the device's name for people: "cpu (16 threads)", or GL renderer and version.
+  virtual std::string device() const = 0;
+};
+
+/// Makes an engine on all cores that TBB may use, in double and, where in doubt, quadruple precision. The result does
+/// not depend on the number of cores.
+std::unique_ptr<ReducedSurfaceEngine> make_cpu_engine();
 
 class ConvexPlanes;
 class CuspTracer;
@@ -99,5 +131,19 @@ Surface compute_through_ties(std::span<const Ball> balls, const Compute& compute
   surface = {};
   return compute(balls);
 }
+
+class EglContext;
+
+/// Makes an engine in this context, which must be current and must outlive the engine. Kernels and buffers are reused
+/// from frame to frame. Results equal those of the CPU, arc by arc. Based on Krone, Dachsbacher & Ertl 2010, with
+/// circles (contour build-up) in place of their atom triples.
+std::unique_ptr<ReducedSurfaceEngine> make_gpu_engine(const EglContext& context);
+
+/// Makes an engine in a context of its own, which it leaves current. Throws GpuError if there is no such device.
+std::unique_ptr<ReducedSurfaceEngine> make_gpu_engine(const DeviceChoice& choice);
+
+/// Makes a tracer that leaves circles in doubt to the host. The context of `programs` must be current; `programs` must
+/// outlive the tracer.
+std::unique_ptr<CuspTracer> make_gpu_cusp_tracer(ProgramCache& programs);
 
 }  // namespace meniscus

@@ -11,7 +11,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "core/math/ball_grid.h"
+#include "core/math/ball.h"
 #include "core/reduced_surface/contour/contour.h"
 
 namespace meniscus {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs the kernels for the reduced surface and for cusps, and reads their lists back.
-#include "core/surface/gpu/gpu_engine.h"
+#include "core/surface/compute_surface.h"
 
 #include <algorithm>
 #include <array>
@@ -12,15 +12,15 @@
 #include <tbb/parallel_sort.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
-#include "core/gpu/kernel_lists.h"
+#include "core/base/text.h"
 #include "core/gpu/egl_context.h"
-#include "core/gpu/program.h"
+#include "core/gpu/kernel_lists.h"
 #include "core/gpu/kernel_records.h"
+#include "core/gpu/program.h"
 #include "core/reduced_surface/contour/contour.h"
 #include "core/reduced_surface/gpu/gpu_arcs.h"
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
-#include "core/reduced_surface/whole_spheres.h"
+#include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reports that there is no GPU engine, in builds without GL.
 #include "core/gpu/egl_context.h"
-#include "core/surface/gpu/gpu_engine.h"
+#include "core/surface/compute_surface.h"
 
 namespace meniscus {
 

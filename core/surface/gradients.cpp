@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Integrates the speed of the surface over its patches, and along arcs and cusps.
-#include "core/surface/gradients.h"
+#include "core/surface/measure.h"
 
 #include <array>
 #include <cmath>
@@ -12,7 +12,6 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"
-#include "core/surface/measure.h"
 #include "core/surface/walks.h"
 
 namespace meniscus {

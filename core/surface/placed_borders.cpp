@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers vertices and borders patch by patch, then places them all at once.
-#include "core/surface/placed_borders.h"
+#include "core/surface/boundary.h"
 
 #include <algorithm>
 #include <array>

@@ -9,9 +9,8 @@
 
 #include "core/math/union_find.h"
 #include "core/reduced_surface/reduced_surface.h"
-#include "core/surface/atom_areas.h"
-#include "core/surface/reduced_surface_engine.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/measure.h"
 
 namespace meniscus {
 namespace {

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The clip planes of spherical patches: as few as bound exactly the patch and nothing else.
+// The clip planes of spherical patches: as few as bound exactly the patch, and those that separate its faces.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/convex_planes.h"
 #include "core/surface/cusps.h"
 #include "core/surface/fixed_probes.h"
 #include "core/surface/primitives.h"
-#include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
 
@@ -68,5 +69,25 @@ class PlanesWhenAsked final : public ConvexPlanes {
 
 /// Computes the planes of the convex patches.
 void trim_convex_patches(Surface& surface, const ReducedSurface& rs);
+
+struct Plane;
+struct Surface;
+
+/// Some faces of one patch, and planes that have these faces inside and the patch's other faces outside.
+struct PartedFaces {
+  std::vector<std::uint32_t> faces;
+  std::vector<Plane> planes;
+};
+
+/// Separates the faces `kept` of a spherical patch from its faces `dropped`: all kept faces together if planes can do
+/// it, else each by itself. Throws CapacityError when no plane separates two faces.
+std::vector<PartedFaces> part_faces(const Surface& surface, std::span<const std::uint32_t> kept,
+                                    std::span<const std::uint32_t> dropped);
+
+/// Returns the plane with the largest margin that has all borders of the faces `inside` strictly inside and all borders
+/// of `outside` strictly outside; nothing if their convex hulls meet. Faces of one sphere without a common point lie on
+/// the same sides as their borders.
+std::optional<Plane> plane_between(const Surface& surface, std::span<const std::uint32_t> inside,
+                                   std::span<const std::uint32_t> outside);
 
 }  // namespace meniscus

@@ -13,7 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/structure/bonds.h"
 
 namespace meniscus {

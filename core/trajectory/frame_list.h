@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists of frames as users write them, such as "0-99:10,250".
+// Lists of frames as users write them, such as "0-99:10,250", and tables with one number for each frame.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,5 +28,19 @@ std::uint64_t parse_frame(const std::string& option, std::string_view text, std:
 
 /// Returns the shortest list that parse_frame_list reads as these frames, such as "0-97" or "0-90:10,250".
 std::string frame_list_text(const std::vector<std::uint64_t>& frames);
+
+/// One column of a table of frames.
+struct SeriesTable {
+  std::string path, column;
+  std::map<std::uint64_t, double> by_frame;  ///< finite numbers, by the number of the frame in its trajectory
+
+  /// Returns the number of a frame. Throws InputError if the table has no row for it.
+  double at(std::uint64_t frame) const;
+};
+
+/// Reads a CSV file with a header. One column has the name "frame"; `column` names that of the numbers, or is empty for
+/// the first column that is neither "frame" nor "time". Throws InputError with the line if there is no such column, a
+/// cell is not a number, or a frame occurs twice.
+SeriesTable read_series_table(const std::string& path, const std::string& column);
 
 }  // namespace meniscus

@@ -12,7 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/math/ball_grid.h"
+#include "core/math/ball.h"
 #include "core/structure/bonds.h"
 #include "core/structure/superposition.h"
 

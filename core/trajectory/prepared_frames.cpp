@@ -13,7 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/math/rigid_motion.h"
 #include "core/structure/periodic_cell.h"
 #include "core/structure/superposition.h"

@@ -14,8 +14,8 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
-#include "core/base/parse_number.h"
+#include "core/base/text.h"
+#include "core/base/text_file.h"
 
 namespace meniscus {
 

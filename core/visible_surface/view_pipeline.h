@@ -15,12 +15,11 @@
 #include "core/reduced_surface/gpu/gpu_arcs.h"
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
 #include "core/reduced_surface/reduced_surface.h"
+#include "core/render/gl_renderer.h"
 #include "core/render/gpu_scene.h"
 #include "core/render/picture.h"
 #include "core/render/ray_cast_scene.h"
-#include "core/render/gl_renderer.h"
 #include "core/surface/primitives.h"
-#include "core/visible_surface/paper_selection.h"
 #include "core/visible_surface/visible_atoms.h"
 
 namespace meniscus {

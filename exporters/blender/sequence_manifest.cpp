@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the manifest of a run, and the file of its atoms in every frame.
+// Writes the manifest of a run, the file of its atoms in every frame, and a storyboard as JSON.
 #include "exporters/blender/sequence_manifest.h"
-
-#include <zlib.h>
 
 #include <cassert>
 #include <limits>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <zlib.h>
 
 #include "core/base/output_file.h"
 #include "core/base/version.h"
-#include "core/color/color_key_json.h"
+#include "core/color/color_key.h"
 #include "exporters/blender/mns_file.h"
 
 namespace meniscus::blender {
@@ -118,6 +117,32 @@ void write_atoms(const std::string& path, Existing existing, const SurfaceObject
     header["kind_colors"] = colors;
   }
   file.write(path, existing, std::move(header));
+}
+
+std::string scene_file(std::size_t place) { return fmt::format("scene_{}.mns", place + 1); }
+
+std::string story_json(const Story& story) {
+  using nlohmann::ordered_json;
+  ordered_json content{{"format", "meniscus storyboard"},
+                       {"version", 1},
+                       {"generator", "meniscus " MENISCUS_VERSION},
+                       {"unit", "angstrom"},
+                       {"origin", {story.origin.x, story.origin.y, story.origin.z}},
+                       {"scale", story.scale},
+                       {"fps", story.fps},
+                       {"ease", story.is_smooth ? "smooth" : "even"},
+                       {"scenes", ordered_json::array()}};
+  for (const StoryScene& scene : story.scenes) {
+    ordered_json entry{{"name", scene.name},
+                       {"file", scene.file},
+                       {"first", scene.first},
+                       {"last", scene.last},
+                       {"camera", shot_object(scene.shot)}};
+    if (!scene.title.empty()) entry["title"] = scene.title;
+    if (const auto& color = scene.background) entry["background"] = {color->x, color->y, color->z};
+    content["scenes"].push_back(std::move(entry));
+  }
+  return content.dump(1, ' ', true, ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace meniscus::blender

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files of a run in addition to its .mns files: a manifest of its frames, and one file with the atoms of each
-// frame.
+// The files that come with the .mns files of a run or a film: the manifest of frames, the atoms of each frame, and the
+// storyboard.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/base/output_file.h"
+#include "exporters/blender/mns_file.h"
 #include "exporters/blender/surface_file.h"
 
 namespace meniscus::blender {
@@ -60,5 +61,29 @@ struct AtomFrames {
 /// single place; copies must be atoms of their own. Throws OutputError, and what AtomFrames::next throws.
 void write_atoms(const std::string& path, Existing existing, const SurfaceObject& object, const AtomAttributes& atoms,
                  const Provenance& provenance, const AtomFrames& frames);
+
+/// A scene of a film.
+struct StoryScene {
+  std::string name, title;  ///< name of its scene file without ending; title that was written into its pictures
+  std::string file;         ///< file with its surface, in the same folder
+  std::uint64_t first = 0, last = 0;  ///< frames that show it, from 1; frames between two scenes are a transition
+  Shot shot;
+  std::optional<glm::vec3> background;  ///< sRGB; empty if transparent
+};
+
+/// The scenes of a film in order.
+struct Story {
+  std::vector<StoryScene> scenes;
+  bool is_smooth = true;   ///< true if transitions start and end slowly
+  glm::dvec3 origin{0.0};  ///< middle of everything that is shown, Å
+  double scale = 0.1;      ///< Blender units per Å
+  double fps = 25.0;       ///< frames per second
+};
+
+/// Returns the file name of the scene at a place from 0, such as "scene_2.mns" for place 1.
+std::string scene_file(std::size_t place);
+
+/// Returns the text of story.json as FORMAT.md describes it.
+std::string story_json(const Story& story);
 
 }  // namespace meniscus::blender

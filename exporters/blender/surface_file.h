@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes surfaces, their meshes, their atoms and a camera as one .mns file, which the Blender add-on reads.
+// Surfaces with their meshes, atoms, measured numbers and a camera as one .mns file, which the Blender add-on reads.
 #pragma once
 
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/output_file.h"
@@ -13,7 +14,7 @@
 #include "core/color/color_key.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/queries/surface_object.h"
-#include "core/render/picture_object.h"
+#include "core/render/picture.h"
 #include "exporters/blender/mns_file.h"
 #include "exporters/mesh_files/mesh_file.h"
 #include "exporters/mesh_files/mesh_formats.h"
@@ -73,5 +74,26 @@ void write_objects(const std::string& path, Existing existing, std::span<const M
 /// Writes the content without a camera and without a place in a run, into a file that the caller commits.
 void write_objects(OutputFile& file, std::span<const MeshedObject> objects, const Provenance& provenance,
                    const CutFile& cut);
+
+/// The requested numbers of a file, in addition to the numbers of atoms that it always has.
+struct SurfaceNumbers {
+  std::vector<std::string> names;  ///< names of vertex_number_kinds()
+  /// True if the user named each number. Numbers that are not available are then an error; otherwise they are left out.
+  bool by_name = false;
+};
+
+/// The names that "usual" means.
+inline constexpr std::string_view kUsualSurfaceNumbers =
+    "mean_curvature,gaussian_curvature,atom_area,accessible_area,patch_area";
+
+/// Returns the numbers that a text names, separated by commas as for parse_vertex_numbers(); "usual" means
+/// kUsualSurfaceNumbers. Throws RequestError with the word that is no such name.
+SurfaceNumbers parse_surface_numbers(std::string_view text);
+
+/// Adds the numbers to an object that has its mesh and its atoms. buried: the buried area of each atom of the structure
+/// in Å², or empty. Returns a sentence about numbers that were left out and the reason, or an empty text. If the
+/// numbers were named by the user, it throws RequestError for smoothed curvature of a surface that is shown in part,
+/// and what atom_areas() throws.
+std::string add_surface_numbers(MeshedObject& object, const SurfaceNumbers& requested, std::span<const double> buried);
 
 }  // namespace meniscus::blender

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns surfaces with their colours, and pockets, into objects of a mesh file.
+// Turns surfaces with their colours, and pockets, into objects of a mesh file; finds a point inside each cavity and
+// solid.
 #pragma once
 
 #include <span>
@@ -7,8 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "core/mesh/mesh_objects.h"
-#include "core/mesh/shape_mesh.h"
 #include "core/mesh/weld.h"
 #include "core/queries/surface_object.h"
 #include "exporters/mesh_files/mesh_file.h"
@@ -16,6 +18,16 @@
 #include "exporters/mesh_files/vertex_numbers.h"
 
 namespace meniscus {
+
+struct Surface;
+struct TriangleMesh;
+
+/// Returns one point per component of a surface. The point lies on the inner side of the component, which is the
+/// solvent for a cavity and the solid otherwise, and on the inner side of its triangles. A ball around it touches this
+/// component and contains nothing of the surface. If the triangles are too coarse for such a point, it lies on their
+/// inner side only, close to one of them. mesh: the closed mesh of the whole surface. Throws OpenSurfaceError for a
+/// component without such a point at any of the places tried.
+std::vector<glm::dvec3> inner_points(const Surface& surface, const TriangleMesh& mesh);
 
 struct Atom;
 struct TriangleMesh;

@@ -13,12 +13,11 @@
 #include "core/base/text.h"
 #include "core/mesh/mesh_attributes.h"
 #include "core/mesh/mesh_colors.h"
-#include "core/mesh/open_sky.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/queries/surface_point.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/structure.h"
-#include "core/surface/atom_areas.h"
+#include "core/surface/measure.h"
 
 namespace meniscus {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "core/base/constants.h"
 #include "core/base/version.h"
-#include "core/math/ball_grid.h"
+#include "core/math/ball.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/mesh/weld.h"
 #include "exporters/mesh_files/writers.h"

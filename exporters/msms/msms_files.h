@@ -11,7 +11,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/surface/atom_areas.h"
+#include "core/surface/measure.h"
 #include "core/surface/reduced_components.h"
 
 namespace meniscus {

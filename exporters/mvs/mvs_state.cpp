@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "core/image/source_date.h"
 #include "core/image/color_space.h"
+#include "core/image/image_codec.h"
 #include "core/math/rigid_motion.h"
 #include "exporters/mesh_files/zip_archive.h"
 

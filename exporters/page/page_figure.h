@@ -16,11 +16,10 @@
 
 #include "core/camera/camera.h"
 #include "core/color/color_key.h"
-#include "core/queries/colored_shapes.h"
 #include "core/queries/surface_object.h"
 #include "core/render/annotation.h"
 #include "core/render/look.h"
-#include "core/render/picture_object.h"
+#include "core/render/picture.h"
 #include "core/structure/structure.h"
 
 namespace meniscus::page {

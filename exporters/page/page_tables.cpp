@@ -20,7 +20,7 @@
 #include "core/color/color_maps.h"
 #include "core/image/color_space.h"
 #include "core/math/ball.h"
-#include "core/render/picture_object.h"
+#include "core/render/picture.h"
 #include "core/render/ray_cast_scene.h"
 
 namespace meniscus::page {

@@ -19,7 +19,7 @@
 #include "core/base/error.h"
 #include "core/image/color_space.h"
 #include "core/mesh/mesh_colors.h"
-#include "core/mesh/shape_mesh.h"
+#include "core/mesh/mesh_objects.h"
 #include "exporters/mesh_files/writers.h"
 #include "exporters/path_tracers/lights.h"
 #include "exporters/path_tracers/path_tracer_scene.h"

@@ -13,7 +13,6 @@
 
 #include "core/base/output_file.h"
 #include "core/mesh/triangle_mesh.h"
-#include "core/queries/colored_shapes.h"
 #include "core/queries/surface_object.h"
 #include "core/structure/structure.h"
 #include "exporters/path_tracers/path_tracer_scene.h"

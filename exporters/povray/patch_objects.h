@@ -10,7 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/math/box.h"
-#include "core/render/picture_object.h"
+#include "core/render/picture.h"
 #include "core/surface/primitives.h"
 #include "exporters/povray/scene_colors.h"
 #include "exporters/povray/scene_text.h"

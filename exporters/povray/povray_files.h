@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The text of a scene's files except the geometry, for one surface or for a run of frames.
+// The text of all files of a POV-Ray scene except the geometry: main file, style, buffers, .ini, and the include for a
+// user's own scene.
 #pragma once
 
 #include <array>
@@ -7,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -71,5 +73,12 @@ std::string buffer_text(const std::vector<SceneColor>* colors, const SceneOption
 std::string ini_text(const SceneOptions& options, std::span<const std::uint64_t> frames = {});
 /// Returns the command that renders all frames, for a POSIX shell in the folder of the scene.
 std::string render_command(const SceneOptions& options, std::span<const std::uint64_t> frames);
+
+/// Returns the text of <name>.inc, which includes <name>.pov. It declares those of Meniscus_Surface, Meniscus_Shapes,
+/// Meniscus_Object_1, ... that the scene has, and places nothing. Names that were declared before it stay as they were;
+/// all other names are undefined at its end. texts: the text of <name>.pov and of the files it includes, except the
+/// templates for caps, shapes and maps and the lists of colours, which are always searched for names. maps: true if
+/// each frame of a run may have a volume map.
+std::string own_scene_text(std::string_view name, std::span<const std::string_view> texts, bool maps = false);
 
 }  // namespace meniscus::povray

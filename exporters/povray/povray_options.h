@@ -12,10 +12,9 @@
 
 #include "core/base/output_file.h"
 #include "core/color/color_key.h"
-#include "core/queries/colored_shapes.h"
 #include "core/queries/surface_object.h"
 #include "core/render/look.h"
-#include "core/render/picture_object.h"
+#include "core/render/picture.h"
 
 namespace meniscus::povray {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A folder with one POV-Ray scene for a run of frames: one geometry include per frame, everything else once.
+// A folder with one POV-Ray scene for a run of frames: one geometry include per frame, everything else once; and the
+// film of its pictures.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -15,12 +17,29 @@
 #include "core/color/color_maps.h"
 #include "core/math/box.h"
 #include "exporters/povray/povray_files.h"
+#include "exporters/povray/povray_options.h"
 #include "exporters/povray/povray_scene.h"
-#include "exporters/povray/scene.h"
 #include "exporters/povray/scene_colors.h"
-#include "exporters/povray/story.h"
 
 namespace meniscus::povray {
+
+/// A picture of the film: a frame of the scene, or two of them blended in linear light.
+struct StoryPicture {
+  std::uint64_t first = 0;   ///< number of the first frame
+  std::uint64_t second = 0;  ///< number of the second frame; 0 if there is none
+  double share = 0.0;        ///< weight of the second frame, in [0, 1]
+};
+
+/// The pictures of a film in order.
+struct Story {
+  std::vector<StoryPicture> pictures;
+  double rate = 25.0;  ///< pictures per second
+};
+
+/// Returns the text of <name>_story.pov, which shows the pictures that <name>.ini rendered.
+std::string story_text(const SceneOptions& options, const Story& film);
+/// Returns the text of <name>_story.ini.
+std::string story_ini_text(const SceneOptions& options, const Story& film);
 
 /// The properties that all frames of a run share. Every process that writes some of the frames must use the same run.
 struct Run {

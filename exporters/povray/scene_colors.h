@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The distinct colours of a scene, and the pieces of patches that have each of them.
+// The colours of a POV-Ray scene: distinct colours with their pieces of patches, comments that name them, and volume
+// maps.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "core/color/color_key.h"
+#include "core/color/color_maps.h"
 #include "core/color/coloring.h"
 #include "core/surface/primitives.h"
+#include "exporters/povray/scene_text.h"
 
 namespace meniscus::povray {
 
@@ -71,5 +79,31 @@ struct Palette {
 /// one colour per atom.
 Palette make_palette(const Surface& surface, const Coloring& coloring, ColorTable& table,
                      const ObjectStyle& style = {});
+
+/// Returns the name if it is harmless, and an empty text otherwise. A harmless name has at most 40 bytes and consists
+/// of ASCII letters and digits, blanks between them, and the characters _ ' * + - . , ( ), which occur in names of
+/// atoms and classes. No other name is ever written into a scene.
+std::string_view harmless_name(std::string_view name);
+
+/// Returns the names of a colour in the key as a comment, such as "  // chain A, C", with at most five names. The
+/// result is empty if the colour has no harmless name.
+std::string color_comment(const ColorKey& key, const SceneColor& color);
+
+/// Returns a line with the kind of a piece and its atoms: "// toroidal A ARG 34 CA; A ARG 34 CB". atoms: indices into
+/// `names`. A name that is not harmless becomes "?".
+std::string piece_comment(PatchKind kind, std::span<const std::uint32_t> atoms, std::span<const std::string> names);
+
+/// The end of the map file's name, after the name of the scene.
+inline constexpr std::string_view kMapFileEnding = "_map.df3";
+
+/// Writes the values as a density file (df3) of POV-Ray: integers of 32 bits that span the range from the least value
+/// to the greatest. Fewer bits would not do, because potentials inside molecules are far greater than the range of
+/// colours. Throws RequestError for more than 65,535 points along an axis, the most that the format can count.
+void write_density(const VolumeGrid& grid, const std::function<void(std::string_view)>& write);
+
+/// Appends the colours of the map and the function Meniscus_Map(x,y,z), which returns 0 outside of the map and a place
+/// in the colours inside it. file: the name of the file that write_density() wrote. origin: the origin of the scene's
+/// coordinates, in Å.
+void append_map(SceneText& out, const VolumePaint& paint, std::string_view file, const glm::dvec3& origin);
 
 }  // namespace meniscus::povray

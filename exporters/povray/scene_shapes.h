@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts the objects of a scene by planes, and writes their caps as flat meshes grouped by plane and colour.
+// Caps of cut surfaces as flat meshes, and spheres, cylinders and meshes drawn in addition to surfaces.
 #pragma once
 
 #include <cstdint>
@@ -61,5 +61,14 @@ class CutObjects {
   std::span<const SurfaceObject> objects_;
   CapMesh caps_;
 };
+
+/// Writes shapes as sphere, cylinder and mesh2 objects with textures. A cylinder of two colours becomes two halves. The
+/// text consists of names chosen by this program and of numbers only. origin: the origin of the scene's coordinates, in
+/// Å. Colours that `table` does not have yet are added. Throws Error for a number that is not finite.
+void write_shapes(OutputFile& file, const ColoredShapes& shapes, const glm::dvec3& origin, ColorTable& table,
+                  const ObjectStyle& style = {});
+
+/// Adds the colours of all shapes to the table.
+void add_colors(const ColoredShapes& shapes, ColorTable& table, const ObjectStyle& style = {});
 
 }  // namespace meniscus::povray

@@ -11,10 +11,10 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/color/color_key_json.h"
+#include "core/color/color_key.h"
 #include "core/color/color_maps.h"
 #include "exporters/povray/patch_objects.h"
-#include "exporters/povray/scene_names.h"
+#include "exporters/povray/scene_colors.h"
 
 namespace meniscus::povray {
 namespace {

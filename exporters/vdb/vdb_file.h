@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/base/output_file.h"
-#include "core/queries/distance_band.h"
+#include "core/queries/distance.h"
 
 namespace meniscus {
 

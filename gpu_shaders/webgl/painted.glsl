@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Colours points by a volume map. One table has its numbers: colours of the scale, the colour outside of the map, a
 // number per atom that is 0 if the map colours it, and the values. It does the same as painted() in
-// core/render/cpu/host_scene.cpp.
+// core/render/cpu/picture_scene.cpp.
 #ifndef MENISCUS_WEBGL_PAINTED_GLSL
 #define MENISCUS_WEBGL_PAINTED_GLSL
 

@@ -59,7 +59,7 @@ endif()
 
 file(CONFIGURE OUTPUT "${OUTPUT}" CONTENT "// SPDX-License-Identifier: BSD-3-Clause
 // Which sources this program is made of, written by scripts/cmake/build_version.cmake.
-#include \"app/process/this_program.h\"
+#include \"app/process/program_main.h\"
 
 namespace meniscus {
 

@@ -11,10 +11,9 @@
 
 #include "core/base/error.h"
 #include "core/gpu/egl_context.h"
-#include "core/structure/formats/read_structure.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
-#include "core/surface/gpu/gpu_engine.h"
 #include "core/reduced_surface/reduced_surface.h"
+#include "core/structure/formats/read_structure.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/sample_files.h"
 

@@ -14,10 +14,10 @@
 
 #include "app/farm/bundle.h"
 #include "app/farm/bundle_folder.h"
-#include "app/farm/emit.h"
+#include "app/farm/make_bundle.h"
 #include "app/farm/worker.h"
 #include "app/process/child_process.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/image/png_file.h"

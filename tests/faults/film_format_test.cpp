@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Films are as requested, as ffprobe reports, and their colours come back.
-#include "app/film/film_format.h"
+#include "app/film/film.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "app/film/film.h"
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus {

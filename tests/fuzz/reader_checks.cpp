@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "core/base/parse_number.h"
 #include "core/base/error.h"
+#include "core/base/text_file.h"
 #include "core/structure/formats/read_structure.h"
 
 namespace meniscus::fuzz {

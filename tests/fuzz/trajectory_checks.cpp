@@ -8,8 +8,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/base/parse_number.h"
 #include "core/base/error.h"
+#include "core/base/text_file.h"
 #include "core/structure/periodic_cell.h"
 #include "core/trajectory/trajectory.h"
 

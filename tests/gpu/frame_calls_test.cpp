@@ -11,14 +11,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/color/coloring.h"
 #include "core/gpu/egl_context.h"
 #include "core/gpu/work_proof.h"
 #include "core/render/gl_renderer.h"
-#include "core/surface/gpu/gpu_engine.h"
+#include "core/surface/compute_surface.h"
 #include "core/visible_surface/view_pipeline.h"
 #include "tests/gpu/gl_faults.h"
 #include "tests/support/molecules.h"
-#include "core/color/coloring.h"
 
 namespace meniscus::testing {
 namespace {

@@ -5,12 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/stage_clock.h"
+#include "core/base/progress.h"
 #include "core/gpu/egl_context.h"
 #include "core/queries/compare_surfaces.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/surface/compute_surface.h"
-#include "core/surface/gpu/gpu_engine.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus::testing {

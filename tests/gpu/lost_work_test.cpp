@@ -17,7 +17,6 @@
 #include "core/queries/compare_surfaces.h"
 #include "core/render/gl_renderer.h"
 #include "core/surface/compute_surface.h"
-#include "core/surface/gpu/gpu_engine.h"
 #include "core/visible_surface/view_pipeline.h"
 #include "tests/gpu/gl_faults.h"
 #include "tests/support/molecules.h"

@@ -12,7 +12,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include "core/camera/camera_matrices.h"
+#include "core/camera/camera.h"
 #include "core/image/png_file.h"
 #include "core/queries/copies.h"
 #include "core/render/cpu/cpu_renderer.h"

@@ -14,7 +14,7 @@
 #include "core/queries/copies.h"
 #include "core/queries/surface_object.h"
 #include "core/render/cpu/cpu_renderer.h"
-#include "core/render/cpu/sky_visibility.h"
+#include "core/render/cpu/occluders.h"
 #include "core/scene/cut.h"
 #include "core/shapes/shapes.h"
 #include "core/surface/compute_surface.h"

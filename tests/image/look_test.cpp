@@ -12,15 +12,15 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/color/color_schemes.h"
+#include "core/color/coloring.h"
 #include "core/gpu/egl_context.h"
 #include "core/image/color_space.h"
-#include "core/render/look_pass.h"
 #include "core/render/gl_renderer.h"
+#include "core/render/ray_caster.h"
 #include "core/scene/renderers.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
-#include "core/color/color_schemes.h"
-#include "core/color/coloring.h"
 
 namespace meniscus {
 namespace {

@@ -11,10 +11,10 @@
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/structure/formats/read_structure.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
-#include "core/surface/atom_areas.h"
+#include "core/structure/formats/read_structure.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/measure.h"
 #include "tests/preview/two_models.h"
 #include "tests/support/run_program.h"
 

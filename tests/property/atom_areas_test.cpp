@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Areas of atoms: closed forms, sums, random points, and what must not change them.
-#include "core/surface/atom_areas.h"
+#include "core/surface/measure.h"
 
 #include <cmath>
 #include <numeric>

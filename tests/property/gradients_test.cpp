@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Derivatives of areas and volumes: closed forms, differences of high order, and invariance under motions of the whole.
-#include "core/surface/gradients.h"
+#include "core/surface/measure.h"
 
 #include <array>
 #include <cmath>
@@ -12,7 +12,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/surface/atom_areas.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 

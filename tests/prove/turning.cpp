@@ -12,8 +12,8 @@
 
 #include "core/base/error.h"
 #include "core/reduced_surface/reduced_surface.h"
-#include "core/surface/atom_areas.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/measure.h"
 #include "tests/prove/completeness.h"
 
 namespace meniscus::testing {

@@ -23,7 +23,7 @@ class WineFiles(unittest.TestCase):
         subprocess.run([compile_test.zig(), "c++", "-target", "x86_64-windows-gnu", "-std=c++20", "-O1", "-w", "-DFMT_HEADER_ONLY",
                         "-include", "core/base/windows_names.h", "-I", ".", "-isystem", headers, "-o", program,
                         "tests/targets/system_file_check.cpp", "core/base/system_file_windows.cpp", "core/base/output_file.cpp",
-                        "core/base/text.cpp", "core/base/utf8.cpp"], cwd=ROOT, check=True, timeout=1500)
+                        "core/base/text.cpp", "core/base/text.cpp"], cwd=ROOT, check=True, timeout=1500)
         with tempfile.TemporaryDirectory() as folder:
             environment = {**os.environ, "LC_ALL": "C.UTF-8", "WINEPREFIX": os.path.join(FOLDER, "wine"), "WINEDEBUG": "-all"}
             done = subprocess.run(["wine", program], cwd=folder, env=environment, timeout=600)

@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/structure/formats/pdb_records.h"
 #include "core/structure/formats/read_structure.h"
-#include "core/structure/formats/write_pdb.h"
 #include "tests/support/run_program.h"
 #include "tests/support/sample_files.h"
 

@@ -15,7 +15,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
 

@@ -12,7 +12,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/math/list_negative.h"
 #include "core/math/vector_loops.h"
 
 namespace meniscus {

@@ -11,10 +11,9 @@
 #include <tbb/parallel_for.h>
 
 #include "core/reduced_surface/contour/contour.h"
-#include "core/reduced_surface/contour/nested_caps.h"
 #include "core/reduced_surface/contour/sphere_cover.h"
 #include "core/reduced_surface/cpu/neighbor_search.h"
-#include "core/reduced_surface/whole_spheres.h"
+#include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
 namespace {

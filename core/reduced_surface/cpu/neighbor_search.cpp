@@ -9,7 +9,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "core/math/list_negative.h"
 #include "core/math/vector_loops.h"
 
 namespace meniscus {

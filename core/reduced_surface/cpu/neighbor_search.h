@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/math/ball_grid.h"
+#include "core/math/ball.h"
 #include "core/reduced_surface/contour/blockers.h"
 
 namespace meniscus {

@@ -10,9 +10,9 @@
 #include <tbb/parallel_reduce.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/gpu/context_description.h"
-#include "core/math/ball_grid.h"
+#include "core/math/ball.h"
 
 namespace meniscus {
 namespace {}  // namespace

@@ -14,13 +14,13 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include "core/base/stage_clock.h"
+#include "core/base/progress.h"
 #include "core/render/cpu/lane_kernels.h"
 #include "core/render/cpu/occluders.h"
 #include "core/render/cpu/picture_scene.h"
 #include "core/render/cpu/visible_copies.h"
-#include "core/render/hit_point.h"
 #include "core/render/picture.h"
+#include "core/render/picture_block.h"
 
 namespace meniscus {
 

@@ -11,7 +11,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/base/stage_clock.h"
+#include "core/base/progress.h"
 #include "core/color/color_maps.h"
 #include "core/image/color_space.h"
 

@@ -15,9 +15,9 @@
 #include <glm/vec4.hpp>
 #include <tbb/enumerable_thread_specific.h>
 
-#include "core/math/ball_grid.h"
+#include "core/math/ball.h"
 #include "core/render/cpu/picture_scene.h"
-#include "core/render/picture_object.h"
+#include "core/render/picture.h"
 
 namespace meniscus {
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packs occluders around the picture's pivot, and sorts their primitives into trees of boxes by halving.
+// Packs occluders into trees of boxes, and casts rays from points towards the sky.
 #include "core/render/cpu/occluders.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include "core/queries/surface_object.h"
@@ -176,6 +179,33 @@ void Occluders::aim(const Look& look, const ViewBasis& basis, int samples) {
     sky_ = sky_directions(0, all(light_.sky_rays));
     light_.sky = sky_.data();
   }
+}
+
+std::vector<float> sky_visibility(const Surface& surface, const SkyPoints& points,
+                                  std::span<const glm::vec3> directions) {
+  assert(points.positions.size() == points.normals.size());
+  std::vector<float> seen(points.positions.size(), 1.0f);
+  if (surface.atoms.empty()) return seen;
+  PictureFrame frame;
+  for (const Ball& ball : surface.atoms) frame.pivot += ball.center / static_cast<double>(surface.atoms.size());
+  Coloring grey;
+  grey.atom.assign(surface.atoms.size(), glm::vec3(1.0f));
+  Occluders occluders(frame.pivot, patch_slack(surface.atoms, surface.probe_radius, frame));
+  occluders.add(whole_surface(surface, grey)[0]);
+  const std::vector<glm::vec3> usual = directions.empty() ? sky_directions(0, 2 * kSkyRays) : std::vector<glm::vec3>();
+  if (directions.empty()) directions = usual;
+  const LaneLight light = occluders.towards(directions);
+  const LaneKernels& kernels = widest_kernels(16);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seen.size(), 256), [&](const auto& range) {
+    std::vector<glm::vec3> positions, normals;
+    for (std::size_t n = range.begin(); n < range.end(); ++n) {
+      positions.emplace_back(points.positions[n] - frame.pivot);
+      normals.emplace_back(points.normals[n]);
+    }
+    kernels.see_sky(light, positions.data(), normals.data(), &seen[range.begin()],
+                    static_cast<std::uint32_t>(range.size()));
+  });
+  return seen;
 }
 
 }  // namespace meniscus

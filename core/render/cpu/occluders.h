@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What in a picture keeps light away, packed for the rays that find out, and the directions of those rays.
+// What keeps light away from points of a picture or of a surface, and the directions of the rays that find out.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <span>
@@ -10,8 +11,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "core/render/cpu/host_scene.h"
-#include "core/render/picture_object.h"
+#include "core/render/cpu/picture_scene.h"
+#include "core/render/picture.h"
 
 namespace meniscus {
 
@@ -61,5 +62,24 @@ class Occluders {
 /// So many directions over the whole sphere, of length 1, which differ from those of any other `first`, and are spread
 /// evenly together with those that follow: the R2 sequence (Roberts 2018) on the equal-area cylinder (Lambert 1772).
 std::vector<glm::vec3> sky_directions(std::size_t first, std::size_t count);
+
+struct Surface;
+
+/// Rays into the hemisphere of a point that its number is made of, unless others are asked for. Against 10,000 rays
+/// drawn by lot at 1,000 points of 1UBQ the error is 0.008 (rms), at most 0.03: tests/image/light_test.cpp.
+inline constexpr std::size_t kSkyRays = 256;
+
+/// Points and the normals there, of length 1, towards the solvent; as many of both.
+struct SkyPoints {
+  std::span<const glm::dvec3> positions;  ///< Å, on the surface
+  std::span<const glm::dvec3> normals;
+};
+
+/// For each point the share, in [0, 1], of the sky above its normal that it sees past the whole surface, however far
+/// away: each direction weighs as much as the cosine of its angle to the normal. 1 on a ball alone, 0 in a cavity.
+/// directions: towards the sky, of length 1, all over the sphere, the same for every point; nothing: 2 * kSkyRays of
+/// sky_directions().
+std::vector<float> sky_visibility(const Surface& surface, const SkyPoints& points,
+                                  std::span<const glm::vec3> directions = {});
 
 }  // namespace meniscus

@@ -16,11 +16,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
-#include "core/base/stage_clock.h"
+#include "core/base/progress.h"
 #include "core/math/box.h"
 #include "core/queries/copies.h"
 #include "core/render/cpu/interruption.h"
-#include "core/render/hit_point.h"
+#include "core/render/picture_block.h"
 #include "core/render/ray_geometry.h"
 
 namespace meniscus {

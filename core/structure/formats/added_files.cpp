@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/base/text_file.h"
 
 namespace meniscus {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Decodes the columns of BinaryCIF by its specification (github.com/molstar/BinaryCIF), for the reader of mmCIF.
-#include "core/structure/formats/binary_cif.h"
+#include "core/structure/formats/cif_document.h"
 
 #include <algorithm>
 #include <array>

@@ -13,7 +13,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/structure/formats/binary_cif.h"
 
 namespace meniscus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parses CIF with gemmi, or decodes BinaryCIF.
+// CIF documents, parsed by gemmi from text or from BinaryCIF.
 #pragma once
 
 #include <cstddef>
@@ -23,5 +23,10 @@ using TakeAtomRows = std::function<void(gemmi::cif::Block& block, std::size_t fi
 /// `take` while they are read and are not kept, because all rows as text take three times the memory of all atoms. The
 /// table without rows stays in the document. Throws InputError with the line of a syntax error, and what `take` throws.
 gemmi::cif::Document parse_cif(const TextFile& file, const TakeAtomRows& take);
+
+/// Returns the tables of atoms, entities, secondary structure and assemblies, in the form of parse_cif. Throws
+/// InputError if the bytes (TextFile::text) are not BinaryCIF, if they unpack to far more than a molecule of their
+/// size, or if this build cannot read BinaryCIF.
+gemmi::cif::Document read_binary_cif(const TextFile& file);
 
 }  // namespace meniscus

@@ -8,10 +8,10 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_file.h"
+#include "core/math/rigid_motion.h"
 #include "core/structure/assembly.h"
 #include "core/structure/formats/cif_document.h"
-#include "core/base/parse_number.h"
-#include "core/math/rigid_motion.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The records of PDB files: fixed columns of atoms, which PQR and PDBQT share, and CONECT bonds.
+// Records of PDB files: atoms, models, bonds and boxes that several readers share, the reader of PDB text, and a writer
+// of models.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
+#include "core/base/output_file.h"
+#include "core/structure/formats/structure_formats.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
@@ -63,6 +71,33 @@ class PdbBonds {
  private:
   std::vector<std::string_view> serials_, records_;
   std::vector<std::array<std::string_view, 2>> pairs_;
+};
+
+/// A function that takes charge and element of an atom from the columns after the B-factor. False if the element is
+/// unknown. Throws InputError.
+using TrailingColumns = bool (*)(const TextFile& file, std::size_t line_number, std::string_view line, Atom& atom);
+
+/// Reads a file. read_trailing: null for PDB, which has segment and element in these columns.
+FileContents read_pdb(const TextFile& file, const ModelChoice& models, TrailingColumns read_trailing);
+
+/// A PDB file with models of the same atoms. The file appears only when it is complete. Atoms of classes other than
+/// polymer are written as HETATM.
+class PdbModels {
+ public:
+  /// Begins a file. Throws RequestError if the format has no room for more than 99,999 atoms, residue numbers of more
+  /// than four characters, or chains of more than two. Throws OutputError.
+  PdbModels(const std::filesystem::path& path, Existing existing, std::span<const Atom> atoms);
+
+  /// Adds a model with these positions (Å), in the order of the atoms. Throws RequestError for coordinates beyond
+  /// -999.999 and 9999.999 Å.
+  void add(std::span<const glm::dvec3> positions);
+  /// Completes the file and gives it its name. Throws OutputError.
+  void commit();
+
+ private:
+  std::span<const Atom> atoms_;
+  OutputFile file_;
+  int models_ = 0;
 };
 
 }  // namespace meniscus

@@ -7,7 +7,6 @@
 
 #include "core/base/constants.h"
 #include "core/base/error.h"
-#include "core/base/parse_number.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/structure/atom_classes.h"

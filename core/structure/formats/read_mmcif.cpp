@@ -16,7 +16,6 @@
 #include <gemmi/numb.hpp>
 
 #include "core/base/error.h"
-#include "core/base/parse_number.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/structure/assembly.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads PDB: strictly in the columns that a surface needs, leniently elsewhere. No library does both and keeps the
 // order of the file and residues whose numbers wrap.
-#include "core/structure/formats/read_pdb.h"
+#include "core/structure/formats/pdb_records.h"
 
 #include <algorithm>
 #include <array>
@@ -14,12 +14,10 @@
 #include <gemmi/elem.hpp>
 
 #include "core/base/error.h"
-#include "core/base/parse_number.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/structure/assembly.h"
 #include "core/structure/atom_classes.h"
-#include "core/structure/formats/pdb_records.h"
 #include "core/structure/formats/read_pqr.h"
 #include "core/structure/formats/structure_formats.h"
 #include "core/structure/martini.h"

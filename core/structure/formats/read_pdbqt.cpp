@@ -7,11 +7,10 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/parse_number.h"
 #include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/formats/pdb_records.h"
-#include "core/structure/formats/read_pdb.h"
 
 namespace meniscus {
 namespace {

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/structure/bonds.h"
 #include "core/structure/formats/added_files.h"
 #include "core/structure/martini.h"

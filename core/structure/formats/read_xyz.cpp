@@ -11,7 +11,6 @@
 #include <gemmi/elem.hpp>
 
 #include "core/base/error.h"
-#include "core/base/parse_number.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/structure/formats/structure_formats.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Refuses BinaryCIF in builds without nlohmann_json, which reads MessagePack.
 #include "core/base/error.h"
-#include "core/structure/formats/binary_cif.h"
+#include "core/structure/formats/cif_document.h"
 
 namespace meniscus {
 

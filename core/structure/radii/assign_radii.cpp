@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/message.h"
-#include "core/base/parse_number.h"
+#include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/martini.h"
 #include "core/structure/structure.h"

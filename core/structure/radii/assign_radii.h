@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "core/structure/radii/radii_file.h"
 #include "core/structure/radii/radii_set.h"
 #include "core/structure/selection/selection.h"
 

@@ -11,10 +11,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/point_tree.h"
-#include "core/structure/selection/selection_classes.h"
 #include "core/structure/selection/selection_steps.h"
 #include "core/structure/structure.h"
 

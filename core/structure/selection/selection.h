@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -74,5 +75,15 @@ inline constexpr int kDeepestSelection = 200;
 /// Returns advice for a trajectory whose frames have another number of atoms than the file. It is either "as many as it
 /// has without water: choose --trajectory-atoms 'not water'", or that the two do not belong together.
 std::string advice_on_count(std::span<const Atom> atoms, std::size_t frame_atoms);
+
+/// A selection and the text that follows it.
+struct SelectionAndText {
+  Selection atoms;
+  std::string_view text;  ///< everything after the equal sign
+};
+
+/// Splits the text at the first "=" with a complete selection before it. "resid 17=K17=A" has the text "K17=A", and
+/// "bfactor>=50=red" has the text "red". Returns nothing if there is no such sign.
+std::optional<SelectionAndText> selection_and_text(std::string_view text);
 
 }  // namespace meniscus

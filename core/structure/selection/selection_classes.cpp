@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Classifies atoms residue by residue if the class depends on other atoms, and otherwise atom by atom.
-#include "core/structure/selection/selection_classes.h"
+#include "core/structure/selection/selection_steps.h"
 
 #include <algorithm>
 #include <string>
 #include <string_view>
 
 #include "core/structure/residue_names.h"
-#include "core/structure/lipids.h"
-#include "core/structure/sugars.h"
 #include "core/structure/secondary_structure.h"
 #include "core/structure/structure.h"
+#include "core/structure/sugars.h"
 
 namespace meniscus {
 namespace {

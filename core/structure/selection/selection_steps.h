@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A parsed selection: tests of atoms and operations on sets, in postfix order.
+// A selection inside: its tokens, the tests and set operations that the parser makes of them, and the classes of atoms
+// that the tests name.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
 #include <set>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -124,5 +128,45 @@ struct SelectionSteps {
 
 /// True if the text matches the pattern. Time is linear in practice, and at worst the product of the lengths.
 bool matches(const TextPattern& pattern, const std::string& text);
+
+struct Atom;
+
+/// Returns for each atom whether it belongs to the class. Protein and nucleic are residues with a known name. Other
+/// residues of polymers are classified by their atoms: N, CA and C make an amino acid, C4' or C4* a nucleotide.
+std::vector<bool> atoms_with(AtomFlag flag, std::span<const Atom> atoms);
+
+enum class TokenKind : std::uint8_t { end, word, quoted, open, close, comma, compare, both, either, negate };
+
+struct Token {
+  TokenKind kind = TokenKind::end;
+  std::string text;          ///< without quotes
+  std::size_t position = 0;  ///< byte in the expression
+};
+
+/// Returns the tokens, of which the last has the kind `end`. Words may contain everything except blanks, brackets,
+/// commas, double quotes and the signs < > = ! & |. A single quote opens a quoted text only at the beginning of a word,
+/// so that O5' is a word. Throws SelectionError for a quote that is not closed and for control characters.
+std::vector<Token> tokens_of(std::string_view text);
+
+/// A value of a list, with its position for messages.
+struct SelectionValue {
+  std::string text;
+  std::size_t position = 0;
+  bool is_quoted = false;
+};
+
+/// Splits a word at plus signs. "CA+CB" has two values; "NA+" has one, because nothing follows the sign. A quoted text
+/// is one value.
+std::vector<SelectionValue> split_at_plus(const Token& token);
+
+/// These functions parse values. They throw SelectionError with the position in `text`. whole: only integers are
+/// allowed.
+std::vector<TextPattern> read_patterns(const std::vector<SelectionValue>& values);
+std::vector<std::array<double, 2>> read_elements(std::string_view text, const std::vector<SelectionValue>& values);
+std::vector<std::array<ResidueTest::Id, 2>> read_residue_ranges(std::string_view text,
+                                                                const std::vector<SelectionValue>& values);
+std::vector<std::array<double, 2>> read_number_ranges(std::string_view text, const std::vector<SelectionValue>& values,
+                                                      bool whole);
+double read_number(std::string_view text, const SelectionValue& value, bool whole);
 
 }  // namespace meniscus

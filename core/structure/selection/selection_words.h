@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words of the selection language: one table from which the parser and the help are made.
+// The words of the selection language in one table, from which the parser and the help are made, and advice on
+// selections in the languages of PyMOL and ChimeraX.
 #pragma once
 
 #include <cstdint>
@@ -43,5 +44,9 @@ std::string_view nearest_selection_word(std::string_view word);
 
 /// Returns the description of the whole language as text of at most 100 columns: examples, words, rules.
 std::string selection_help();
+
+/// Returns the message "'/a//A/10' is written in PyMOL's way; write 'chain A and resid 10'". The result is empty if the
+/// word does not look like a selection of either program.
+std::string advice_on_foreign_selection(std::string_view word);
 
 }  // namespace meniscus

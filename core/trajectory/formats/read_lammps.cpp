@@ -13,12 +13,11 @@
 
 #include <fmt/format.h>
 
+#include "core/base/binary_file.h"
 #include "core/base/constants.h"
 #include "core/base/error.h"
-#include "core/base/message.h"
-#include "core/base/parse_number.h"
+#include "core/base/text.h"
 #include "core/base/text_file.h"
-#include "core/base/binary_file.h"
 #include "core/trajectory/formats/frame_index.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/trajectory.h"

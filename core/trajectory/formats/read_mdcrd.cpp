@@ -10,11 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "core/base/error.h"
-#include "core/base/message.h"
-#include "core/base/parse_number.h"
-#include "core/base/text_file.h"
 #include "core/base/binary_file.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/trajectory.h"
 

@@ -15,14 +15,13 @@
 #include <fmt/format.h>
 #include <glm/mat3x3.hpp>
 
+#include "core/base/binary_file.h"
 #include "core/base/constants.h"
 #include "core/base/error.h"
-#include "core/base/parse_number.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/structure/formats/pdb_records.h"
 #include "core/structure/formats/structure_formats.h"
-#include "core/base/binary_file.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/trajectory.h"
 

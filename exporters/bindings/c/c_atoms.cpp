@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/base/parse_number.h"
+#include "core/base/text_file.h"
 #include "core/structure/element_tables.h"
 #include "exporters/bindings/c/c_calls.h"
 

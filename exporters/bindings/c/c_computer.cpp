@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/mesh/check_by_mesh.h"
 #include "core/mesh/compare_mesh.h"
+#include "core/mesh/tessellate.h"
 #include "core/scene/surface_computer.h"
 #include "core/surface/compute_surface.h"
 #include "exporters/bindings/c/c_atoms.h"
-#include "exporters/bindings/c/c_devices.h"
 #include "exporters/bindings/c/c_calls.h"
+#include "exporters/bindings/c/c_devices.h"
 #include "exporters/bindings/c/c_surface.h"
 
 namespace meniscus::c_api {

@@ -12,7 +12,7 @@
 #include "core/mesh/tessellate.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/scene/outputs.h"
-#include "core/scene/surface_request.h"
+#include "core/scene/surface_computer.h"
 #include "core/structure/structure.h"
 #include "exporters/bindings/c/c_atoms.h"
 #include "exporters/bindings/c/c_calls.h"

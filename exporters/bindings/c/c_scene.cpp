@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/message.h"
+#include "core/base/text.h"
 #include "core/properties/properties.h"
 #include "exporters/bindings/c/c_calls.h"
 

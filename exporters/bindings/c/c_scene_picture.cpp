@@ -14,10 +14,9 @@
 
 #include "core/base/text.h"
 #include "core/base/text_file.h"
-#include "core/color/color_atoms.h"
 #include "core/color/color_schemes.h"
 #include "core/color/coloring.h"
-#include "core/mesh/check_by_mesh.h"
+#include "core/mesh/tessellate.h"
 #include "core/scene/scene_json.h"
 #include "core/scene/scene_paths.h"
 #include "exporters/bindings/c/c_renderer.h"

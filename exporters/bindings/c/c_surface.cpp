@@ -10,9 +10,9 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
-#include "core/surface/gradients.h"
-#include "exporters/bindings/c/c_devices.h"
+#include "core/surface/measure.h"
 #include "exporters/bindings/c/c_calls.h"
+#include "exporters/bindings/c/c_devices.h"
 
 namespace meniscus::c_api {
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "core/queries/distance.h"
-#include "core/scene/surface_request.h"
-#include "core/surface/atom_areas.h"
+#include "core/scene/surface_computer.h"
+#include "core/surface/measure.h"
 #include "core/surface/primitives.h"
 #include "exporters/bindings/c/c_calls.h"
 

@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/color/color_atoms.h"
 #include "core/color/color_schemes.h"
 #include "core/gpu/egl_context.h"
 #include "core/image/color_space.h"
@@ -19,7 +18,7 @@
 #include "core/structure/formats/read_structure.h"
 #include "core/surface/compute_surface.h"
 #include "exporters/blender/surface_file.h"
-#include "exporters/povray/scene.h"
+#include "exporters/povray/povray_scene.h"
 #include "tests/export/povray/povray_render.h"
 #include "tests/support/run_program.h"
 

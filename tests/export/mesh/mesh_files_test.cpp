@@ -18,7 +18,6 @@
 #include "core/queries/surface_point.h"
 #include "core/structure/structure.h"
 #include "core/surface/compute_surface.h"
-#include "exporters/mesh_files/inner_points.h"
 #include "exporters/mesh_files/mesh_file_maker.h"
 #include "exporters/mesh_files/mesh_formats.h"
 #include "tests/support/molecules.h"

@@ -8,7 +8,7 @@
 
 #include "core/camera/camera.h"
 #include "core/surface/compute_surface.h"
-#include "exporters/povray/scene.h"
+#include "exporters/povray/povray_scene.h"
 #include "tests/export/povray/buffer_comparison.h"
 #include "tests/export/povray/patch_molecules.h"
 

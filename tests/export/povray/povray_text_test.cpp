@@ -12,7 +12,7 @@
 #include "core/base/error.h"
 #include "core/surface/compute_surface.h"
 #include "exporters/povray/patch_objects.h"
-#include "exporters/povray/scene.h"
+#include "exporters/povray/povray_scene.h"
 #include "exporters/povray/scene_colors.h"
 #include "exporters/povray/scene_text.h"
 #include "tests/export/povray/patch_molecules.h"

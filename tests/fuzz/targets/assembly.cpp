@@ -2,8 +2,8 @@
 // Assemblies: operator expressions, the records of PDB and mmCIF, and what is built of them.
 #include <cmath>
 
-#include "core/base/parse_number.h"
 #include "core/base/error.h"
+#include "core/base/text_file.h"
 #include "core/structure/assembly.h"
 #include "tests/fuzz/reader_checks.h"
 

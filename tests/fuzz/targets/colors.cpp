@@ -4,9 +4,8 @@
 
 #include "core/base/error.h"
 #include "core/color/color_schemes.h"
-#include "core/color/color_atoms.h"
-#include "tests/fuzz/reader_checks.h"
 #include "core/color/coloring.h"
+#include "tests/fuzz/reader_checks.h"
 
 namespace meniscus::fuzz {
 namespace {

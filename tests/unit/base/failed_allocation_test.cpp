@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/output_file.h"
-#include "core/base/stage_clock.h"
+#include "core/base/progress.h"
 #include "tests/support/run_program.h"
 
 namespace {

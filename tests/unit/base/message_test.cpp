@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Messages name options as each door spells them, and only those that the message itself names.
-#include "core/base/message.h"
+#include "core/base/text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Matrices of cameras against the rays of their pixels.
-#include "core/camera/camera_matrices.h"
+#include "core/camera/camera.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
-#include "core/camera/camera.h"
 
 namespace meniscus {
 namespace {

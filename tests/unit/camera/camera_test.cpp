@@ -2,7 +2,6 @@
 // Camera files, pixel rays and default framing.
 #include "core/camera/camera.h"
 #include "core/camera/camera_json.h"
-#include "core/camera/foreign_cameras.h"
 #include "core/surface/primitives.h"
 
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/camera/foreign_cameras.h"
+#include "core/camera/camera_json.h"
 #include "core/camera/view_request.h"
 #include "core/math/ball.h"
 #include "core/math/rigid_motion.h"

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/color/color_rule.h"
+#include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
 #include "tests/unit/color/colored_atoms.h"
 

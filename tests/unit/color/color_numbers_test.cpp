@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/color/color_scale.h"
+#include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
 #include "tests/support/run_program.h"
 #include "tests/unit/color/colored_atoms.h"

@@ -7,8 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/color/color_key.h"
-#include "core/color/color_scale.h"
-#include "core/color/color_rule.h"
+#include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
 #include "core/structure/element_tables.h"
 #include "tests/support/run_program.h"

@@ -7,10 +7,9 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/color/color_atoms.h"
 #include "core/color/color_schemes.h"
-#include "core/structure/structure.h"
 #include "core/color/coloring.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/color/color_scale.h"
+#include "core/color/color_schemes.h"
 #include "tests/unit/color/colored_atoms.h"
 
 namespace meniscus {

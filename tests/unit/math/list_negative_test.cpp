@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Negative numbers that are listed eight at a time are those that a plain loop lists.
-#include "core/math/list_negative.h"
+#include "core/math/vector_loops.h"
 
 #include <random>
 #include <vector>

@@ -9,8 +9,8 @@
 
 #include "core/mesh/tessellate.h"
 #include "core/queries/surface_parts.h"
-#include "core/surface/atom_areas.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/measure.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus {

@@ -14,7 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/math/spiral.h"
-#include "core/mesh/shape_mesh.h"
+#include "core/mesh/mesh_objects.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/queries/surface_parts.h"
 #include "core/surface/compute_surface.h"

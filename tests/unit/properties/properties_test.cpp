@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/constants.h"
 #include "core/base/error.h"
-#include "core/base/parse_number.h"
-#include "core/base/usual_probe.h"
+#include "core/base/text_file.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/properties/properties.h"
 #include "core/render/look.h"

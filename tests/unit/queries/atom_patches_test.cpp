@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Patches of chosen atoms: sums, closed forms, and the pieces of a fine mesh.
-#include "core/queries/atom_patches.h"
+#include "core/queries/surface_parts.h"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +15,8 @@
 
 #include "core/math/union_find.h"
 #include "core/mesh/tessellate.h"
-#include "core/surface/atom_areas.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/measure.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus {

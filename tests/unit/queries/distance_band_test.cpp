@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The band around the surface of one ball, whose distances are known.
-#include "core/queries/distance_band.h"
+#include "core/queries/distance.h"
 
 #include <algorithm>
 #include <cmath>

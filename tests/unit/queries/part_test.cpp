@@ -14,10 +14,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/surface/atom_areas.h"
 #include "core/surface/compute_surface.h"
 #include "core/surface/measure.h"
-#include "core/surface/parting.h"
+#include "core/surface/trim.h"
 #include "tests/support/molecules.h"
 #include "tests/support/patch_samples.h"
 

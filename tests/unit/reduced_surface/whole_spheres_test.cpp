@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Spheres without arcs: near misses lose no atom, and arcs that are taken away are missed.
-#include "core/reduced_surface/whole_spheres.h"
+#include "core/reduced_surface/reduced_surface.h"
 
 #include <algorithm>
 #include <cmath>

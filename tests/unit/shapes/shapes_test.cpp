@@ -13,9 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/mesh/shape_mesh.h"
-#include "core/queries/colored_shapes.h"
-#include "core/shapes/bases.h"
+#include "core/mesh/mesh_objects.h"
+#include "core/queries/surface_object.h"
 #include "core/shapes/cartoon.h"
 #include "core/shapes/sugar_symbols.h"
 #include "core/structure/bonds.h"

@@ -14,10 +14,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/stage_clock.h"
+#include "core/base/progress.h"
 #include "core/math/spiral.h"
-#include "core/surface/atom_areas.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/measure.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus::testing {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/base/stage_clock.h"
+#include "core/base/progress.h"
 #include "core/math/double_geometry.h"
 #include "core/mesh/compare_mesh.h"
 #include "core/mesh/tessellate.h"

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/surface/loops.h"
+#include "core/surface/boundary.h"
 #include "core/surface/spherical.h"
 
 namespace meniscus::testing {

@@ -8,11 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/surface/atom_areas.h"
-#include "core/surface/reduced_surface_engine.h"
+#include "core/base/progress.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/measure.h"
 #include "tests/support/molecules.h"
-#include "core/base/stage_clock.h"
 
 namespace meniscus::testing {
 namespace {

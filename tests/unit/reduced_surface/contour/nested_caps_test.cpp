@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Caps of a sphere within others: what is left out covers nothing that others do not cover, however near they come.
-#include "core/reduced_surface/contour/nested_caps.h"
+#include "core/reduced_surface/contour/contour.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,6 @@
 #include "core/base/text.h"
 #include "core/structure/point_tree.h"
 #include "core/structure/selection/selection.h"
-#include "core/structure/selection/selection_and_text.h"
 #include "core/structure/selection/selection_steps.h"
 #include "core/structure/selection/selection_words.h"
 #include "core/structure/structure.h"
