@@ -16,7 +16,7 @@
 namespace meniscus::fuzz {
 namespace {
 
-bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool all_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 std::optional<Frame> read(Trajectory& trajectory, std::uint64_t number) {
   try {
@@ -32,18 +32,18 @@ std::optional<Frame> read(Trajectory& trajectory, std::uint64_t number) {
 }
 
 void check_cell(const glm::dmat3& vectors) {
-  for (int axis = 0; axis < 3; ++axis) require(finite(vectors[axis]), "boxes are finite");
+  for (int axis = 0; axis < 3; ++axis) require(all_finite(vectors[axis]), "boxes are finite");
   const std::optional<PeriodicCell> cell = PeriodicCell::of(vectors);
   if (!cell) return;
   const glm::dvec3 there(7.0, -3.0, 11.0), shortest = cell->shortest(there);
-  require(finite(shortest) && glm::length(shortest) <= 1.000001 * glm::length(there),
+  require(all_finite(shortest) && glm::length(shortest) <= 1.000001 * glm::length(there),
           "the shortest image is no longer");
 }
 
 void check_frame(const Frame& frame, std::size_t atoms) {
   require(frame.positions.size() == atoms, "all frames have the atoms of the first");
   for (const glm::dvec3& position : frame.positions) {
-    require(finite(position) && glm::length(position) <= 2.0 * kLargestCoordinate, "positions are finite and bounded");
+    require(all_finite(position) && glm::length(position) <= 2.0 * kLargestCoordinate, "positions are finite and bounded");
   }
   require(!frame.time || std::isfinite(*frame.time), "times are finite");
   if (frame.cell) check_cell(*frame.cell);
