@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -107,14 +108,21 @@ class BundleInputs {
     }
   }
 
-  /// Copies what does not stay where it is. Throws OutputError, and std::filesystem::filesystem_error on a full disk.
+  /// Copies the files that do not stay where they are. Throws OutputError, InputError.
   void copy_to(const fs::path& folder) const {
     for (const Item& item : items_) {
       if (item.source.empty()) write_file(folder / item.path, item.text);
       if (item.source.empty() || fs::path(item.path).is_absolute()) continue;
       const StopBarrier barrier;
       make_folders_of(folder / item.path);
-      fs::copy_file(item.source, folder / item.path);
+      // OutputFile names a full disk, which std::filesystem::copy_file does not.
+      OutputFile file(folder / item.path, Existing::refuse);
+      std::ifstream stream(item.source, std::ios::binary);
+      std::string piece(std::size_t{1} << 20, '\0');
+      while (stream.read(piece.data(), std::ssize(piece)) || stream.gcount() > 0)
+        file.write(std::string_view(piece.data(), static_cast<std::size_t>(stream.gcount())));
+      if (!stream.eof()) throw InputError(item.source.string(), 0, "cannot be read");
+      file.commit();
     }
   }
 
