@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes a picture to its file in slices of rows, with its annotation and its legend.
+// Writes a picture to its file in slices of rows, with its annotations and its legend.
 #include "core/render/picture_file.h"
 
 #include <algorithm>
@@ -111,7 +111,8 @@ void PictureFile::commit() {
     return page_->commit(shapes);
   }
   write_strip(bottom, margins_.strips.bottom);
-  for (int row = bottom + margins_.strips.bottom; row < size_.y; row += kSlice) {  // a legend below
+  for (int row = bottom + margins_.strips.bottom; row < size_.y;
+       row += kSlice) {  // the rows of a legend below the molecule
     Framebuffer nothing;
     nothing.size = {molecule_size_.x, 0};
     write(std::move(nothing), row, std::min(kSlice, size_.y - row));
