@@ -76,7 +76,6 @@ class Legend {
  private:
   /// An entry of the list: a class of atoms with a box of its colour, or, for the other schemes of a picture, a title
   /// without a box, or a scale with a small bar.
-  /// a small bar.
   struct Entry {
     enum class Kind { box, title, bar };
     std::string name;

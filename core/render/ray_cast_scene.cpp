@@ -122,8 +122,7 @@ class Packer {
 
   std::uint32_t tie_key(const ConcavePatch& patch) const {
     const std::span contacts(&surface_.contacts[patch.first_contact], patch.contact_count);
-    const auto least =
-        std::ranges::min_element(contacts);  // the contact with the smallest key first, then the others in order
+    const auto least = std::ranges::min_element(contacts);  // begins the key; the others follow around
     const auto add = [this](std::uint32_t key, std::uint32_t atom) {
       return geometry::add_to_key(key, first_atom_ + atom);
     };
