@@ -16,8 +16,8 @@ namespace meniscus {
 
 struct Camera;
 
-/// The content of a picture in addition to the molecule. The annotations and the legend must outlive the file. Which
-/// labels are hidden is read when the first band comes.
+/// The content of a picture in addition to the molecule. The annotations and the legend must outlive the file.
+/// PlaceLabel::is_hidden is read when the first band comes.
 struct PictureMargins {
   const Annotations& annotations;
   const std::optional<Legend>& legend;

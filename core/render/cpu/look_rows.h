@@ -14,8 +14,8 @@ using kernel::kStepCount;
 
 inline constexpr int kShadeReach = 2;  // pixels, the range of mean_visibility
 
-/// Presents a cast block to the shared sources. kInside: all pixels that they read, except those of the map, lie in the
-/// block.
+/// Presents a cast block to the shared sources. kInside: all pixels that they read lie in the block, except texels of
+/// the map.
 template <bool kInside>
 struct LookedAtBlock {
   explicit LookedAtBlock(const LaneLook& look)

@@ -14,7 +14,7 @@ class OccluderRays : RayMeeter {
  public:
   explicit OccluderRays(const LaneOccluder& occluder) : RayMeeter(occluder.scene), occluder_(occluder) {}
 
-  /// Returns those of the given rays (`asked`) that hit something opaque before `reach`, Å.
+  /// Returns which of the given rays (`asked`) hit something opaque before `reach`, Å.
   truth block(const real3& from, const vec3& direction, float reach, truth asked) {
     if (!occluder_.boxes) return truth(false);
     Rays rays;

@@ -97,7 +97,7 @@ class RayMeeter : protected TracedScene {
     }
   }
 
-  /// Keeps the nearer hit. Of two hits at the same distance it keeps one that does not depend on their order.
+  /// Keeps the nearer hit. If two hits are at the same distance, the choice does not depend on their order.
   static void keep_nearest(uint index, const Primitive& primitive, truth met, real t, Rays& rays) {
     const natural kind = primitive.kind, tie_key = primitive.tie_key;
     const truth tie_won = kind < rays.kind || (kind == rays.kind && tie_key < rays.tie_key);
