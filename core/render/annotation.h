@@ -106,8 +106,8 @@ class AnnotationLayer {
 
  private:
   std::vector<InkStroke> strokes_;
-  std::vector<std::size_t>
-      marks_;  ///< index of each label's mark, which is the stroke after its line; 0: the label is not shown
+  /// The index of each label's mark, which is the stroke after its line; 0 if the label is not shown.
+  std::vector<std::size_t> marks_;
   Inks inks_;
   int height_, rim_width_ = 1;
   bool lacks_labels_ = false;

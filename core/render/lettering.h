@@ -31,8 +31,7 @@ std::optional<std::string> find_font_file();
 /// A step of a path, with points in pixels from the top left.
 struct PathStep {
   enum class Kind { move, line, curve, close } kind;
-  std::array<glm::dvec2, 3>
-      points{};  ///< move and line: the first point; cubic curve: its two control points, then its end
+  std::array<glm::dvec2, 3> points{};  ///< move and line: one point; cubic curve: two control points, then the end
 };
 
 /// One face and size of letters. Text is UTF-8.

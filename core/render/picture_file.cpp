@@ -111,8 +111,7 @@ void PictureFile::commit() {
     return page_->commit(shapes);
   }
   write_strip(bottom, margins_.strips.bottom);
-  for (int row = bottom + margins_.strips.bottom; row < size_.y;
-       row += kSlice) {  // the rows of a legend below the molecule
+  for (int row = bottom + margins_.strips.bottom; row < size_.y; row += kSlice) {  // a legend below
     Framebuffer nothing;
     nothing.size = {molecule_size_.x, 0};
     write(std::move(nothing), row, std::min(kSlice, size_.y - row));

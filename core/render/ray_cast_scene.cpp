@@ -337,8 +337,8 @@ PictureFrame make_picture_frame(std::span<const BallGroup> groups, const Camera&
         first += glm::dot(ball.center - camera.position, frame.basis.forward) / static_cast<double>(count);
       });
   }
-  frame.eye_distance =
-      std::max(first, 1.0);  // a perspective camera needs some distance; 1 Å is sufficient inside an atom, too
+  // A perspective camera needs some distance; 1 Å is sufficient inside an atom, too.
+  frame.eye_distance = std::max(first, 1.0);
   frame.pivot = camera.position + frame.basis.forward * frame.eye_distance;
   const double half_height = half_extent(camera, 1.0).y;
   frame.pixel_size = 2.0 * half_height / size.y;

@@ -48,8 +48,7 @@ class LookPass {
  private:
   ProgramCache& programs_;
   Buffer depths_, shade_map_, marks_, shade_;
-  TexelBuffer first_hit_texels_{TexelFormat::uint4},
-      hit_texels_{TexelFormat::uint4};  // of sample 0; of the other samples
+  TexelBuffer first_hit_texels_{TexelFormat::uint4}, hit_texels_{TexelFormat::uint4};  // sample 0; other samples
   TexelBuffer depth_texels_{TexelFormat::uint1}, map_texels_{TexelFormat::uint1}, shade_texels_{TexelFormat::uint1},
       mark_texels_{TexelFormat::uint1}, atom_mark_texels_{TexelFormat::uint1};
 };

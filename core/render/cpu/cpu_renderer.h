@@ -86,7 +86,7 @@ class CpuRenderer {
     PictureScene& scene;
     SceneBlock at;
     const RenderSettings& settings;
-    bool hits = false;  ///< true: hits, too
+    bool hits = false;  ///< true: hits are requested, too
     /// Called after each sample, when its hits are complete. If it is empty, hits are the hits of the first sample.
     std::function<void(int sample)> after_sample{};
 
@@ -117,17 +117,16 @@ class CpuRenderer {
   const LaneKernels& kernels_;
   const std::size_t patches_together_;
   StageClock clock_;
-  PictureFrame frame_;                  // frame of the current picture, and after draw() of that picture
+  PictureFrame frame_;                  // frame of the current or last drawn picture
   ScenePlacement placement_;            // placement of the current picture
   std::optional<Occluders> occluders_;  // occluders of the current picture, if its light is traced
   const std::shared_ptr<SurfaceScene> surface_ = std::make_shared<SurfaceScene>();  // for pictures of one surface
   std::vector<glm::vec4> sums_;
   std::vector<ray_cast::Hit> hits_;
-  BlockSamples samples_, front_;       // front_: for pictures with transparent parts
-  std::vector<glm::vec4> front_sums_;  // finished colours of front_
-  std::vector<float> front_ink_;       // share of front_ that lines cover
-  std::vector<float> shade_map_,
-      front_shade_map_;  // depths of the whole picture, and after the last the depth of nothing
+  BlockSamples samples_, front_;                    // front_: for pictures with transparent parts
+  std::vector<glm::vec4> front_sums_;               // finished colours of front_
+  std::vector<float> front_ink_;                    // share of front_ that lines cover
+  std::vector<float> shade_map_, front_shade_map_;  // depths of the whole picture; the last is the depth of nothing
   std::vector<std::uint8_t> rgba_;
   glm::ivec2 size_{0};                         // size of rgba_
   std::shared_ptr<const PictureScene> drawn_;  // the scene of rgba_, which hits_ belong to; nullptr: hits_ are invalid

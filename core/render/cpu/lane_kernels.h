@@ -37,8 +37,8 @@ glm::vec3 painted(const PointPaint& paint, std::uint32_t atom, const glm::vec4& 
 /// A box of a tree over the primitives of an object; low and high are relative to the pivot.
 struct OccluderBox {
   glm::vec3 low;
-  std::uint32_t
-      first;  ///< leaf: first index in LaneOccluder::order; otherwise the second child, the first one follows directly
+  /// For a leaf the first index in LaneOccluder::order; otherwise the second child, because the first one follows.
+  std::uint32_t first;
   glm::vec3 high;
   std::uint32_t count;  ///< number of a leaf's primitives; 0: the box has two children
 };
@@ -90,7 +90,7 @@ struct LaneOccluder {
 struct LaneList {
   static constexpr int kListPadding = 16;
   int count = 0;
-  const float* x = nullptr;  ///< columns of their bounds
+  const float* x = nullptr;  ///< x of the centres of their bounds
   const float* y = nullptr;
   const float* z = nullptr;
   const float* radius = nullptr;
@@ -195,8 +195,7 @@ struct LaneKernels {
   /// Computes the visible share of all of light.sky for points relative to the pivot; normals are towards the solvent.
   void (*see_sky)(const LaneLight& light, const glm::vec3* points, const glm::vec3* normals, float* seen,
                   std::uint32_t count);
-  void (*measure_row)(const LaneLook& look,
-                      int y);  ///< writes the sizes of pixels at their shade's depth to shade_size
+  void (*measure_row)(const LaneLook& look, int y);  ///< writes pixel sizes at the shade's depth to shade_size
   void (*occlude_row)(const LaneLook& look, int y);  ///< writes the visible share of the sky to visibility
   void (*finish_row)(const LaneLook& look, int y);   ///< reads the visibility and size of two rows around
 };

@@ -192,8 +192,8 @@ struct LookedAtBlock {
     real least, greatest;
   };
 
-  /// Returns the extremes around the pixels, as far as lines extend. reach: farthest_neighbor(), which the compiler may
-  /// know.
+  /// Returns the extremes around the pixels, as far as lines extend. reach: farthest_neighbor(), passed as a constant
+  /// where possible.
   [[gnu::always_inline]] Extremes extremes_around(const float* values, pixel_row pixel, int reach) const {
     const float* const middle = values + place_in_block(pixel);
     Extremes found{load(middle), load(middle)};

@@ -113,8 +113,8 @@ class StageClock;
 
 /// A block of pixels and the settings of its rays.
 struct SceneBlock {
-  const PictureFrame&
-      frame;  ///< the frame of the picture, or of its shade map, which is the same view with other pixels
+  /// The frame of the picture, or of its shade map, which is the same view with other pixels.
+  const PictureFrame& frame;
   PictureBlock block;
   int samples = 1;                   ///< rays per pixel
   const LaneLight* light = nullptr;  ///< nullptr: light passes through everything
