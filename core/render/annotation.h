@@ -85,8 +85,9 @@ StripContents strip_contents(const Annotations& annotations);
 /// them.
 class AnnotationLayer {
  public:
-  /// picture_size includes the strips. Throws RequestError if there is no font, if the bar or the title is longer than
-  /// the picture, or if labels must fit and cannot be placed without overlaps and crossings.
+  /// Places everything in a picture of this size, which includes the strips. Throws RequestError if there is no font,
+  /// if the bar or the title is longer than the picture, or if labels must fit and cannot be placed without overlaps
+  /// and crossings.
   AnnotationLayer(const Annotations& annotations, const Camera& camera, glm::ivec2 picture_size,
                   const std::optional<glm::vec3>& background, const Strips& strips = {});
 

@@ -42,9 +42,9 @@ class Drawable {
   /// Adds the time of each stage to `clock`. Throws GpuError, CapacityError, OpenSurfaceError.
   virtual const GpuScene& prepare(const PictureFrame& frame, StageClock& clock) = 0;
 
-  /// prepare() may assume that a frame needs no more memory than the one before. ask() then queues the reading of the
-  /// counts that the frame needed, and settle() returns whether the memory was sufficient. If it was not, the picture
-  /// is invalid, and the next prepare() measures again. Throws as prepare().
+  /// An implementation of prepare() may assume that a frame needs no more memory than the one before. ask() then queues
+  /// the reading of the counts that the frame needed, and settle() returns whether the memory was sufficient. If it was
+  /// not, the picture is invalid, and the next prepare() measures again. Throws as prepare().
   virtual void ask(Readback&) {}
   virtual bool settle() { return true; }
 

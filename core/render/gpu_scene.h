@@ -43,8 +43,7 @@ struct GpuScene : ScenePlacement {
   /// (orthographic: from its plane) in Å: no primitive that begins beyond it is visible in the tile.
   Buffer tile_depths;
 
-  Buffer colors;  ///< one vec4 per atom, linear, alpha: opacity (0: hidden); then, if coloured by kind, three for the
-                  ///< kinds
+  Buffer colors;  ///< one vec4 per atom, linear, alpha: opacity (0: hidden); if coloured by kind, three more
   std::uint32_t atom_count = 0;
   bool color_by_kind = false;
   bool some_hidden = false;

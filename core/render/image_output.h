@@ -101,7 +101,7 @@ void check_image_path(const std::filesystem::path& path);
 /// name at the end. Throws OutputError.
 class ImageWriter {
  public:
-  /// layers: the layers of the rows to come.
+  /// Opens the file. layers: the layers of the rows to come.
   ImageWriter(const std::filesystem::path& path, glm::ivec2 size, const PictureLayers& layers,
               const ImageSettings& settings);
   ~ImageWriter();

@@ -37,8 +37,8 @@ struct PathStep {
 /// One face and size of letters. Text is UTF-8.
 class Font {
  public:
-  /// height: line height in pixels. A bold weight is used if the font has one. Throws RequestError if there is no font
-  /// file; the message names the package to install.
+  /// Opens a font. height: height of a line's letters, pixels. A bold weight is used if the font has one. Throws
+  /// RequestError if there is no font file; the message names the package to install.
   explicit Font(int height, Weight weight = Weight::regular);
   Font(Font&&) noexcept;
   Font& operator=(Font&&) noexcept;

@@ -77,7 +77,8 @@ void keep_hues(Look& look) {
   look.depth_cue = 0.0f;
 }
 
-/// member: a function that returns the address of the number in a look or in a request.
+/// Returns the description of a number. member: a function that returns the address of the number in a look or in a
+/// request.
 template <typename Member>
 constexpr LookNumber number(std::string_view key, Member member) {
   return {key, member, [](Look& look) -> float& { return *Member{}(look); }};

@@ -153,8 +153,8 @@ HitNames names_of(const HitSource& source, const ray_cast::Hit& hit, const glm::
 /// constructor's arguments must exist until the picture is taken.
 class PictureCollector {
  public:
-  /// names: for settings.aovs; not called otherwise. several: true if there is more than one Hit::object. name_atom:
-  /// for settings.mattes, where atoms are not Hit::atom.
+  /// Begins an empty picture. names: for settings.aovs; not called otherwise. several: true if there is more than one
+  /// Hit::object. name_atom: for settings.mattes, where atoms are not Hit::atom.
   PictureCollector(const PictureFrame& frame, const RenderSettings& settings, NameHit names, bool several = false,
                    NameAtom name_atom = {});
 

@@ -28,8 +28,8 @@ struct PictureMargins {
 /// On a page (is_page()) only the molecule is in pixels.
 class PictureFile {
  public:
-  /// settings: the settings of the molecule's picture; its bands go to this file from now on. Throws as ImageWriter and
-  /// annotate() do.
+  /// Opens the file and sets settings.take_band, so that the bands of the molecule's picture go to it. Throws as
+  /// ImageWriter and annotate() do.
   PictureFile(const std::filesystem::path& path, const PictureMargins& margins, const Camera& camera,
               const ImageSettings& image, RenderSettings& settings);
   PictureFile(const PictureFile&) = delete;

@@ -52,7 +52,8 @@ std::vector<PatchRange> ranges_of(const Surface& surface) {
 
 class Packer {
  public:
-  /// scene: the result, with its slack set. motion: the placement of the surface; nullptr: as it is.
+  /// Prepares packing. scene: receives the primitives; its slack must be set. motion: the placement of the surface;
+  /// nullptr: as it is.
   Packer(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene,
          const RigidMotion* motion = nullptr, std::uint32_t first_atom = 0)
       : surface_(surface),

@@ -91,8 +91,8 @@ class TileLists {
   /// Counting::later they get the memory that they needed last time and some more.
   void build(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block,
              Counting counting = Counting::now);
-  /// For Counting::later: queues the reading of the counts that the host needs. The function after it returns, once
-  /// they have been read, whether the memory was sufficient.
+  /// For Counting::later, ask() queues the reading of the counts that the host needs. Once they have been read,
+  /// settle() returns whether the memory was sufficient.
   void ask(Readback& readback);
   bool settle();
 

@@ -28,7 +28,7 @@ namespace meniscus {
 /// width and for any number of threads, and equals GL's picture except for the rounding of arithmetic.
 class CpuRenderer {
  public:
-  /// most_lanes: the maximal length of vectors, 4, 8 or 16 numbers; it is reduced to what the machine has.
+  /// Chooses the widest kernels with at most most_lanes (4, 8 or 16) numbers per vector that the machine can run.
   /// patches_together: see VisibleCopies.
   explicit CpuRenderer(int most_lanes = 16, std::size_t patches_together = VisibleCopies::kPatchesTogether)
       : kernels_(widest_kernels(most_lanes)), patches_together_(patches_together) {}

@@ -25,7 +25,7 @@ namespace meniscus {
 /// The packed objects of one picture.
 class LayeredScene final : public PictureScene {
  public:
-  /// placement: of all objects. The data that the objects point to must outlive the scene.
+  /// Packs the objects. placement: of all objects together. The data that the objects point to must outlive the scene.
   LayeredScene(std::span<const PictureObject> objects, const PictureFrame& frame, const ScenePlacement& placement,
                const Look& look);
 

@@ -23,7 +23,7 @@ struct SurfaceObject;
 /// do not block light.
 class Occluders {
  public:
-  /// pivot: the pivot of the picture. slack: the slack of all its objects.
+  /// Makes an empty set of occluders for a picture with this pivot. slack: ScenePlacement::slack of all its objects.
   Occluders(const glm::dvec3& pivot, float slack) : pivot_(pivot), slack_(slack) {}
 
   /// Adds an object. The data that it points to must exist until the last picture is finished.

@@ -18,7 +18,7 @@ namespace meniscus {
 /// from its plane). Initially all are infinite.
 class RayDepths {
  public:
-  /// frame: the frame at the start of a block, which must outlive this object.
+  /// Uses the frame of a picture, which is read at the start of each block and must outlive this object.
   explicit RayDepths(const PictureFrame& frame) : frame_(frame) {}
 
   void begin(const PictureBlock& block, int samples);

@@ -42,8 +42,8 @@ class VisibleCopies final : public OpaqueScene {
   /// after each eighth of this number has been packed.
   static constexpr std::size_t kPatchesTogether = std::size_t{1} << 21;
 
-  /// objects: they have one probe radius, and are all coloured by kind in the same way, or none is. They must exist
-  /// while the scene is cast. placement: of all copies.
+  /// Sorts the copies from front to back. objects: all have the same probe radius, and either all are coloured by kind
+  /// in the same way or none is. They must exist while the scene is cast. placement: of all copies.
   VisibleCopies(std::span<const SurfaceObject> objects, const PictureFrame& frame, const ScenePlacement& placement,
                 const Look& look, const LaneKernels& kernels, std::size_t patches_together = kPatchesTogether);
 
