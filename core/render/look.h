@@ -178,12 +178,13 @@ std::span<const LookNumber> look_numbers();
 /// `unfaded`: only the depth cue is off.
 enum class Hues : std::uint8_t { free, kept, unfaded };
 
-/// Returns `kept` if colours encode numbers or a legend explains them. Returns `unfaded` if looks_inside: a transparent
-/// surface covers its content already, and atoms behind a cut must be visible at any depth.
+/// Returns `kept` if colours encode numbers or a legend explains them. Returns `unfaded` if the surface is transparent,
+/// because it covers its content already, or if looks_inside: it is cut so that some atoms are visible, which must be
+/// recognisable at any depth. Otherwise returns `free`.
 Hues hues_of(const ColorScheme& color, bool legend, bool looks_inside);
 
-/// Returns the part of the request that changes more than the lightness of colours in spite of `Hues`, in words for a
-/// message, such as "depth_cue fades them"; empty if there is none.
+/// Returns the part of the request that changes more than the lightness of colours in spite of Hues::kept, in words for
+/// a message, such as "depth_cue fades them"; empty if there is none.
 std::string hue_changes(const LookRequest& request);
 
 /// Returns the look of a request. background: nothing if it is transparent; far parts then fade into the colour of

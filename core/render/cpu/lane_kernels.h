@@ -117,7 +117,7 @@ struct LaneTile {
     return static_cast<std::uint32_t>((sample * kernel::kTileEdge + y) * kernel::kTileEdge + x);
   }
   glm::ivec2 origin{0};              ///< place in the block, pixels
-  int first_sample = 0;              ///< number of the first sample among all of the pixels
+  int first_sample = 0;              ///< number of the first sample among all samples of a pixel
   int sample_count = 1;              ///< 1 to kMostSamples
   glm::vec2 offset[kMostSamples]{};  ///< offsets of samples from the pixels' centres
   LaneList list;
