@@ -49,7 +49,7 @@ struct BundleCommand {
   farm::Film film;
 };
 
-/// Returns those of the options that were typed, with their values.
+/// Returns the options among `options` that were typed, with their values.
 Words typed(const CLI::App& command, std::initializer_list<const char*> options) {
   Words words;
   for (const char* const name : options) {

@@ -27,7 +27,7 @@ struct Order {
   std::vector<std::uint64_t> frames;  ///< in the order of the run
   bool force = false;                 ///< frames that are there are made again
   bool is_whole_run = false;          ///< other workers may have the same order
-  std::vector<std::string> device;    ///< options of this program, which override those of the bundle
+  std::vector<std::string> device;    ///< options of this program, which override the bundle's options
   int threads = 0;                    ///< threads of each process; 0: as many as the bundle says, else all
 };
 
@@ -38,11 +38,11 @@ void make_by_lines(
     const std::function<std::vector<std::string>(const std::vector<std::uint64_t>& frames, bool alone)>& command_for,
     const std::filesystem::path& folder, std::vector<std::uint64_t> frames, const FrameListener& listener);
 
-/// Makes the frames of the order that are missing, and returns the seconds that they took. Of a whole run, it begins at
-/// a place drawn by chance and looks again and again which frames are there, so that any number of workers that do not
-/// know of each other share a run; some frames are then made twice, with the same bytes. A frame that fails is
-/// reported, and the others are made. Throws RunError with the code of the first frame that failed; InputError for a
-/// bundle of another version of the program; the errors of check_inputs and make_frames.
+/// Makes the frames of the order that are missing, and returns the seconds that they took. For a whole run, it begins
+/// at a random place and checks repeatedly which frames exist, so that any number of independent workers can share a
+/// run. Some frames may then be made twice, with the same bytes. A frame that fails is reported, and the others are
+/// made. Throws RunError with the code of the first frame that failed; InputError for a bundle of another version of
+/// the program; the errors of check_inputs and make_frames.
 double work(const Bundle& bundle, const Order& order, ProgressStyle progress);
 
 }  // namespace meniscus::farm

@@ -178,7 +178,8 @@ ExitCode report_without_memory() noexcept {
   return kExitCapacity;
 }
 
-/// An exception that would leave a function which promises to throw none is no current one: nobody can ask what it is.
+/// Reports an exception that escapes a noexcept function. Such an exception is not a current one, so its message is not
+/// available.
 ExitCode report_unnamed_error() noexcept {
   if (memory_ran_out()) return report_without_memory();
   system_process::say("meniscus: error: internal: unexpected exception; please report this\n");

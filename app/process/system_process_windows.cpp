@@ -28,8 +28,8 @@ std::string in_utf8(const wchar_t* text) {
   return bytes;
 }
 
-/// The words of the command line as they were given: those of main() are in the code page of the machine, and where
-/// they hold * or ? the C library has put names of files in their place.
+/// Returns the words of the command line as they were typed. The arguments of main() are in the code page of the
+/// machine, and the C library has replaced arguments with wildcards by names of files.
 std::vector<std::string> given_words() {
   int count = 0;
   const std::unique_ptr<wchar_t*, decltype(&::LocalFree)> wide(::CommandLineToArgvW(::GetCommandLineW(), &count),

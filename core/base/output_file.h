@@ -12,7 +12,7 @@
 
 namespace meniscus {
 
-/// What happens if the target exists already.
+/// The action if the target exists already.
 enum class Existing { refuse, replace };
 
 /// An output file. Its bytes go to a temporary file in the folder of the target, and commit() renames that to the

@@ -60,8 +60,8 @@ std::string markup_text(std::string_view text);
 /// Encodes bytes as base64: four letters for every three bytes (RFC 4648).
 std::string base64(std::string_view bytes);
 
-/// Returns two lines: the text, and a caret under byte `position` of it, which is at most its size. Of a long text only
-/// a window around the position is shown. Control characters are escaped, and UTF-8 counts by character.
+/// Returns two lines: the text, and a caret under byte `position` of it, which is at most its size. A long text is
+/// shortened to a window around the position. Control characters are escaped, and UTF-8 counts by character.
 std::string pointed_at(std::string_view text, std::size_t position);
 
 /// Returns the spelling of an option by its name. "keep-water" becomes "--keep-water" unless spell_options() was

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads and writes cameras as JSON, and reads those of PyMOL and ChimeraX.
+// Reads and writes cameras as JSON, and reads the cameras of PyMOL and ChimeraX.
 #include "core/camera/camera_json.h"
 
 #include <algorithm>

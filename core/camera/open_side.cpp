@@ -25,7 +25,7 @@
 namespace meniscus {
 namespace {
 
-/// Å: the growth of balls that closes the gaps between them as the surface does. Of values from 0 to 1.4 this one
+/// Å: the growth of balls that closes the gaps between them as the surface does. Among values from 0 to 1.4 this one
 /// showed most of the ligands of six complexes.
 constexpr double kClosed = 0.4;
 constexpr std::size_t kTriedSides = 500, kPoints = 500, kPointsOfBall = 12;

@@ -90,8 +90,8 @@ ViewBasis view_basis(const ViewDirection& direction, const ViewedBalls& balls);
 /// Reads the requested camera file, if any. Call it before anything is computed. Throws InputError.
 std::optional<Camera> given_camera(const ViewRequest& request);
 
-/// Returns the axes of the picture: those of the given camera, else of the requested side, else of the broad side of
-/// the shown balls; then the requested turns apply. Throws like view_basis(); so does view_camera().
+/// Returns the axes of the picture: the given camera's axes, else the axes of the requested side, else of the broad
+/// side of the shown balls; then the requested turns apply. Throws like view_basis(); so does view_camera().
 ViewBasis aimed_basis(const ViewRequest& request, const std::optional<Camera>& given, const ViewedBalls& balls);
 
 /// Returns the given camera, turned about the middle of the shown balls, or a camera that shows all framed balls.

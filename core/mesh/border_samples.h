@@ -31,8 +31,8 @@ class EdgeRule {
   double edge(double radius) const;
   /// Returns the longest chord (Å) of a circle of this radius (Å).
   double chord(double radius) const;
-  /// True if a saddle with a tube of this radius (Å) is so thin that edges along it are as long as those of its atoms.
-  /// Otherwise the curvature of the tube would force short edges along it, whatever length was requested.
+  /// True if a saddle with a tube of this radius (Å) is so thin that edges along it are as long as the edges on its
+  /// atoms. Otherwise the curvature of the tube would force short edges along it, whatever length was requested.
   bool is_strip(double tube_radius) const {
     return long_strips_ && tube_radius > 0.0 && edge(tube_radius) < kStrip * edge_;
   }
@@ -93,7 +93,7 @@ class BorderSamples {
 
   const Surface& surface_;
   std::vector<std::uint32_t> representative_;
-  /// Per border: curve parameters, ascending from 0; those of an arc end with its sweep.
+  /// Per border: curve parameters, ascending from 0; on an arc the last one is its sweep.
   std::vector<std::vector<double>> parameters_;
   std::vector<std::uint32_t> split_;  ///< the borders that take_split() returns next
 };

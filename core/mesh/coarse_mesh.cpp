@@ -291,7 +291,7 @@ class CoarseMeshing {
   FaceFilling filling_;
   std::vector<Part> parts_;     ///< per face
   bool has_wide_arcs_;          ///< true if arcs of one edge may span more than those next to faces that are not simple
-  std::vector<bool> is_finer_;  ///< per face: true if its borders are sampled as finely as those of filled faces
+  std::vector<bool> is_finer_;  ///< per face: true if its borders are sampled as finely as borders of filled faces
   std::vector<FaceMesh> filled_;  ///< per face: its triangles if it was filled
   std::vector<std::uint32_t> vertex_number_, border_number_;
   TriangleMesh mesh_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares areas and volumes of a surface with those of its mesh, and measures distances from points to triangles.
+// Compares a surface with its mesh by areas and volumes, and measures distances from points to triangles.
 #include "core/mesh/compare_mesh.h"
 
 #include <cmath>

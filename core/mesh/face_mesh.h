@@ -37,8 +37,8 @@ struct FacePoint {
   glm::dvec2 angles{0.0};
 };
 
-/// A map of the sphere or torus of a face to the plane. What is counter-clockwise in the plane is counter-clockwise
-/// seen from the solvent.
+/// A map of the sphere or torus of a face to the plane. It preserves orientation: counter-clockwise in the plane is
+/// counter-clockwise as seen from the solvent.
 class FaceDomain {
  public:
   virtual ~FaceDomain() = default;

@@ -133,7 +133,7 @@ std::vector<double> color_changes(const std::vector<ContactDirection>& contacts,
     }
   }
   std::sort(roots.begin(), roots.end());
-  // Keep those of all equidistances that have another nearest contact on either side.
+  // Equidistances with different nearest contacts on their two sides are kept.
   std::vector<double> changes;
   double before = 0.0;
   for (std::size_t i = 0; i < roots.size(); ++i) {

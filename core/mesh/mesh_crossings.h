@@ -119,7 +119,8 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing_triangles(
     std::span<const glm::dvec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
     std::span<const std::uint8_t> flat = {});
 
-/// Returns those of these pairs that contain one of the triangles `some` (ascending); faster if these are few.
+/// Returns the pairs among these that contain one of the triangles `some` (ascending); faster if there are few such
+/// triangles.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(
     std::span<const std::uint32_t> some, std::span<const glm::dvec3> positions,
     std::span<const std::array<std::uint32_t, 3>> triangles);

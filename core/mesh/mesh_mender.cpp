@@ -252,7 +252,8 @@ MeshMender::Candidates MeshMender::repairing_changes(std::uint32_t triangle) con
   return candidates;
 }
 
-/// Sorts candidates, the best first, and keeps the first Tuning::checked_candidates; of those of a sliver all are kept.
+/// Sorts candidates, the best first, and keeps the first Tuning::checked_candidates; all candidates of a sliver are
+/// kept.
 void MeshMender::sort_candidates(Candidates& candidates, bool sliver) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.fewer_faults != b.fewer_faults ? a.fewer_faults > b.fewer_faults : a.gain > b.gain;

@@ -111,8 +111,8 @@ FineMesh fine_mesh(const Surface& surface, const MeshFineness& fineness) {
 
 namespace {
 
-/// Returns the number of parts that a circle is divided into. What is spanned between points that are `parts` times as
-/// far apart as neighbours is then within the tolerance of its sphere (root 2) or cylinder (1).
+/// Returns the number of parts that a circle is divided into. A facet between points that are `parts` times as far
+/// apart as neighbours is then within the tolerance of its sphere (root 2) or cylinder (1).
 int divisions(double radius, double tolerance, double parts) {
   const double angle = std::acos(std::max(0.0, 1.0 - tolerance / radius));
   return std::max(8, static_cast<int>(std::ceil(parts * std::numbers::pi / angle)));

@@ -24,8 +24,8 @@ std::int64_t orientation(GridPoint a, GridPoint b, GridPoint c);
 bool inside_circle(GridPoint a, GridPoint b, GridPoint c, GridPoint d);
 
 /// An incremental Delaunay triangulation (Lawson 1977) with constrained edges recovered by flips (Sloan 1993). Vertices
-/// 0..3 are the corners of a box around the grid; those of the caller follow. Every call ends: points off the grid, and
-/// figures that no flips untangle, cause an OpenSurfaceError.
+/// 0..3 are the corners of a box around the grid; the caller's vertices follow. Every call ends: points off the grid,
+/// and figures that no flips untangle, cause an OpenSurfaceError.
 class PlanarTriangulation {
  public:
   struct Triangle {

@@ -57,7 +57,7 @@ struct RemeshTuning {
   /// For triangles below this quality all changes are tried, and the triangles around them may lean.
   static constexpr double sliver_quality = 0.25;
   static constexpr int mending_rounds = 12;
-  /// Of the changes that improve triangles, only this many are checked for validity, the best first.
+  /// The number of changes that improve triangles that are checked for validity, the best first.
   static constexpr std::size_t checked_candidates = 8;
   /// Vertices of this valence or more are not made. The valences of two vertices to be merged may add up to less than
   /// this plus 4, as a collapse removes 4.
@@ -79,7 +79,7 @@ struct RemeshTuning {
   /// splitting and collapsing leave edges a little shorter.
   static constexpr double vertices_per_square = 1.34;
   /// The fewest vertices of a component, however small it is: the inner side of a cavity of four triangles cannot be
-  /// told.
+  /// recognised.
   static constexpr std::uint32_t fewest_vertices = 12;
   /// The share of the tolerance that the middle of an equilateral triangle with the wanted edges may use up, since
   /// edges of up to 4/3 of that length remain.

@@ -74,7 +74,7 @@ class Sorter {
     to.atom.push_back(mesh_.atom[piece.source]);
   }
 
-  /// Adds the normals of a triangle at a cusp, which are its own: interpolated between those of its corners.
+  /// Adds the normals of a triangle at a cusp, which are interpolated between the normals of its own corners.
   void add_sharp_corners(const SolidPiece& piece) {
     TriangleMesh& to = result_.surface;
     const auto first = sharp_.lower_bound(3 * piece.source);

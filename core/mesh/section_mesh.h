@@ -48,9 +48,9 @@ CutMesh cut_mesh(TriangleMesh mesh, std::span<const ClipPlane> planes, const Cap
 CapMesh section_caps(std::span<const SurfaceObject> objects, std::span<const ClipPlane> planes, bool one_color,
                      double tolerance);
 
-/// The shown triangles of a surface, followed by those of its caps. The triangles of caps have atoms, component 0, and
-/// no face or patch (convex, kNone). Surface and caps share the vertices along rims; the corners of caps are sharp. The
-/// mesh is closed except for holes that hidden atoms leave.
+/// The shown triangles of a surface, followed by the triangles of its caps. The triangles of caps have atoms, component
+/// 0, and no face or patch (convex, kNone). Surface and caps share the vertices along rims; the corners of caps are
+/// sharp. The mesh is closed except for holes that hidden atoms leave.
 struct CappedMesh {
   TriangleMesh mesh;
   std::vector<std::uint32_t> cap_plane;  ///< per cap triangle, the last ones of the mesh: its plane

@@ -224,7 +224,7 @@ class Tessellation {
     }
   }
 
-  /// Numbers the vertices: those of the surface that are used, then border samples, then each face's own.
+  /// Numbers the vertices: the used vertices of the surface, then border samples, then each face's own.
   void number_vertices() {
     std::uint32_t next = 0;
     vertex_number_.assign(surface_.vertices.size(), kNone);

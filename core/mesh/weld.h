@@ -15,7 +15,7 @@ namespace meniscus {
 
 struct TriangleMesh;
 
-/// What welding did to vertices and triangles.
+/// The result of welding vertices and triangles.
 struct Welding {
   /// Per vertex: itself, or the vertex that it was merged into; kNone: it was removed.
   std::vector<std::uint32_t> into;

@@ -45,7 +45,7 @@ PlaceSteps place_steps(const PocketRequest& request, double clearance) {
 /// A pocket before it is cut out of the surface.
 struct Part {
   Cavity cavity;
-  std::vector<std::uint32_t> components;  // its own component, then those of what floats in it
+  std::vector<std::uint32_t> components;  // its own component, then the components that float in it
 };
 
 /// Finds the pockets as cavities of a surface with closed mouths.

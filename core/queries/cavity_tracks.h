@@ -42,7 +42,7 @@ enum class CavityEvent {
 /// Returns the word for an event: "born", "kept", ...
 const char* event_word(CavityEvent event);
 
-/// What happened to a cavity from one frame to the next.
+/// The history of a cavity from one frame to the next.
 struct CavityStep {
   std::uint32_t id = 0;  ///< from 1, never reused
   CavityEvent event = CavityEvent::born;

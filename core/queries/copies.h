@@ -20,7 +20,7 @@ namespace meniscus {
 struct RigidMotion;
 struct SurfaceObject;
 
-/// Appends a moved copy of `part` to `whole`: its rows follow those of `whole`, and areas and volumes add up. Both
+/// Appends a moved copy of `part` to `whole`: its rows follow the rows of `whole`, and areas and volumes add up. Both
 /// surfaces remain closed and separate; where they overlap nothing is cut away. Both must have the same probe radius,
 /// unless `whole` is still empty. Throws CapacityError if a table gets more rows than an index can count.
 void append(Surface& whole, const Surface& part, const RigidMotion& motion = {});

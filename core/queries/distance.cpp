@@ -102,9 +102,9 @@ Foot foot_on(const Surface& s, const ConcavePatch& patch, const glm::dvec3& x, d
   return inside(s, foot, patch.first_plane, patch.plane_count()) ? Foot{distance, foot} : Foot{};
 }
 
-/// Returns the foot of x on a toroidal patch, in the half-plane of x on its side of the torus' circle. What is left of
-/// the tube does not pass the axis, so along either circle through the foot other points are farther. From a place of
-/// the probe's centre all of the tube is equally far, and its borders are as near.
+/// Returns the foot of x on a toroidal patch, in the half-plane of x on its side of the torus' circle. The rest of the
+/// tube does not cross the axis, so along either circle through the foot other points are farther. From a place of the
+/// probe's centre all of the tube is equally far, and its borders are as near.
 Foot foot_on(const Surface& s, const ToroidalPatch& t, const glm::dvec3& x, double limit) {
   const CylindricalPoint at = cylindrical_point(x, t.center, t.axis, t.start);
   const double across = at.away - t.radius, length = std::sqrt(across * across + at.along * at.along);
@@ -133,7 +133,7 @@ Foot foot_on_arc(const Turning& turning, bool whole, const glm::dvec3& x, double
 
 Foot at_point(const glm::dvec3& point, const glm::dvec3& x) { return {glm::distance(x, point), point}; }
 
-/// The boxes of the rows of one table, followed by those of the next.
+/// Boxes around the rows of several tables, table by table.
 template <std::size_t kTables>
 struct Tables {
   std::array<std::uint32_t, kTables + 1> first{};

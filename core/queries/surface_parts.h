@@ -43,7 +43,7 @@ struct AtomPatch {
 
 /// Returns all patches, the largest first; equally large ones in the order of their first atoms. `chosen` has one entry
 /// for each of Surface::atoms. Faces of one re-entrant patch count as joined (atom_shares). The areas of the patches
-/// add up to those of the chosen atoms. The faces of the surface must be measured.
+/// add up to the areas of the chosen atoms. The faces of the surface must be measured.
 std::vector<AtomPatch> atom_patches(const Surface& surface, const std::vector<bool>& chosen);
 
 /// Returns true for the chosen atoms that have a part of a patch of at least `least` Å². It is for pictures, which know

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places texts and lines, and blends them into pixels by the share that they cover.
+// Places texts and lines in a picture, and blends them into its pixels according to coverage.
 #include "core/render/annotation.h"
 
 #include <algorithm>
@@ -21,26 +21,26 @@
 namespace meniscus {
 namespace {
 
-/// Whole rows of a picture.
+/// A range of whole rows of a picture.
 struct RowRange {
   int first, end;
 
   bool meet(int low, int high) const { return low < end && high >= first; }
 };
 
-/// Shares of pixels that ink covers, of some rows of a picture. Places are those in the whole picture.
+/// The coverage in [0, 1] of some rows of pixels by letters and lines. Places are pixels of the whole picture.
 class InkMask {
  public:
   InkMask(int width, const RowRange& rows)
       : rows_(rows), size_(width, rows.end - rows.first), shares_(static_cast<std::size_t>(size_.x) * size_.y, 0.0f) {}
 
   void text(const Font& font, const std::string& text, glm::ivec2 place) {
-    const int reach = 2 * font.height();  // of letters above and below
+    const int reach = 2 * font.height();  // the part of letters above and below
     if (rows_.meet(place.y - reach, place.y + reach))
       font.draw(text, place - glm::ivec2(0, rows_.first), shares_, size_);
   }
 
-  /// share: of each pixel within; the more of several counts.
+  /// Adds a line. share: the coverage of each pixel inside the line. Where lines overlap, the larger share counts.
   void line(const glm::dvec2& from, const glm::dvec2& to, double width, double share) {
     const double margin = 0.5 * width + 1.0;
     const glm::ivec2 low = glm::max(glm::ivec2(glm::floor(glm::min(from, to) - margin)), glm::ivec2(0, rows_.first));
@@ -62,8 +62,9 @@ class InkMask {
       for (int x = std::max(low.x, 0); x < std::min(high.x, size_.x); ++x) cover(x, y, 1.0f);
   }
 
-  /// Lays ink over rows of the picture that are among these, and a rim of another colour around it where the picture is
-  /// covered already. Within the rim's width of them all rows that the picture has are to be among these.
+  /// Draws the mask in the colour `ink` over those rows of the picture that it covers, and a rim of another colour
+  /// around it where the picture is already covered. The mask must contain all rows of the picture within rim_width of
+  /// these rows.
   void lay_over(Framebuffer& picture, int first_row, const glm::vec3& ink, const glm::vec3& rim, int rim_width) const {
     const std::vector<float> rims = thickened(rim_width);
     const std::size_t before = index(0, first_row);
@@ -85,7 +86,8 @@ class InkMask {
     covered = std::max(covered, std::clamp(share, 0.0f, 1.0f));
   }
 
-  /// Each pixel as covered as the most covered one around, less towards the rim's width.
+  /// Returns the mask thickened by `width` pixels: each pixel gets the largest coverage around it, which decreases
+  /// towards the edge of the rim.
   std::vector<float> thickened(int width) const {
     std::vector<float> result = shares_;
     for (int y = rows_.first; y < rows_.end; ++y)
@@ -107,7 +109,7 @@ class InkMask {
   std::vector<float> shares_;
 };
 
-/// Where the molecule is in the picture, roughly: in cells.
+/// A coarse grid of cells that shows where the molecule is in the picture.
 class CoveredGround {
  public:
   CoveredGround(const std::vector<glm::vec4>& atoms, const Camera& camera, glm::ivec2 molecule_size, int top)
@@ -124,7 +126,7 @@ class CoveredGround {
     }
   }
 
-  /// The share of a box.
+  /// Returns the share of a box that the molecule covers.
   double operator()(const PixelBox& box) const {
     int covered = 0, all = 0;
     for (int y = (box.low.y - top_) / cell_; y <= (box.high.y - top_) / cell_; ++y)
@@ -146,13 +148,13 @@ class CoveredGround {
         if (glm::distance(glm::dvec2(x, y) + 0.5, middle) <= radius + 0.5) cells_[index(x, y)] = true;
   }
 
-  int cell_;  // pixels
+  int cell_;  // size of a cell, pixels
   glm::ivec2 size_;
   int top_;
   std::vector<bool> cells_;
 };
 
-/// Puts things into the corners and beside the places they name.
+/// Places texts in the corners, and labels next to the places that they name.
 class Writer {
  public:
   Writer(const glm::ivec2& size, const Strips& strips, const LetterStyle& style, const Camera& camera, FontShelf& fonts)
@@ -173,7 +175,7 @@ class Writer {
     write({text, {height / 2, panel_row(heights_)}, height, Weight::bold});
   }
 
-  /// Between the letter of the panel and the time, in smaller letters where it has to be.
+  /// Writes the title between the letter of the panel and the time, in smaller letters if the room is too small.
   void title(const std::string& text) {
     int left = heights_.usual / 2, right = size_.x - heights_.usual / 2;
     for (const PixelBox& box : taken_) {
@@ -213,7 +215,7 @@ class Writer {
     taken_.push_back(bar);
   }
 
-  /// From the least of its numbers to the greatest, which are at its left; the present one is above.
+  /// Draws the curve. Its smallest and largest values are written to its left, the present value above it.
   void curve(const Curve& curve) {
     const auto ends = std::ranges::minmax(curve.values);
     const double least = ends.min, greatest = ends.max;
@@ -237,7 +239,7 @@ class Writer {
     const int row = heights_.usual, left = static_cast<int>(low.x), right = static_cast<int>(high.x),
               above = static_cast<int>(low.y - em);
     const auto width = [&](double value) { return font.width(number(value)); };
-    // The title stays where it is while the number changes.
+    // The width reserved for the number is constant, so the title does not move from frame to frame.
     const int widest = std::max({width(least), width(greatest), width(curve.values[curve.now])});
     write({curve.title, {right - widest - row / 2 - font.width(curve.title), above}, row});
     write({number(curve.values[curve.now]), {right - width(curve.values[curve.now]), above}, row});
@@ -249,8 +251,8 @@ class Writer {
     taken_.push_back({glm::ivec2(low), glm::ivec2(high)});
   }
 
-  /// Those whose places the picture shows. Letters become smaller where there is no room, if nobody chose their size.
-  /// False: they have none all the same.
+  /// Adds the labels of places that are visible in the picture. If the user set no size, letters shrink until the
+  /// labels fit. Returns false if they do not fit at any size.
   bool labels(const std::vector<PlaceLabel>& labels, const std::vector<glm::vec4>& atoms) {
     std::vector<const PlaceLabel*> shown;
     std::vector<UnplacedLabel> unplaced;
@@ -289,7 +291,7 @@ class Writer {
     return false;
   }
 
-  static constexpr int kLeastTitle = 8;  // pixels
+  static constexpr int kLeastTitle = 8;  // pixels, the smallest title
   static int panel_row(const LetterHeights& heights) { return heights.panel; }
   static double curve_height(const LetterHeights& heights, glm::ivec2 size) {
     return std::max(3.0 * heights.usual, 0.1 * size.y);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws pictures on the GPU block by block, and hands them out as pixels in memory or as textures.
+// Draws pictures on the GPU block by block, and returns them as pixels in memory or as textures.
 #include "core/render/gl_renderer.h"
 
 #include <algorithm>
@@ -42,14 +42,14 @@ void upload_scene(const RayCastScene& packed, const Surface& surface, const Pict
 
 namespace {
 
-/// The largest block whose buffers the driver can hold, in whole tiles.
+/// Returns the edge of the largest block, in whole tiles, whose buffers the driver can allocate.
 int usable_block_edge(int wanted) {
   const std::size_t pixels = query_gpu_limits().storage_block_bytes / sizeof(ray_cast::Hit);
   const int largest = static_cast<int>(std::min(std::sqrt(static_cast<double>(pixels)), 65536.0));
   return std::max(std::min(wanted, largest) / kTileEdge * kTileEdge, kTileEdge);
 }
 
-/// The same pixels in two blocks of whole tiles; for blocks of more than one.
+/// Splits a block of more than one tile into two blocks of whole tiles.
 std::array<PictureBlock, 2> halves(const PictureBlock& block) {
   const int axis = block.size.x > block.size.y ? 0 : 1;
   std::array<PictureBlock, 2> result{block, block};
@@ -72,7 +72,7 @@ void GlRenderer::begin(Drawable& drawable, const Camera& camera, const RenderSet
   }
 }
 
-// Until it is certain.
+// Repeats until the buffers were large enough.
 void GlRenderer::prepare(Drawable& drawable) {
   do {
     scene_ = &drawable.prepare(frame_, clock_);
@@ -156,7 +156,7 @@ bool GlRenderer::draw(Drawable& drawable, const Camera& camera, const RenderSett
 bool GlRenderer::draw_once(Drawable& drawable, const RenderSettings& settings, const std::function<bool()>& stop,
                            bool& settled) {
   const PictureBlock block{{0, 0}, frame_.size};
-  // A caller that may give the picture up between samples is told when each is there.
+  // A caller that may stop the picture between samples is notified after each sample.
   const bool needs_map = needs_shade_map(block, settings);
   const bool trusts =
       counting_ == Counting::later && !needs_map && caster_.can_trust(block) && !(stop && settings.samples > 1);

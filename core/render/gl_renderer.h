@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures of whatever can be drawn on the GPU: a computed surface, or atoms whose surface is found for each view.
+// Pictures of everything that can be drawn on the GPU: a computed surface, or atoms whose surface is computed for each
+// view.
 #pragma once
 
 #include <cstdint>
@@ -28,34 +29,36 @@ class PictureCollector;
 class StageClock;
 struct Coloring;
 
-/// A complete surface (SurfaceDrawable), or atoms whose surface the GPU finds for each view (ViewPipeline).
+/// An object that the GPU can draw: a complete surface (SurfaceDrawable), or atoms whose surface the GPU computes for
+/// each view (ViewPipeline).
 class Drawable {
  public:
   virtual ~Drawable() = default;
 
-  /// Van der Waals balls, Å; at least one. A camera's picture has its pivot among them.
+  /// Returns the van der Waals balls, Å; at least one. The pivot of the picture is chosen among them.
   virtual std::span<const Ball> atoms() const = 0;
 
-  /// Puts on the GPU what this picture shows, colours too; stays until the next call. Adds the time of each stage to
-  /// `clock`. Throws GpuError, CapacityError, OpenSurfaceError.
+  /// Puts everything that this picture shows on the GPU, including colours. The result is valid until the next call.
+  /// Adds the time of each stage to `clock`. Throws GpuError, CapacityError, OpenSurfaceError.
   virtual const GpuScene& prepare(const PictureFrame& frame, StageClock& clock) = 0;
 
-  /// prepare() may assume that a frame needs no more room than the one before. ask() reads back the counts that it
-  /// needed; settle() then returns whether the room was enough. If it was not, the picture is invalid, and the next
-  /// prepare() measures again. Throws as prepare().
+  /// An implementation of prepare() may assume that a frame needs no more memory than the one before. ask() then queues
+  /// the reading of the counts that the frame needed, and settle() returns whether the memory was sufficient. If it was
+  /// not, the picture is invalid, and the next prepare() measures again. Throws as prepare().
   virtual void ask(Readback&) {}
   virtual bool settle() { return true; }
 
-  /// The surface whose patches the primitives of the scene are, if the host has it; else nullptr.
+  /// Returns the surface that the scene's primitives belong to, if the host has it; otherwise nullptr.
   virtual const Surface* surface() const { return nullptr; }
 };
 
-/// Packs the surface for each picture. Keeps buffers from surface to surface. Needs a current GL context.
+/// A computed surface, which is packed for each picture. Buffers are reused from surface to surface. Needs a current GL
+/// context.
 class SurfaceDrawable final : public Drawable {
  public:
-  /// coloring.atom has one colour per surface.atoms; both must stay until the last picture of them is made. Rays go on
-  /// through points of hidden atoms; what they meet from behind is shaded like its front, and its normal still points
-  /// towards the solvent.
+  /// Sets the surface and its colours. coloring.atom has one colour for each of surface.atoms. Both must outlive the
+  /// last picture of them. Rays continue through points of hidden atoms. A patch that they hit from behind is shaded
+  /// like its front, and its normal still points towards the solvent.
   void show(const Surface& surface, const Coloring& coloring);
 
   std::span<const Ball> atoms() const override { return surface_->atoms; }
@@ -68,43 +71,45 @@ class SurfaceDrawable final : public Drawable {
   GpuScene scene_;
 };
 
-/// Everything of `scene` on the GPU but the colours.
+/// Uploads everything of `scene` except the colours.
 void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene);
 
-/// Returns renderer and version of GL.
+/// Returns the renderer and the version of GL.
 std::string gl_words(const EglContext& context);
 
-/// Makes one picture after another. Needs a current GL context for its whole life.
+/// Draws pictures one after another. Needs a current GL context for its whole life.
 class GlRenderer {
  public:
-  /// A picture on the host, of any size; the same for any block_edge. Throws what Drawable::prepare() throws, GpuError,
-  /// CapacityError, InputError for a bad camera.
+  /// Returns a picture of any size in memory; it does not depend on block_edge. Throws the errors of
+  /// Drawable::prepare(), GpuError, CapacityError, and InputError for an invalid camera.
   Framebuffer render(Drawable& drawable, const Camera& camera, const RenderSettings& settings);
-  /// Of a computed surface.
+  /// Returns a picture of a computed surface.
   Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                      const RenderSettings& settings);
 
-  /// A finished picture over the look's background, which stays on the GPU as texture(). stop: asked now and then; if
-  /// true, the picture is given up: false, the texture shows the one before, and there is nothing to pick. The drawable
-  /// must stay as long as someone picks. Throws as render().
+  /// Draws a finished picture over the look's background, which stays on the GPU as texture(). `stop` is called
+  /// regularly; if it returns true, drawing stops, draw() returns false, the texture keeps the previous picture, and
+  /// pick() finds nothing. The drawable must outlive all calls of pick(). Throws as render().
   bool draw(Drawable& drawable, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop = {});
 
-  /// Whether buffer sizes are read back before or after drawing. The default is the faster way for the device.
+  /// Sets whether buffer sizes are read back before or after drawing. The default is the faster way for the device.
   void set_counting(Counting counting) { counting_ = counting; }
 
-  /// The last drawn picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.
+  /// Returns the last drawn picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.
   std::vector<std::uint8_t> rgba() const { return presenter_.rgba(); }
-  /// The last drawn picture as a GL texture (GL_RGBA8, sRGB values, first row on top) that lives until the next draw.
+  /// Returns the last drawn picture as a GL texture (GL_RGBA8, sRGB values, first row on top), which is valid until the
+  /// next draw.
   std::uint32_t texture() const { return presenter_.texture(); }
   glm::ivec2 size() const { return frame_.size; }
-  /// pixel of the last drawn picture: column, row from the top. Nothing where nothing is hit.
+  /// Returns what a pixel (column, row from the top) of the last drawn picture shows; nothing where no ray hit
+  /// anything.
   std::optional<PickedPoint> pick(glm::ivec2 pixel) const;
 
-  /// Times of the stages of the last picture.
+  /// Returns the times of the stages of the last picture.
   const std::vector<StageTime>& times() const { return clock_.times(); }
 
-  /// What the last picture was finished from: RayCaster::picture() and RayCaster::hits().
+  /// Returns RayCaster::picture() and RayCaster::hits(), from which the last picture was finished.
   const Buffer& samples() const { return caster_.picture(); }
   const Buffer& hits() const { return caster_.hits(); }
 
@@ -118,11 +123,11 @@ class GlRenderer {
 
   Counting counting_ = suitable_counting();
   RayCaster caster_;
-  SurfaceDrawable surface_;  // of render() for computed surfaces
+  SurfaceDrawable surface_;  // for pictures of computed surfaces
   Presenter presenter_;
   StageClock clock_;
   PictureFrame frame_;               // of the last picture
-  const GpuScene* scene_ = nullptr;  // likewise
+  const GpuScene* scene_ = nullptr;  // scene of the last picture
 };
 
 }  // namespace meniscus

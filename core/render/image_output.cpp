@@ -45,7 +45,7 @@ float* put(std::initializer_list<float> values, float* to) { return std::ranges:
 
 float* put(const glm::vec3& v, float* to) { return put({v.x, v.y, v.z}, to); }
 
-/// GLM's columns of a matrix are the rows of its transpose, which OpenEXR has.
+/// Returns a matrix in the order of OpenEXR, which multiplies row vectors: its rows are the columns of GLM's matrix.
 std::array<float, 16> in_rows(const glm::dmat4& matrix) {
   std::array<float, 16> numbers{};
   for (int n = 0; n < 16; ++n) numbers[static_cast<std::size_t>(n)] = static_cast<float>(matrix[n / 4][n % 4]);
@@ -98,14 +98,14 @@ float* ExrChannels::write_aovs(const Framebuffer& picture, std::size_t pixel, fl
     to = put(is_hit ? place * towards_viewer : none, to);
   }
   if (!layers_.motion) return to;
-  // Blender reads no layers of two channels.
+  // Blender reads no layers of two channels, so there is a third.
   return put({picture.motion[pixel].x, picture.motion[pixel].y, is_hit ? 1.0f : 0.0f}, to);
 }
 
 float* ExrChannels::write_mattes_of(const Framebuffer& picture, std::size_t pixel, float* to) const {
   const auto rays = static_cast<std::size_t>(layers_.rays);
   const auto seen = std::span(picture.seen).subspan(pixel * rays, rays);
-  // Most pixels show nothing.
+  // Most pixels show nothing, and need no ranking.
   const bool is_empty = std::ranges::all_of(seen, [](std::uint32_t thing) { return thing == kNone; });
   if (is_empty) return to + content_.mattes->size() * kMatteChannels;
   std::vector<std::uint32_t> ids(rays);
@@ -131,8 +131,8 @@ void ExrChannels::describe(ImageToEncode& image) const {
 
 namespace {
 
-/// Nobody else sees it, and it is gone with this object. A limit on the size of files (RLIMIT_FSIZE) holds for it too.
-/// Throws CapacityError where the system gives none.
+/// An anonymous file in memory, which exists as long as this object. A limit on the size of files (RLIMIT_FSIZE)
+/// applies to it, too. Throws CapacityError if the system cannot create it.
 class MemoryFile {
  public:
   MemoryFile() : descriptor_(::memfd_create("meniscus", MFD_CLOEXEC)) {
@@ -144,7 +144,7 @@ class MemoryFile {
 
   std::string name() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
 
-  /// All that was written to it, piece by piece: take(span of bytes).
+  /// Reads everything that was written, piece by piece, by calls of take(span of bytes).
   void read(const auto& take) const {
     constexpr std::size_t kPiece = 1 << 20;
     struct stat status {};
@@ -181,7 +181,7 @@ std::string date_of_pictures() {
 
 bool is_jpeg(const std::string& extension) { return extension == ".jpg" || extension == ".jpeg"; }
 
-/// What OpenImageIO calls it.
+/// Returns OpenImageIO's name of a format.
 std::string format_of(const std::string& extension) {
   if (is_jpeg(extension)) return "jpeg";
   return extension == ".tif" ? "tiff" : extension.substr(1);
@@ -190,7 +190,7 @@ std::string format_of(const std::string& extension) {
 /// Some rows of a picture.
 struct Rows {
   const Framebuffer& picture;
-  std::size_t first, count;  // pixels
+  std::size_t first, count;  // range of pixels
 
   std::span<const glm::vec4> color() const { return std::span(picture.color).subspan(first, count); }
 };
@@ -208,7 +208,7 @@ void for_pixels(std::size_t count, const auto& work) {
                     [&](const auto& range) { work(range.begin(), range.end()); });
 }
 
-/// sRGB, alpha not multiplied in, as TIFF has it.
+/// Returns pixels in sRGB with unassociated alpha, as in TIFF files.
 std::vector<float> display_values(const Rows& rows, const std::optional<glm::vec3>& background, bool linear_alpha) {
   const bool for_layout = !background && !linear_alpha;
   const std::size_t channels = background ? 3 : 4;
@@ -224,7 +224,7 @@ std::vector<float> display_values(const Rows& rows, const std::optional<glm::vec
   return values;
 }
 
-/// The same in 8 bits, as PNG has it.
+/// Returns the same pixels with 8 bits per channel, as in PNG files.
 std::vector<std::uint8_t> display_values_8(const Rows& rows, const std::optional<glm::vec3>& background,
                                            bool linear_alpha) {
   const std::size_t channels = background ? 3 : 4;
@@ -254,7 +254,7 @@ ImageToEncode described(glm::ivec2 size, const std::vector<std::string>& channel
   image.color_space = exr ? "Linear" : "sRGB";
   image.unassociated_alpha = !exr;
   if (tiff || is_jpeg(extension)) image.color_profile = srgb_profile();
-  // Of JPEG and WebP the quality: nobody sees the loss, and text stays sharp.
+  // The quality of JPEG and WebP is chosen so that the loss is invisible and text stays sharp.
   image.compression = is_jpeg(extension) ? "jpeg:95" : extension == ".webp" ? "webp:95" : "zip";
   if (settings.names_program) image.software = "Meniscus " MENISCUS_VERSION;
   if (exr || tiff) image.date = date_of_pictures();
@@ -265,8 +265,8 @@ ImageToEncode described(glm::ivec2 size, const std::vector<std::string>& channel
   return image;
 }
 
-/// A TIFF file that meets a limit on the size of files lacks what libtiff writes last, and libtiff does not tell. So it
-/// is refused where it might meet one: where the limit is below what the pixels take if they cannot be compressed.
+/// Throws if the limit on the size of files is below the size of the uncompressed pixels. libtiff writes an important
+/// part of the file last, and does not report if it fails there because of the limit.
 void refuse_limited_size(const std::filesystem::path& path, const ImageToEncode& image) {
   constexpr rlim_t kDirectories = 1 << 16, kOfALine = 32;
   const rlim_t pixels = pixel_bytes(image), lines = static_cast<rlim_t>(image.height);
@@ -280,7 +280,8 @@ void refuse_limited_size(const std::filesystem::path& path, const ImageToEncode&
 
 }  // namespace
 
-/// OpenImageIO never writes to the disk itself, for its PNG writer overlooks writes that fail.
+/// The file of an ImageWriter. OpenImageIO writes to memory only, because its PNG writer ignores failed writes to the
+/// disk.
 class ImageWriter::File {
  public:
   File(const std::filesystem::path& path, glm::ivec2 size, const PictureLayers& layers, ImageSettings settings)
@@ -290,7 +291,7 @@ class ImageWriter::File {
         settings_(std::move(settings)),
         exr_(layers, settings_.background, settings_.exr),
         output_(path, settings_.existing) {
-    // JPEG knows no transparency.
+    // JPEG has no transparency, so the background is white.
     if (is_jpeg(extension_) && !settings_.background) settings_.background = glm::vec3(1.0f);
     ImageToEncode image = described(size, extension_ == ".exr" ? exr_.names() : display_names(settings_.background),
                                     settings_, extension_);
@@ -299,8 +300,8 @@ class ImageWriter::File {
       png_.emplace(image, [this](std::span<const std::uint8_t> bytes) { output_.write(std::as_bytes(bytes)); });
       return;
     }
-    // By name: through a proxy OpenImageIO 2.4 cannot read back what it wrote, and the file would lack its last
-    // directory.
+    // TIFF files are opened by name. Through a proxy OpenImageIO 2.4 cannot read back what it wrote, and the file would
+    // lack its last directory.
     if (image.format == "tiff") {
       refuse_limited_size(path, image);
       image.file = named_.emplace().name();
@@ -309,7 +310,7 @@ class ImageWriter::File {
   }
 
   void add(const Framebuffer& picture) {
-    constexpr std::size_t kTogether = 128;  // whole strips of TIFF and parts of EXR
+    constexpr std::size_t kTogether = 128;  // whole strips of TIFF files and parts of EXR files
     for (std::size_t first = 0; first < picture.color.size(); first += kTogether * width_)
       add(Rows{picture, first, std::min(kTogether * width_, picture.color.size() - first)});
   }
@@ -388,7 +389,7 @@ void check_image_path(const std::filesystem::path& path) {
   if (std::ranges::find(kByOpenImageIO, extension) == kByOpenImageIO.end())
     throw OutputError(text_of_path(path),
                       "a picture's name must end in .png, .jpg, .webp, .tif, .tiff, .exr, .svg or .pdf");
-  image_codec();  // what is missing is missed before anything is computed
+  image_codec();  // a missing library is reported before anything is computed
 }
 
 ImageWriter::ImageWriter(const std::filesystem::path& path, glm::ivec2 size, const PictureLayers& layers,

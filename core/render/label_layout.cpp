@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses among places around each anchor, and moves labels that meet others until none do.
+// Chooses among places around each anchor, and moves labels that overlap others until none do.
 #include "core/render/label_layout.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ double distance(const Segment& a, const Segment& b) {
   return std::min({distance(a.from, b), distance(a.to, b), distance(b.from, a), distance(b.to, a)});
 }
 
-/// Whether a line passes through a box: clipped at its four sides something is left.
+/// True if a line passes through a box: after clipping at the four sides of the box, part of the line remains.
 bool meets(const Segment& line, const PixelBox& box) {
   double begin = 0.0, end = 1.0;
   const glm::dvec2 along = line.to - line.from, low(box.low), high(box.high);
@@ -58,7 +58,7 @@ bool meets(const Segment& line, const PixelBox& box) {
   return begin < end;
 }
 
-/// A label somewhere.
+/// A possible place of a label.
 struct Place {
   PixelBox box;
   Segment line;
@@ -73,7 +73,7 @@ class LabelPlacer {
     return {box, {leader_start(box, labels_[label], ground_), labels_[label].anchor}};
   }
 
-  /// Whether a label would be in the way of what is there before all labels.
+  /// True if a label would overlap or cross anything that was placed before all labels.
   bool is_blocked(std::size_t label, const Place& place) const {
     const int gap = static_cast<int>(std::lround(0.5 * ground_.gap));
     for (const PixelBox& taken : ground_.taken)
@@ -94,12 +94,12 @@ class LabelPlacer {
     const int gap = static_cast<int>(std::lround(0.5 * ground_.gap));
     if (a.box.grown(gap).meets(b.box.grown(gap))) return true;
     if (meets(a.line, b.box.grown(gap)) || meets(b.line, a.box.grown(gap))) return true;
-    // Lines to one place end there together.
+    // Lines to the same anchor meet there and may do so.
     const double apart = glm::distance(labels_[one].anchor, labels_[other].anchor);
     return apart > 0.0 && distance(a.line, b.line) < std::min(0.75 * ground_.dot, 0.5 * apart);
   }
 
-  /// All places of a label that nothing blocks, the better ones first.
+  /// Returns all places of a label that nothing blocks, the best first.
   std::vector<Place> places(std::size_t label) const {
     std::vector<Place> found;
     const glm::ivec2 extent = labels_[label].extent, first = ground_.room.low, last = ground_.room.high - extent;
@@ -116,14 +116,14 @@ class LabelPlacer {
       for (int n = 0; n < kDirections; ++n) {
         const double angle = 2.0 * std::numbers::pi * n / kDirections;
         const glm::dvec2 direction(std::cos(angle), std::sin(angle));
-        // From the middle of the box to its rim.
+        // The distance from the middle of the box to its rim in this direction.
         const double reach =
             std::min(half.x / std::max(std::abs(direction.x), 1e-9), half.y / std::max(std::abs(direction.y), 1e-9));
         const glm::dvec2 middle = anchor + direction * (reach + ground_.gap + ground_.dot + share * side());
         const glm::ivec2 low(glm::round(middle - half));
         if (glm::clamp(low, first, last) == low) add(low);
       }
-    // At both sides of the picture there is room for many.
+    // The left and right sides of the picture have room for many labels.
     for (int y = first.y; y <= last.y; y += extent.y + static_cast<int>(ground_.gap))
       for (const int x : {first.x, last.x}) add({x, y});
     std::ranges::stable_sort(found, {}, &Place::cost);
@@ -132,7 +132,7 @@ class LabelPlacer {
 
  private:
   static constexpr int kDirections = 24;
-  /// Of labels from their anchors, of the shorter side of the picture.
+  /// Distances of labels from their anchors, as shares of the picture's shorter side.
   static constexpr std::array kDistances{0.03, 0.06, 0.1, 0.14, 0.19, 0.25, 0.32, 0.4, 0.5, 0.62};
 
   double side() const {
@@ -152,8 +152,8 @@ class LabelPlacer {
   const LabelGround& ground_;
 };
 
-/// Moves one label after another to where it meets the fewest others. Meetings that last count more and more, so that
-/// labels do not go around in circles.
+/// Moves one label after another to the place with the fewest overlaps. The weight of an overlap grows as long as it
+/// persists, so that labels do not move in circles.
 class LabelSearch {
  public:
   LabelSearch(const LabelPlacer& placer, std::vector<std::vector<Place>> places)
@@ -200,7 +200,7 @@ class LabelSearch {
     return false;
   }
 
-  /// Among the first `count` labels.
+  /// Moves a label to its best place, with regard to the first `count` labels only.
   void choose(std::size_t label, std::size_t count) {
     double least = std::numeric_limits<double>::max();
     std::size_t best = chosen_[label];
@@ -216,7 +216,7 @@ class LabelSearch {
     chosen_[label] = best;
   }
 
-  /// Nearer, where nothing is in the way.
+  /// Moves labels nearer to their anchors where nothing is in the way.
   void improve() {
     for (int round = 0; round < 3; ++round)
       for (std::size_t label = 0; label < places_.size(); ++label)
@@ -231,7 +231,7 @@ class LabelSearch {
   const LabelPlacer& placer_;
   std::vector<std::vector<Place>> places_;
   std::vector<std::size_t> chosen_;
-  std::vector<double> weight_;  ///< of pairs
+  std::vector<double> weight_;  ///< weights of pairs of labels
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places for labels and the lines that lead from them to what they name, none of which meet.
+// Places of labels, and of the lines from them to what they name, without overlaps or crossings.
 #pragma once
 
 #include <functional>
@@ -13,30 +13,32 @@
 
 namespace meniscus {
 
-/// A label without a place. Pixels.
+/// A label that has no place yet. Pixels.
 struct UnplacedLabel {
-  glm::dvec2 anchor;  ///< what it names
-  glm::ivec2 extent;  ///< of its text
+  glm::dvec2 anchor;  ///< the point that it names
+  glm::ivec2 extent;  ///< size of its text
 };
 
-/// What there is around labels. Pixels.
+/// The surroundings of labels. Pixels.
 struct LabelGround {
-  PixelBox room;                ///< where labels may be; anchors are within
-  std::vector<PixelBox> taken;  ///< by what is written already
+  PixelBox room;                ///< where labels may be; it contains the anchors
+  std::vector<PixelBox> taken;  ///< boxes of other texts
   double gap = 4.0;             ///< between labels, and between a label and its line
-  double dot = 3.0;             ///< radius of the dots at anchors, which labels and the lines of others keep clear of
-  /// The share of a box behind which there is the molecule, in [0, 1].
+  double dot = 3.0;             ///< radius of the dots at anchors, which other labels and their lines avoid
+  /// Returns the share of a box, in [0, 1], that the molecule covers.
   std::function<double(const PixelBox&)> covered = [](const PixelBox&) { return 0.0; };
 };
 
-/// Where the line of a label begins whose text is in this box: beside it, at the point next to the anchor.
+/// Returns the start of the line of a label with its text in this box: the point next to the box that is nearest to the
+/// anchor.
 glm::dvec2 leader_start(const PixelBox& box, const UnplacedLabel& label, const LabelGround& ground);
 
-/// How many pairs of labels, of their lines, and of these and what is taken, overlap or cross.
+/// Returns the number of overlaps and crossings of labels and their lines among each other and with taken boxes.
 int count_meetings(std::span<const UnplacedLabel> labels, std::span<const PixelBox> boxes, const LabelGround& ground);
 
-/// Boxes for the texts, for which count_meetings() is 0: near their anchors, rather beside the molecule than in front
-/// of it, and rather away from its middle. The same for the same labels. Nothing if none were found.
+/// Returns boxes for the texts, for which count_meetings() is 0. They are near their anchors, preferably next to the
+/// molecule instead of in front of it, and preferably away from its middle. The result is deterministic. Returns
+/// nothing if no such boxes were found.
 std::optional<std::vector<PixelBox>> place_labels(std::span<const UnplacedLabel> labels, const LabelGround& ground);
 
 }  // namespace meniscus

@@ -22,12 +22,13 @@
 namespace meniscus {
 namespace {
 
-/// Lays a colour over a premultiplied pixel.
+/// Blends a colour over a premultiplied pixel.
 void cover(glm::vec4& pixel, const glm::vec3& linear, float share) {
   pixel = glm::vec4(linear * share, share) + (1.0f - share) * pixel;
 }
 
-/// Fills a box of the whole picture as far as it lies in `rows`, whose first row is `first` there.
+/// Fills the part of a box of the whole picture that lies in `rows`. first: the number of their first row in the whole
+/// picture.
 void fill(Framebuffer& rows, int first, glm::ivec2 low, glm::ivec2 high, const auto& color_at) {
   low = glm::max(low, glm::ivec2(0, first));
   high = glm::min(high, glm::ivec2(rows.size.x, first + rows.size.y));
@@ -96,7 +97,7 @@ Framebuffer Legend::rows(const Framebuffer& molecule, int first, int count, cons
 }
 
 Framebuffer Legend::alone(const std::optional<glm::vec3>& background) const {
-  constexpr int kTogether = 64;  // rows; the whole picture may be too large for the memory
+  constexpr int kTogether = 64;  // rows at a time; the whole picture may be too large for the memory
   const auto for_each_pixel = [&](const auto& work) {
     for (int first = 0; first < picture_size_.y; first += kTogether) {
       const int count = std::min(kTogether, picture_size_.y - first);
@@ -131,11 +132,11 @@ Framebuffer Legend::alone(const std::optional<glm::vec3>& background) const {
 namespace {
 
 constexpr int kReadableLetters = 9, kSmallestLetters = 6;  // pixels
-constexpr int kMostCharacters = 40;                        // of a name
+constexpr int kMostCharacters = 40;                        // length of a name
 
 int letter_height(glm::ivec2 size) { return std::max(kReadableLetters, std::min(size.x, size.y) / 30); }
 
-/// Some names for a message.
+/// Returns some of the names as a list for a message.
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 12;
   std::string text;
@@ -145,12 +146,12 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::string number_text(double number) { return fmt::format("{:.4g}", number == 0.0 ? 0.0 : number); }
 
-/// A number, or the colour that it is.
+/// Returns a number as text, or the colour that the number encodes.
 std::string class_text(const ColorScale& scale, double number) {
   return scale.of_colors ? hex_color(scale.color(number)) : number_text(number);
 }
 
-/// Whether a name is before another one: numbers in them count as numbers, so that chain 2 is before chain 10.
+/// True if a name sorts before another one. Digits in names compare as numbers, so chain 2 is before chain 10.
 bool by_name(std::string_view a, std::string_view b) {
   const auto digits = [](std::string_view text) { return std::min(text.find_first_not_of("0123456789"), text.size()); };
   while (!a.empty() && !b.empty()) {
@@ -167,8 +168,8 @@ bool by_name(std::string_view a, std::string_view b) {
   return a.size() < b.size();
 }
 
-/// The text of a tick; at an end it is what that means, after the number where colours are steps. At an end of a fixed
-/// range beyond which there are numbers, it says so.
+/// Returns the text of a tick. At an end of the bar it is the meaning of that end, after the number if colours are
+/// steps. If there are numbers beyond the end of a fixed range, the text says so.
 std::string tick_text(const ColorScale& scale, double number) {
   if (!scale.ends[0].empty() && (number == scale.range[0] || number == scale.range[1])) {
     const std::string& word = scale.ends[number == scale.range[0] ? 0 : 1];
@@ -181,8 +182,8 @@ std::string tick_text(const ColorScale& scale, double number) {
   return text;
 }
 
-/// Where a bar has ticks, the more important first: both ends, and round numbers between, at most so many, unless the
-/// ends have words instead.
+/// Returns the numbers of at most `most` ticks of a bar, the most important first: both ends, and round numbers between
+/// them unless the ends have words instead.
 std::vector<double> tick_numbers(const ColorScale& scale, int most) {
   const double low = scale.range[0], high = scale.range[1];
   if (low == high) return {low};
@@ -193,7 +194,7 @@ std::vector<double> tick_numbers(const ColorScale& scale, int most) {
   return numbers;
 }
 
-/// Words in lines no wider than `width`, if the words allow it.
+/// Breaks text into lines no wider than `width`, if its words are short enough.
 std::vector<std::string> wrapped(const std::string& text, const Font& font, int width) {
   std::vector<std::string> lines{""};
   for (std::size_t begin = 0; begin < text.size();) {
@@ -218,7 +219,8 @@ std::vector<double> round_numbers(double low, double high, int most) {
   for (const double factor : {5.0, 2.0, 1.0})
     if (factor * power >= rough) step = factor * power;
   std::vector<double> numbers;
-  // Where the range is narrow beside its numbers, steps get lost in their last digits; `most` is as many as there are.
+  // The steps are counted by whole numbers. In a range that is narrow compared with its numbers, steps vanish in
+  // rounding; `most` limits their number.
   const double first = std::floor(low / step) + 1.0;
   for (int n = 0; n <= most && (first + n) * step < high; ++n) numbers.push_back((first + n) * step);
   return numbers;
@@ -231,9 +233,9 @@ Legend::Legend(const ColorKey& key, glm::ivec2 picture_size, const LegendStyle& 
       molecule_size_(picture_size) {
   std::vector<const ColorKey*> parts = key.parts();
   if (key.heading().empty())
-    std::rotate(parts.begin(), parts.begin() + 1, parts.end());  // what has no title comes last
+    std::rotate(parts.begin(), parts.begin() + 1, parts.end());  // classes without a title come last
   for (const ColorKey* const part : parts) add_entries(*part, part == parts.front());
-  if (all_.empty() && !bar_) return;  // one colour for all needs no words
+  if (all_.empty() && !bar_) return;  // a single colour needs no legend
   rename_entries(style.names);
   for (Entry& entry : all_) entry.name = drawable(entry.name, kMostCharacters);
   if (style.title) title_ = *style.title;
@@ -243,7 +245,7 @@ Legend::Legend(const ColorKey& key, glm::ivec2 picture_size, const LegendStyle& 
   const int usual = font_.height();
   for (const bool may_drop : {false, true})
     for (int letters = usual; letters >= kSmallestLetters; letters = std::min(letters - 1, 9 * letters / 10)) {
-      // Letters half as high hold more; dropping entries is better than smaller ones.
+      // Letters of half the height have room for more. Dropping entries is better than smaller letters.
       if (letters < usual && (style.letters || (!may_drop && letters < std::max(kReadableLetters, usual / 2)))) break;
       if (lay_out(at_right, letters, may_drop)) return;
     }
@@ -301,7 +303,7 @@ bool Legend::lay_out(bool at_right, int letters, bool may_drop) {
   return at_right ? lay_out_right(may_drop) : lay_out_bottom(may_drop);
 }
 
-/// With the room behind it.
+/// Returns the width of an entry's box, with the gap after it.
 int Legend::box_width(const Entry& entry) const {
   const int em = font_.height();
   return entry.kind == Entry::Kind::title ? 0 : (entry.kind == Entry::Kind::bar ? 4 * em : em) + em / 2;
@@ -336,7 +338,7 @@ void Legend::shorten_entries(int most_pixels) {
     std::string name = entry.name;
     while (name.size() > 1 && entry_width(entry) > most_pixels) {
       do name.pop_back();
-      while (name.size() > 1 && (static_cast<unsigned char>(name.back()) >> 6) == 2);  // whole characters
+      while (name.size() > 1 && (static_cast<unsigned char>(name.back()) >> 6) == 2);  // removes whole UTF-8 characters
       if ((static_cast<unsigned char>(name.back()) >> 6) == 3) name.pop_back();
       entry.name = name + "…";
     }
@@ -346,7 +348,7 @@ void Legend::shorten_entries(int most_pixels) {
 void Legend::add_bar(glm::ivec2 low, glm::ivec2 high, bool upright) {
   const int length = upright ? high.y - low.y : high.x - low.x;
   const double width = bar_->range[1] - bar_->range[0];
-  std::vector<glm::ivec2> taken;  // along the bar
+  std::vector<glm::ivec2> taken;  // ranges of texts along the bar
   const auto add_tick = [&](double number, int along) {
     const std::string text = tick_text(*bar_, number);
     const int half = upright ? line() / 2 : (font_.width(text) + font_.height()) / 2;
@@ -431,7 +433,7 @@ bool Legend::lay_out_bottom(bool may_drop) {
     y += line();
   }
   if (bar_) {
-    int end = 2 * em;  // half a number reaches past each end of the bar
+    int end = 2 * em;  // half a number extends beyond each end of the bar
     for (const double number : bar_->range) end = std::max(end, (font_.width(tick_text(*bar_, number)) + em) / 2);
     if (room < 14 * em || room < 4 * end) return false;
     add_bar({end, y}, {std::min(room - end, 30 * em), y + em + em / 2}, false);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A legend beside the molecule: a bar with numbers, or named swatches, that explain its colours.
+// A legend next to the molecule: a bar with numbers, or named swatches, that explain its colours.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace meniscus {
 
-/// Text that begins at `place`, vertically centred on it. Pixels.
+/// A text that begins at `place` and is vertically centred on it. Pixels.
 struct LegendText {
   std::string text;
   glm::ivec2 place{0};
@@ -25,55 +25,57 @@ struct LegendText {
 /// A framed rectangle of one colour, or of as many as it has pixels along its longer side.
 struct LegendBox {
   glm::ivec2 low{0}, high{0};     ///< first pixel and one past the last
-  std::vector<glm::vec3> colors;  ///< sRGB; from the left, or from the bottom
+  std::vector<glm::vec3> colors;  ///< sRGB; from the left or from the bottom
 };
 
-/// What is asked of a legend beyond what the colours mean.
+/// The requested properties of a legend, apart from the meaning of the colours.
 struct LegendStyle {
   enum class Place { automatic, right, below };
-  std::optional<std::string> title;  ///< instead of the key's title and unit; may be empty
-  std::optional<int> letters;        ///< their height, pixels
+  std::optional<std::string> title;  ///< replaces the title and unit of the key; may be empty
+  std::optional<int> letters;        ///< height of letters, pixels
   Place place = Place::automatic;    ///< automatic: below in pictures higher than wide
-  std::vector<std::string> names{};  ///< "A=Alpha": the entry A is called Alpha
+  std::vector<std::string> names{};  ///< "A=Alpha" names the entry A Alpha
   std::optional<glm::vec3> color{};  ///< LetterStyle::color
 };
 
-/// The legend takes a strip at the right of a picture or at its bottom; the molecule is framed in the rest, so nothing
-/// of it is covered. Letters are a thirtieth of the picture's shorter side, at least 9 pixels, unless set otherwise;
-/// smaller, down to 6 pixels, where not all would fit. Entries stand in as many columns as they need; what has no room
-/// even so is counted ("+5 more").
+/// A legend occupies a strip at the right or at the bottom of a picture. The molecule is framed in the rest, so the
+/// legend covers nothing of it. Letters are 1/30 of the picture's shorter side, at least 9 pixels, unless set
+/// otherwise; they shrink to 6 pixels if the legend would not fit. Entries are arranged in as many columns as they
+/// need. Entries that do not fit are counted ("+5 more").
 class Legend {
  public:
-  /// Throws RequestError when the picture is too small for it, for a name of an entry that is not there, or when there
-  /// is no font.
+  /// Throws RequestError if the picture is too small for the legend, if a name is for an entry that does not exist, or
+  /// if there is no font.
   Legend(const ColorKey& key, glm::ivec2 picture_size, const LegendStyle& style = {});
 
-  /// Pixels left for the molecule, at the top left.
+  /// Returns the size of the molecule's part of the picture, which is at the top left.
   glm::ivec2 molecule_size() const { return molecule_size_; }
   glm::ivec2 picture_size() const { return picture_size_; }
 
-  /// What is drawn, and where in the picture.
+  /// Returns the texts and boxes with their places in the picture.
   const std::vector<LegendText>& texts() const { return texts_; }
   const std::vector<LegendBox>& boxes() const { return boxes_; }
   const Font& font() const { return font_; }
-  int frame_width() const { return std::max(1, font_.height() / 16); }  ///< around boxes
+  int frame_width() const { return std::max(1, font_.height() / 16); }  ///< width of frames around boxes
   Inks inks(const std::optional<glm::vec3>& background) const { return inks_on(background, color_); }
 
-  /// The whole picture: `molecule`, of molecule_size(), and the legend. On a background letters are dark or light,
-  /// whichever it needs; on none (transparent) they are dark, as for paper. AOVs of the strip are those of a miss.
+  /// Returns the whole picture: `molecule`, of molecule_size(), and the legend. On a background letters are dark or
+  /// light, for contrast; on none (transparent) they are dark, as for paper. The AOVs of the strip are the values of a
+  /// miss.
   Framebuffer add_to(const Framebuffer& molecule, const std::optional<glm::vec3>& background) const;
 
-  /// The same of `count` rows from `first` on. molecule: those of them that the molecule's picture has. aovs: whether
-  /// it has any.
+  /// Returns `count` rows from `first` on of the whole picture. molecule: the rows among them that the molecule's
+  /// picture has. layers: the layers of the result.
   Framebuffer rows(const Framebuffer& molecule, int first, int count, const PictureLayers& layers,
                    const std::optional<glm::vec3>& background) const;
 
-  /// The legend as a picture of its own, with a margin half as wide as its letters are high. Empty if there is nothing
-  /// to say.
+  /// Returns the legend as a picture of its own, with a margin of half the height of its letters. The picture is empty
+  /// if there is nothing to explain.
   Framebuffer alone(const std::optional<glm::vec3>& background) const;
 
  private:
-  /// A class of atoms; of what others colour by also its title, which has no box, and its scale as a small bar.
+  /// An entry of the list: a class of atoms with a box of its colour, or, for the other schemes of a picture, a title
+  /// without a box, or a scale with a small bar.
   struct Entry {
     enum class Kind { box, title, bar };
     std::string name;
@@ -97,9 +99,9 @@ class Legend {
   void shift_to(glm::ivec2 place);
 
   std::string title_;
-  std::optional<ColorScale> bar_;  ///< unless colours are of classes
+  std::optional<ColorScale> bar_;  ///< nothing if the colours are classes
   std::vector<Entry> all_;
-  std::vector<Entry> entries_;  ///< those that have room
+  std::vector<Entry> entries_;  ///< the entries that fit
   std::optional<glm::vec3> color_;
   Font font_;
   glm::ivec2 picture_size_, molecule_size_;
@@ -107,10 +109,11 @@ class Legend {
   std::vector<LegendBox> boxes_;
 };
 
-/// `part` at the left of a picture of `size`, from row `top` on; nothing around it. AOVs there are those of a miss.
+/// Returns a picture of `size` with `part` at the left from row `top` on, transparent around it. The AOVs there are the
+/// values of a miss.
 Framebuffer with_margin(const Framebuffer& part, glm::ivec2 size, int top, const PictureLayers& layers);
 
-/// At most so many multiples of 1, 2 or 5 times a power of ten between two numbers, without these, ascending.
+/// Returns at most `most` multiples of 1, 2 or 5 times a power of ten between two numbers, exclusive, ascending.
 std::vector<double> round_numbers(double low, double high, int most);
 
 }  // namespace meniscus

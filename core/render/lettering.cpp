@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sets text by FreeType, as shares of pixels or as outlines.
+// Renders text with FreeType, as coverage of pixels or as outlines.
 #include "core/render/lettering.h"
 
 #include <ft2build.h>
@@ -52,13 +52,13 @@ struct Font::Face {
     if (library) FT_Done_FreeType(library);
   }
 
-  /// Calls visit(left edge of the letter's box) with each letter of the text loaded into the face's slot; returns the
-  /// width of all. Letters are on whole pixels, as hinting wants them.
+  /// Calls visit(left edge of the letter's box) for each letter of the text, after loading the letter into the face's
+  /// slot. Returns the width of the text. Letters are placed on whole pixels, which hinting requires.
   int for_each_letter(std::string_view text, const auto& visit) const {
     return for_each_place(text, [&](int x, char32_t) { visit(x + face->glyph->bitmap_left); });
   }
 
-  /// Likewise visit(where its advance begins, the letter).
+  /// Calls visit(start of the advance, letter) for each letter of the text in the same way.
   int for_each_place(std::string_view text, const auto& visit) const {
     long x = 0;
     while (!text.empty()) {
@@ -76,7 +76,7 @@ struct Font::Face {
 
 namespace {
 
-/// Makes a path of a letter's outline, whose y goes up and whose unit is 1/64 pixel.
+/// Converts a letter's outline, with y upwards and units of 1/64 pixel, to a path.
 class OutlinePath {
  public:
   OutlinePath(std::vector<PathStep>& path, const glm::dvec2& origin) : path_(path), origin_(origin) {}
@@ -178,7 +178,7 @@ std::vector<PathStep> Font::outline(std::string_view text, glm::ivec2 place) con
   std::vector<PathStep> path;
   const int baseline = place.y + (capital_height_ + 1) / 2;
   face_->for_each_place(text, [&](int x, char32_t letter) {
-    // Hinting is for pixels; the places of letters are the same with it.
+    // Hinting is for pixels; letters have the same places with it.
     if (FT_Load_Char(face_->face, letter, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) return;
     OutlinePath(path, glm::dvec2(place.x + x, baseline)).add(face_->face->glyph->outline);
   });

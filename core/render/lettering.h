@@ -24,34 +24,35 @@ namespace meniscus {
 
 enum class Weight { regular, bold };
 
-/// The first of DejaVu Sans, Liberation Sans and Noto Sans in the places where Linux distributions keep them.
+/// Returns the path of the first of DejaVu Sans, Liberation Sans and Noto Sans found in the folders of Linux
+/// distributions.
 std::optional<std::string> find_font_file();
 
-/// A step of a path: where it goes, in pixels from the top left.
+/// A step of a path, with points in pixels from the top left.
 struct PathStep {
   enum class Kind { move, line, curve, close } kind;
-  std::array<glm::dvec2, 3> points{};  ///< move and line: the first; a cubic curve: its two handles, then its end
+  std::array<glm::dvec2, 3> points{};  ///< move and line: one point; cubic curve: two control points, then the end
 };
 
 /// One face and size of letters. Text is UTF-8.
 class Font {
  public:
-  /// height: of a line's letters, in pixels. bold: if the font has such letters. Throws RequestError when there is no
-  /// font file, naming the package to install.
+  /// Opens a font. height: height of a line's letters, pixels. A bold weight is used if the font has one. Throws
+  /// RequestError if there is no font file; the message names the package to install.
   explicit Font(int height, Weight weight = Weight::regular);
   Font(Font&&) noexcept;
   Font& operator=(Font&&) noexcept;
   ~Font();
 
   int height() const { return height_; }
-  /// Pixels from the start of the text to its end.
+  /// Returns the distance from the start of the text to its end, pixels.
   int width(std::string_view text) const;
 
-  /// Draws text into `mask`, rows of `size`.x shares of coverage in [0, 1], from the left of `place`; its capitals are
-  /// centred on the row place.y. What lies outside is cut off.
+  /// Draws text into `mask`, which has rows of `size`.x coverages in [0, 1]. The text begins at `place`, and its
+  /// capitals are centred on the row place.y. Text outside of the mask is clipped.
   void draw(std::string_view text, glm::ivec2 place, std::vector<float>& mask, glm::ivec2 size) const;
 
-  /// The same letters as closed paths, filled where they wind around a point (non-zero).
+  /// Returns the same letters as closed paths, filled by the non-zero winding rule.
   std::vector<PathStep> outline(std::string_view text, glm::ivec2 place) const;
 
  private:
@@ -61,25 +62,25 @@ class Font {
   int capital_height_ = 0;
 };
 
-/// Text of a foreign file made fit to be drawn: escaped, at most so many characters and then an ellipsis; "(blank)" for
-/// nothing.
+/// Returns text of an untrusted file in a form that is safe to draw: escaped, at most most_characters and then an
+/// ellipsis; "(blank)" for empty text.
 std::string drawable(std::string_view text, int most_characters = 24);
 
-/// What a user says about them. Heights are in pixels; nothing: by the size of the picture.
+/// The letters that a user requests. Heights are in pixels; nothing: the height follows from the size of the picture.
 struct LetterStyle {
-  std::optional<glm::vec3> color;  ///< sRGB in [0, 1]; nothing: dark or light, as the background needs
-  std::optional<int> all;          ///< of what has no height of its own
+  std::optional<glm::vec3> color;  ///< sRGB in [0, 1]; nothing: dark or light, depending on the background
+  std::optional<int> all;          ///< height of all texts without a height of their own
   std::optional<int> labels, scale_bar, panel;
 };
 
-/// Heights of all that is written beside and over the molecule, pixels.
+/// Heights of all texts next to and over the molecule, pixels.
 struct LetterHeights {
-  int usual;   ///< of the time and of the curve's title
-  int labels;  ///< and so on
+  int usual;   ///< height of the time and of the curve's title
+  int labels;  ///< height of labels
   int scale_bar, panel, title;
-  int small;  ///< of the numbers at the ends of the curve
+  int small;  ///< height of the numbers at the ends of the curve
 
-  /// In a picture of this size without its legend.
+  /// Sets the heights for a picture of this size without its legend.
   LetterHeights(const LetterStyle& style, glm::ivec2 size) {
     const int side = std::min(size.x, size.y);
     usual = style.all.value_or(std::max(9, side / 25));
@@ -91,24 +92,25 @@ struct LetterHeights {
   }
 };
 
-/// Of letters, lines and bars, and of the rim that sets them off from the molecule behind them; sRGB.
+/// The colours of letters, lines and bars, and of the rim that sets them off from the molecule behind them; sRGB.
 struct Inks {
   glm::vec3 ink, rim;
 };
 
-/// Relative luminance of a colour (IEC 61966-2-1) beyond which it is light: where black and white letters on it have
-/// the same contrast ratio (WCAG 2.1).
+/// True if the relative luminance of a colour (IEC 61966-2-1) is above the value at which black and white letters on it
+/// have the same contrast ratio (WCAG 2.1).
 inline bool is_light(const glm::vec3& color) {
   return glm::dot(linear_from_srgb(color), glm::vec3(0.2126f, 0.7152f, 0.0722f)) > 0.179f;
 }
 
-/// color: of the letters; nothing: dark or light, as the background needs, and dark where there is none, as for paper.
+/// Returns the colours for a background. color: of the letters; nothing: dark or light, depending on the background,
+/// and dark without one, as for paper.
 inline Inks inks_on(const std::optional<glm::vec3>& background, const std::optional<glm::vec3>& color) {
   const bool is_dark = color ? !is_light(*color) : !background || is_light(*background);
   return {color.value_or(glm::vec3(is_dark ? 0.07f : 0.95f)), glm::vec3(is_dark ? 1.0f : 0.0f)};
 }
 
-/// From the first pixel to one past the last.
+/// A rectangle from its first pixel to one past its last.
 struct PixelBox {
   glm::ivec2 low{0}, high{0};
 
@@ -118,19 +120,19 @@ struct PixelBox {
   PixelBox grown(int by) const { return {low - by, high + by}; }
 };
 
-/// Begins at `place`, on which its capitals are centred.
+/// A text that begins at `place`, on which its capitals are vertically centred.
 struct InkText {
   std::string text;
   glm::ivec2 place;
-  int height;  ///< of letters
+  int height;  ///< height of letters
   Weight weight = Weight::regular;
 };
 
-/// With round ends; a dot where both ends are the same.
+/// A line with round ends; it is a dot if both ends are equal.
 struct InkLine {
   glm::dvec2 from, to;
   double width;
-  double share = 1.0;  ///< of what is behind that it covers
+  double share = 1.0;  ///< opacity of the line
 };
 
 using InkStroke = std::variant<InkText, InkLine, PixelBox>;
@@ -138,7 +140,7 @@ using InkStroke = std::variant<InkText, InkLine, PixelBox>;
 /// Fonts of several sizes, each opened once.
 class FontShelf {
  public:
-  /// Throws as Font does.
+  /// Returns the font of a height and weight, and opens it if necessary. Throws as Font does.
   const Font& at(int height, Weight weight = Weight::regular) {
     return fonts_.try_emplace({height, weight}, height, weight).first->second;
   }

@@ -10,14 +10,14 @@
 namespace meniscus {
 namespace {
 
-/// In pixels, of what is `width` pixels wide in a picture of 960.
+/// Returns the width in pixels of a line that is `width` pixels wide in a picture of 960 pixels.
 float line_width(float width, glm::ivec2 picture_size) {
   constexpr float kUsualSide = 960.0f, kThinnest = 0.75f;
   const auto side = static_cast<float>(std::min(picture_size.x, picture_size.y));
   return std::clamp(width * side / kUsualSide, kThinnest, kWidestSilhouette);
 }
 
-/// What all but classic have in common.
+/// Returns the values that all presets but classic have in common.
 Look modern() {
   Look look;
   look.lamps = Lamps::white;
@@ -52,7 +52,7 @@ Look cover() {
 Look flat(glm::ivec2 size) {
   Look look = modern();
   look.material = {.ambient = 1.0f, .roughness = 0.0f, .specular = 0.0f, .shininess = 40.0f};
-  look.line_step = 0.006f;  // with no shade to help, lines tell more
+  look.line_step = 0.006f;  // there is no shade, so more lines are needed
   look.outer_lines = line_width(3.0f, size);
   look.inner_lines = line_width(1.2f, size);
   look.part_lines = line_width(2.0f, size);
@@ -68,8 +68,8 @@ Look soft() {
   return look;
 }
 
-/// White light times a colour in linear light keeps its hue and its saturation (CIE 1976 h_uv and s_uv); white that is
-/// added, as by highlights and air, and light that clips a channel do not.
+/// White light times a colour in linear light keeps its hue and its saturation (CIE 1976 h_uv and s_uv). Adding white,
+/// as highlights and depth cues do, or light that clips a channel does not.
 void keep_hues(Look& look) {
   look.lamps = Lamps::white;
   look.light_strength = 1.0f;
@@ -77,7 +77,8 @@ void keep_hues(Look& look) {
   look.depth_cue = 0.0f;
 }
 
-/// member: a function from a look, or from a request, to the address of its number.
+/// Returns the description of a number. member: a function that returns the address of the number in a look or in a
+/// request.
 template <typename Member>
 constexpr LookNumber number(std::string_view key, Member member) {
   return {key, member, [](Look& look) -> float& { return *Member{}(look); }};
@@ -107,7 +108,7 @@ void take(const std::optional<T>& asked, U& value) {
   if (asked) value = *asked;
 }
 
-/// The lines of a preset are so many pixels wide in a picture of 960 pixels, and wider in larger ones.
+/// Returns a preset. Its lines have the given widths in a picture of 960 pixels, and are wider in larger pictures.
 Look preset_look(LookPreset preset, glm::ivec2 picture_size) {
   switch (preset) {
     case LookPreset::publication:

@@ -16,17 +16,17 @@ namespace meniscus {
 
 struct ColorScheme;
 
-/// How a surface answers the light. With ambient 1 and specular 0 a pixel is exactly of the colour given.
+/// The response of a surface to light. With ambient 1 and specular 0 a pixel has exactly the colour given.
 struct Material {
-  float ambient = 0.0f;     ///< share in [0, 1] of light that comes evenly from everywhere, so that nothing is modelled
-  float roughness = 0.0f;   ///< in [0, 1]: from light that falls off early, as on wax, to an even one, as on chalk
+  float ambient = 0.0f;     ///< share in [0, 1] of light that comes evenly from all directions, which hides shapes
+  float roughness = 0.0f;   ///< in [0, 1]: from light that falls off early, as on wax, to even light, as on chalk
   float specular = 0.10f;   ///< strength of the highlight, 0 to 1
-  float shininess = 40.0f;  ///< how small it is: the exponent of Blinn and Phong, 1 to 1000
+  float shininess = 40.0f;  ///< exponent of Blinn and Phong, 1 to 1000; higher values make smaller highlights
 
   bool operator==(const Material&) const = default;
 };
 
-/// What differs from a look's material. Nothing: as the look has it.
+/// The requested differences from the look's material. Nothing: the look's value is kept.
 struct MaterialRequest {
   std::optional<float> ambient{}, roughness{}, specular{}, shininess{};
 
@@ -41,24 +41,24 @@ struct MaterialRequest {
   }
 };
 
-/// Which lamps and how much sky there are beside the key light.
+/// The lamps and the light of the sky in addition to the key light.
 enum class Lamps {
   studio,  ///< a warm key, a cool fill, a dim bluish sky
-  white    ///< all white, so bright together that a surface that faces the key light is of the colour given
+  white    ///< all white; a surface that faces the key light has exactly the colour given
 };
 
-/// The numbers that a look and a request for one have in common: floats, or optional ones.
+/// The numbers that a look and a request for one have in common. Number is float or std::optional<float>.
 template <typename Number, typename MaterialNumbers>
 struct LookNumbers {
-  Number light_strength{};  ///< of the key light, >= 0
+  Number light_strength{};  ///< strength of the key light, >= 0
   MaterialNumbers material{};
 
-  /// Strength in [0, 1] of the shade in pockets and clefts. It is found in the picture alone (ground-truth ambient
-  /// occlusion, Jimenez et al. 2016): what the picture does not show casts no shade.
+  /// Strength in [0, 1] of the shade in pockets and clefts. It is computed from the picture alone (ground-truth ambient
+  /// occlusion, Jimenez et al. 2016): parts that the picture does not show cast no shade.
   Number ambient_occlusion{};
-  Number ambient_occlusion_radius{};  ///< largest distance at which shade is cast, Å
-  /// Rays per pixel towards all of the sky (core/render/cpu/shadow_rays.h) that find the shade if there are any. They
-  /// meet everything that is drawn, even outside of the picture.
+  Number ambient_occlusion_radius{};  ///< largest distance over which shade is cast, Å
+  /// Rays per pixel, over the whole sky, from which the shade is computed (core/render/cpu/shadow_rays.h); 0: none.
+  /// They hit everything that is drawn, even outside of the picture.
   Number ambient_occlusion_rays{};
 
   Number shadows{};          ///< darkness in [0, 1] of the shadows that the key light casts
@@ -79,24 +79,24 @@ struct Look : LookNumbers<float, Material> {
 
   glm::vec3 background{1.0f};  ///< sRGB in [0, 1]
 
-  /// Towards the key light, in the picture's axes (right, up, towards the viewer); any length but 0.
+  /// Direction towards the key light in the picture's axes (right, up, towards the viewer); any length but 0.
   glm::vec3 light_direction{-0.45f, 0.65f, 0.75f};
   Lamps lamps = Lamps::studio;
 
-  /// Width in pixels, at most 16, of black lines where something is in front of something else, the stronger the
-  /// farther, and where parts meet (Coloring::part). 0: none.
+  /// Width in pixels, at most 16, of black lines at steps in depth, which are stronger at larger steps, and at borders
+  /// of parts (Coloring::part). 0: no lines.
   float silhouettes = 0.0f;
-  /// The same of single kinds of lines: around all, around what is in front of something else, where parts meet.
-  /// Nothing: silhouettes.
+  /// Widths of single kinds of lines: around everything, at steps in depth, at borders of parts. Nothing: the width is
+  /// `silhouettes`.
   std::optional<float> outer_lines, inner_lines, part_lines;
   /// Width in pixels of lines around patches (Coloring::in_patch), on the surface, and their colour, sRGB in [0, 1].
   float patch_lines = 0.0f;
   glm::vec3 patch_line_color{0.0f};
-  /// How far something must be in front of something else for a line between them, as a share of what the picture's
-  /// shorter side shows, and half an Å: so that atoms are outlined close by, and domains from afar. 0: of two pixels.
+  /// The smallest step in depth that gets a line: this share of the length of the picture's shorter side, plus 0.5 Å,
+  /// so that close views outline atoms and distant views domains. 0: two pixels.
   float line_step = 0.0f;
 
-  /// True: far atoms take the background's colour and stay as opaque as they are. False: they get transparent.
+  /// True: far atoms fade into the background's colour and keep their alpha. False: they become transparent.
   bool depth_cue_keeps_alpha = false;
 
   bool operator==(const Look&) const = default;
@@ -105,9 +105,9 @@ struct Look : LookNumbers<float, Material> {
   bool has_effects() const { return ambient_occlusion > 0.0f || widest_line() > 0.0f || depth_cue > 0.0f; }
 
   bool traces_sky() const { return ambient_occlusion > 0.0f && ambient_occlusion_rays > 0.0f; }
-  /// Highlights are added once shade is known, unless the rays that cast them know it already.
+  /// True if highlights are added after the shade is known, because the rays do not know it when they are cast.
   bool finishes_highlights() const { return ambient_occlusion > 0.0f && !traces_light(); }
-  /// True if rays go on from where they meet something: such pictures are made on the CPU.
+  /// True if rays continue from the points that they hit. Such pictures are made on the CPU.
   bool traces_light() const { return shadows > 0.0f || traces_sky(); }
 
   float widest_silhouette() const {
@@ -119,39 +119,41 @@ struct Look : LookNumbers<float, Material> {
 
 inline constexpr float kWidestSilhouette = 16.0f;  ///< pixels
 
-/// Pixels across a texel of the map of depths that shade is found from: a pixel each, up to pictures so large that a
-/// map of kShadeMapSide says the same.
+/// Returns the edge, in pixels, of a texel of the map of depths from which shade is computed. It is 1 except in large
+/// pictures, in which a map of kShadeMapSide is sufficient.
 inline float shade_texel_edge(glm::ivec2 picture_size) {
   constexpr int kLargestOwnMap = 2048, kShadeMapSide = 1024;
   const int side = picture_size.x > picture_size.y ? picture_size.x : picture_size.y;
   return side <= kLargestOwnMap ? 1.0f : static_cast<float>(side) / kShadeMapSide;
 }
 
-/// How far around a pixel shade depends on the picture's own pixels instead of that map: some texels.
+/// Returns the distance in pixels around a pixel within which its shade depends on the picture's own pixels instead of
+/// the map: a few texels.
 inline int near_shade_reach(glm::ivec2 picture_size) {
   const float edge = shade_texel_edge(picture_size);
   return edge == 1.0f ? 0 : static_cast<int>(8.0f * edge);
 }
 
-/// How far around a pixel its colour depends on pixels of its own size, in whole tiles of 16; in pixels.
+/// Returns the distance in pixels, in whole tiles of 16, around a pixel within which its colour depends on other
+/// pixels.
 inline int look_reach(const Look& look, glm::ivec2 picture_size) {
   if (look.ambient_occlusion > 0.0f) return (near_shade_reach(picture_size) + 15) / 16 * 16 + 16;
   return look.widest_line() > 0.0f ? 16 : 0;
 }
 
 enum class LookPreset {
-  publication,  ///< shade, thin lines, some air, colours as given
+  publication,  ///< shade, thin lines, slight depth cue, colours as given
   cover,        ///< warm studio light, highlights, deep shade, no lines
   flat,         ///< constant colours, with outer, inner and chain lines of their own widths
   soft,         ///< matt and shaded, no lines and no highlights
   classic       ///< studio light alone: Look{}
 };
 
-/// A preset and what differs from it. Nothing: as the preset has it.
+/// A preset and the requested differences from it. Nothing: the preset's value is kept.
 struct LookRequest : LookNumbers<std::optional<float>, MaterialRequest> {
   LookPreset preset = LookPreset::publication;
   std::optional<glm::vec3> light_direction{};
-  std::optional<float> silhouettes{};  ///< pixels; of all lines but those named next
+  std::optional<float> silhouettes{};  ///< pixels; all lines except the ones named next
   std::optional<float> outer_lines{}, inner_lines{}, part_lines{};
   std::optional<float> patch_lines{};  ///< pixels
   std::optional<glm::vec3> patch_line_color{};
@@ -161,32 +163,33 @@ struct LookRequest : LookNumbers<std::optional<float>, MaterialRequest> {
   bool has_linear_alpha() const { return linear_alpha || preset == LookPreset::classic; }
 };
 
-/// A number of a look.
+/// The description of a number of a look.
 struct LookNumber {
-  std::string_view key;  ///< of its property (core/properties)
+  std::string_view key;  ///< key of its property (core/properties)
   std::optional<float>* (*asked)(LookRequest& request);
-  float& (*in)(Look& look);  ///< null for a width of lines, of which look_of() knows the order
+  float& (*in)(Look& look);  ///< null for a width of lines; look_of() knows their order
 };
 
-/// All of them, in the order of the help.
+/// Returns all numbers in the order of the help.
 std::span<const LookNumber> look_numbers();
 
-/// What light may do to colours. `kept`: each changes in lightness alone, so that it is found on the bar or among the
-/// swatches that explain it: white lamps, not too bright, no highlights, no fading into the background. `unfaded`: the
-/// last alone.
+/// The changes of colours that light may cause. `kept`: only the lightness changes, so that a colour can be compared
+/// with the bar or the swatches that explain it. Lamps are white and not too bright, without highlights and depth cue.
+/// `unfaded`: only the depth cue is off.
 enum class Hues : std::uint8_t { free, kept, unfaded };
 
-/// Kept where colours stand for numbers, or a legend explains them; unfaded where a surface is seen through, which
-/// covers what lies in it already, or cut so that some atoms are seen, which are looked for in its depth
-/// (looks_inside).
+/// Returns `kept` if colours encode numbers or a legend explains them. Returns `unfaded` if the surface is transparent,
+/// because it covers its content already, or if looks_inside: it is cut so that some atoms are visible, which must be
+/// recognisable at any depth. Otherwise returns `free`.
 Hues hues_of(const ColorScheme& color, bool legend, bool looks_inside);
 
-/// What of the request lets colours change in more than lightness all the same: words for a message, such as
-/// "depth_cue fades them"; empty: nothing.
+/// Returns the part of the request that changes more than the lightness of colours in spite of Hues::kept, in words for
+/// a message, such as "depth_cue fades them"; empty if there is none.
 std::string hue_changes(const LookRequest& request);
 
-/// background: nothing for a transparent one, in which what is far takes the colour of white paper. What the request
-/// says itself counts before `hues`. outlines_patches: without it there are no lines around any.
+/// Returns the look of a request. background: nothing if it is transparent; far parts then fade into the colour of
+/// white paper. Explicit values of the request have priority over `hues`. Without outlines_patches no patches have
+/// lines.
 Look look_of(LookRequest request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background, Hues hues,
              bool outlines_patches = false);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides which objects need layers, and finds balls that enclose what a picture shows.
+// Decides which objects need layers, and computes balls that enclose a picture's objects.
 #include "core/color/coloring.h"
 #include "core/render/picture.h"
 #include "core/shapes/shapes.h"

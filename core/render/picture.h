@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A finished picture in memory, a request for one, and the objects that it shows, whatever device makes it.
+// A finished picture in memory, a request for one, and the objects that it shows, for all devices.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace meniscus {
 
-/// Rows from the top, pixels from the left. All AOV arrays are empty unless they were asked for.
+/// A picture, rows from the top, pixels from the left. All AOV arrays are empty unless requested.
 struct Framebuffer {
   glm::ivec2 size{0};
   std::vector<glm::vec4> color;  ///< linear, alpha-premultiplied, alpha = share of the pixel's samples that hit
@@ -31,16 +31,16 @@ struct Framebuffer {
   std::vector<std::uint32_t> atom;       ///< index into Surface::atoms, or kNone
   std::vector<std::uint32_t> kind;       ///< PatchKind, kShape, kCap, or kNone
   std::vector<std::uint32_t> component;  ///< index into Surface::components, or kNone
-  std::vector<std::uint32_t> object;     ///< of several: which one; empty for one
-  /// The displacement of the point from this picture to that of the next frame, pixels to the right and upwards; 0
-  /// where nothing is hit.
+  std::vector<std::uint32_t> object;     ///< index of the object if there are several; empty for one
+  /// The displacement of the point to its place in the next frame, pixels to the right and upwards; 0 where nothing is
+  /// hit.
   std::vector<glm::vec2> motion;
 
   /// The value of RenderSettings::name_seen for what each ray of a pixel meets, ray after ray; kNone where it meets
   /// nothing. Empty unless mattes are requested.
   std::vector<std::uint32_t> seen;
 
-  /// Beyond PatchKind: on a shape beside a surface, on a plane that cuts one.
+  /// Values of `kind` in addition to PatchKind: a shape, and a plane that cuts a surface.
   static constexpr std::uint32_t kShape = 3, kCap = 4;
 };
 
@@ -50,7 +50,7 @@ struct PictureLayers {
       : aovs(has_aovs), motion(has_motion), rays(rays_of_seen) {}
 
   bool aovs, motion;
-  int rays;  ///< of each pixel in Framebuffer::seen; 0: it is empty
+  int rays;  ///< rays per pixel in Framebuffer::seen; 0: it is empty
 };
 
 /// Returns the layers that a picture has.
@@ -61,28 +61,28 @@ inline PictureLayers layers_of(const Framebuffer& picture) {
 
 /// A point that a ray has met.
 struct SeenPoint {
-  std::uint32_t object = 0, atom = 0;  ///< as StillRenderer::render() has them
+  std::uint32_t object = 0, atom = 0;  ///< as in StillRenderer::render()
   std::uint32_t kind = 0;              ///< as Framebuffer::kind
-  std::uint32_t patch = 0;             ///< of that kind, in the tables of a surface; else of no meaning
+  std::uint32_t patch = 0;             ///< index in the surface's table of that kind; undefined for shapes and caps
   glm::dvec3 position{0.0}, normal{0.0, 0.0, 1.0};
 };
 
-/// How a picture is made.
+/// Settings of a picture. Members for render() have no effect on draw().
 struct RenderSettings {
   glm::ivec2 size{1024, 768};  ///< pixels
   int samples = 1;             ///< rays per pixel, the first through its centre
-  bool aovs = false;           ///< of render(): fill the AOV arrays too; for drawables with a surface()
-  bool mattes = false;         ///< of render(): fill Framebuffer::seen, with name_seen; made on the CPU
-  bool motion = false;         ///< of render(), with aovs: fill Framebuffer::motion, with move
-  int block_edge = 2048;       ///< of render(): larger pictures are cast in blocks of at most this edge, in pixels
-  Look look;                   ///< its background is that of draw(); render() leaves it transparent
+  bool aovs = false;           ///< render(): fill the AOV arrays, too; for drawables with a surface()
+  bool mattes = false;         ///< render(): fill Framebuffer::seen by name_seen; made on the CPU
+  bool motion = false;         ///< render(), with aovs: fill Framebuffer::motion by `move`
+  int block_edge = 2048;       ///< render(): larger pictures are cast in blocks of at most this edge, pixels
+  Look look;                   ///< draw() shows its background; render() leaves it transparent
   StageTiming timing = StageTiming::rough;
-  /// Of render() on the CPU: called now and then on the thread that asked for the picture, with the share of it that is
-  /// cast, from 0 to 1; what it throws ends the picture.
+  /// render() on the CPU calls it regularly on the calling thread with the finished share, from 0 to 1. If it throws,
+  /// the picture is not finished.
   std::function<void(double share)> progress{};
-  /// Of render(): takes the picture in bands of whole rows, from the top, so that it is never in memory as a whole;
-  /// what render() returns has its size and no pixels. Bands are pictures of their own, of rows from `first_row` on,
-  /// and have the same pixels as the whole picture. What it throws ends the picture.
+  /// render() passes the picture to it in bands of whole rows, from the top, so that it is never in memory as a whole.
+  /// The picture that render() returns has its size and no pixels. A band is a picture of its own with rows from
+  /// `first_row` on; its pixels equal those pixels of the whole picture. If it throws, the picture is not finished.
   std::function<void(Framebuffer band, int first_row)> take_band{};
   /// Returns the value of Framebuffer::seen for an atom of an object. Any thread may call it.
   std::function<std::uint32_t(std::uint32_t object, std::uint32_t atom)> name_seen{};
@@ -93,48 +93,49 @@ struct RenderSettings {
 };
 
 enum class Extent {
-  complete,  ///< all of it
-  visible,   ///< what can matter for a pixel (theorem 2): the same picture
-  paper      ///< what Krone, Dachsbacher & Ertl 2010 select: faces in deep clefts may be missing
+  complete,  ///< the whole surface
+  visible,   ///< the part that can affect a pixel (theorem 2): the same picture
+  paper      ///< the selection of Krone, Dachsbacher & Ertl 2010: faces in deep clefts may be missing
 };
 
 struct Coloring;
 struct Shapes;
 struct Surface;
 
-/// What lies behind this plane is cut away: points with dot(normal, x) >= offset.
+/// A plane that cuts away everything behind it: points with dot(normal, x) >= offset.
 struct ClipPlane {
-  glm::dvec3 normal{0.0, 0.0, 1.0};  ///< of length 1
+  glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit vector
   double offset = 0.0;               ///< Å
 };
 
-/// How the solid looks where a plane cuts it.
+/// The appearance of the solid where a plane cuts it.
 struct CapStyle {
-  std::optional<glm::vec3> color;  ///< sRGB; nothing: that of the atom whose van der Waals sphere is nearest
-  double hatching = 0.0;           ///< Å between dark lines on the cap; 0: none
+  std::optional<glm::vec3> color;  ///< sRGB; nothing: the colour of the atom with the nearest van der Waals sphere
+  double hatching = 0.0;           ///< distance of dark lines on the cap, Å; 0: none
 };
 
-/// Across the lines of hatching, of length √2. With the distance along it in units of CapStyle::hatching, a line begins
-/// at each whole number and is kHatchedShare wide; there linear light is kHatchedLight of what it is beside them.
+/// Returns the direction across the lines of hatching, of length √2. In units of CapStyle::hatching along it, a line
+/// begins at each whole number and is kHatchedShare wide. On a line linear light is multiplied by kHatchedLight.
 glm::dvec3 hatching_direction(const glm::dvec3& normal);
 inline constexpr double kHatchedShare = 0.3;
 inline constexpr float kHatchedLight = 0.35f;
 
-/// A surface or shapes with their colours. What it points to must stay until the picture is made.
+/// A surface or shapes with their colours. The data behind its pointers must exist until the picture is finished.
 struct PictureObject {
-  const Surface* surface = nullptr;  ///< this one,
-  const Shapes* shapes = nullptr;    ///< or this
-  /// One colour for each of Surface::atoms; for shapes, for each of Structure::atoms.
+  const Surface* surface = nullptr;  ///< a surface,
+  const Shapes* shapes = nullptr;    ///< or shapes
+  /// One colour for each of Surface::atoms, or, for shapes, of Structure::atoms.
   const Coloring* coloring = nullptr;
-  /// Kept is what lies before all of them; where they cut there are caps: sections of the solid within.
+  /// The part before all of these planes is kept. Where they cut the solid there are caps.
   std::vector<ClipPlane> clip;
   CapStyle cap;
-  /// Where a ray goes along a surface that is seen through, it sees more of it: opacity is that of a thin film.
+  /// True if the opacity of a transparent surface is that of a thin film, so it is higher where a ray is nearly
+  /// tangential.
   bool thickens = false;
-  MaterialRequest material;  ///< what differs from the look's
+  MaterialRequest material;  ///< differences from the look's material
 };
 
-/// Returns the objects of a picture of one surface as it is.
+/// Returns the objects of a picture of one complete surface.
 inline std::array<PictureObject, 1> whole_surface(const Surface& surface, const Coloring& coloring) {
   std::array<PictureObject, 1> objects;
   objects[0].surface = &surface;
@@ -142,13 +143,14 @@ inline std::array<PictureObject, 1> whole_surface(const Surface& surface, const 
   return objects;
 }
 
-/// True if only layers show it as it is: cut, seen through, or shapes.
+/// True if the object can only be drawn by layers: it is cut, transparent, or consists of shapes.
 bool needs_layers(const PictureObject& object);
 
-/// What encloses them: atoms of surfaces, spheres and ends of cylinders, corners of meshes as balls without size.
+/// Returns balls that enclose the objects: atoms of surfaces, spheres and ends of cylinders, and corners of meshes as
+/// balls of radius 0.
 std::vector<Ball> enclosing_balls(std::span<const PictureObject> objects);
 
-/// The same without what planes cut away as a whole.
+/// Returns the same balls without those that planes cut away completely.
 std::vector<Ball> kept_balls(std::span<const PictureObject> objects);
 
 }  // namespace meniscus

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes the parameters of a block of pixels, names what its rays hit, and gathers cast blocks into a picture.
+// Computes the parameters of a block of pixels, finds the names of what its rays hit, and collects cast blocks in a
+// picture.
 #include "core/render/picture_block.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace meniscus {
 
 HitPoint hit_point(const PictureFrame& frame, glm::ivec2 pixel, float t) {
   const Ray ray = pixel_ray(frame.camera, frame.size, glm::dvec2(pixel) + 0.5);
-  // The kernel counts from the plane through the pivot.
+  // The kernel counts distances from the plane through the pivot.
   const double z = t + frame.eye_distance / glm::dot(ray.direction, frame.basis.forward);
   return {z, ray.origin + ray.direction * z};
 }
@@ -28,7 +29,7 @@ namespace {
 
 double squared_length(const glm::dvec3& v) { return glm::dot(v, v); }
 
-/// First face and face count of a patch.
+/// Returns the first face and the number of faces of a patch.
 std::pair<std::uint32_t, std::uint32_t> faces_of(const Surface& surface, PatchKind kind, std::uint32_t patch) {
   switch (kind) {
     case PatchKind::convex:
@@ -84,7 +85,7 @@ double ComponentLookup::squared_distance(const Face& face, const glm::dvec3& poi
 
 namespace {
 
-/// What studio_light() is told of the lamps.
+/// The parameters of studio_light() for the lamps.
 struct Light {
   glm::vec3 key_color;
   float key_share;
@@ -102,7 +103,7 @@ constexpr Light kStudio{.key_color = {1.0f, 0.97f, 0.92f},
 
 glm::vec3 fill_direction() { return glm::normalize(glm::vec3(0.85f, -0.05f, 0.45f)); }
 
-/// Of white lamps, which together make 1 on a surface that faces the key light.
+/// Returns the strengths of white lamps, whose sum is 1 on a surface that faces the key light.
 Light white_light(const glm::vec3& key_direction) {
   constexpr float kKey = 0.62f, kFill = 0.14f, kSky = 0.26f, kGround = 0.16f;
   const float sky = 0.5f + 0.5f * key_direction.y, facing = std::max(key_direction.z, 0.0f);
@@ -149,7 +150,7 @@ kernel::TileListParameters tile_list_parameters(const PictureFrame& frame, const
           .picture_tile_columns = (frame.size.x + kTileEdge - 1) / kTileEdge,
           .bounded = false,
           .primitive_count = primitive_count,
-          .entry_capacity = 0};  // of no lists yet
+          .entry_capacity = 0};  // there are no lists yet
 }
 
 kernel::RayCastParameters cast_parameters(const ScenePlacement& scene, const Look& look, std::uint32_t atom_count,
@@ -179,7 +180,7 @@ kernel::RayCastParameters cast_parameters(const ScenePlacement& scene, const Loo
 PictureFrame shade_map_frame(const PictureFrame& frame) {
   PictureFrame map = frame;
   const double edge = shade_texel_edge(frame.size);
-  // No texel's middle lies outside of the picture.
+  // The number of texels is rounded down, so that the middle of each lies within the picture.
   map.size = glm::max(glm::ivec2(glm::dvec2(frame.size) / edge), glm::ivec2(1));
   map.pixel_size *= edge;
   return map;
@@ -204,7 +205,7 @@ kernel::OcclusionParameters occlusion_parameters(const Look& look, glm::ivec2 pi
 
 kernel::FinishParameters finish_parameters(const Look& look, const ScenePlacement& scene, glm::ivec2 picture_size,
                                            int sample, bool has_marks) {
-  constexpr float kLeastPixels = 2.0f;  // of a step: what slopes and rounding make of none
+  constexpr float kLeastPixels = 2.0f;  // slopes and rounding cause smaller steps, which get no line
   const float step_pixels = look.line_step * static_cast<float>(std::min(picture_size.x, picture_size.y));
   return {.key_direction = glm::normalize(look.light_direction),
           .key_strength = look.light_strength,
@@ -230,7 +231,8 @@ kernel::FinishParameters finish_parameters(const Look& look, const ScenePlacemen
 
 namespace {
 
-/// Of a band: what fits into 256 MiB, in bands as equal as whole tiles allow.
+/// Returns the height of a band: as many rows as fit into 256 MiB, in bands of whole tiles that are as equal as
+/// possible.
 int band_rows(const RenderSettings& settings, int edge) {
   constexpr std::int64_t kBandBytes = std::int64_t{1} << 28, kColorBytes = 16, kAovBytes = 56, kSeenBytes = 4;
   const PictureLayers layers = settings.layers();
@@ -243,7 +245,7 @@ int band_rows(const RenderSettings& settings, int edge) {
   return static_cast<int>(in_tiles((settings.size.y + bands - 1) / bands));
 }
 
-/// Calls work(place in the block, place in the rows from first_row on) for each pixel of `inner`, which is part of the
+/// Calls work(index in the block, index in the rows from first_row on) for each pixel of `inner`, which is part of the
 /// block.
 template <typename Work>
 void for_each_pixel(const PictureBlock& inner, const PictureBlock& block, int width, int first_row, const Work& work) {

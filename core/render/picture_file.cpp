@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes a picture to its file in slices of rows, with its annotation and its legend.
+// Writes a picture to its file in slices of rows, with its annotations and its legend.
 #include "core/render/picture_file.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A picture on its way from a renderer to its file: with annotations and legend, some rows at a time.
+// Writes a picture with annotations and legend to its file, some rows at a time.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +16,8 @@ namespace meniscus {
 
 struct Camera;
 
-/// What a picture shows beside the molecule; the first two must stay. Which labels are hidden is read with the first
-/// band.
+/// The content of a picture in addition to the molecule. The annotations and the legend must outlive the file.
+/// PlaceLabel::is_hidden is read when the first band comes.
 struct PictureMargins {
   const Annotations& annotations;
   const std::optional<Legend>& legend;
@@ -25,23 +25,23 @@ struct PictureMargins {
 };
 
 /// Takes the bands of a picture of the molecule (RenderSettings::take_band), so that it is never in memory as a whole.
-/// Of a page (is_page()) the molecule alone is in pixels.
+/// On a page (is_page()) only the molecule is in pixels.
 class PictureFile {
  public:
-  /// settings: of the molecule's picture, whose bands come here from now on. Throws as ImageWriter and
-  /// annotate() do.
+  /// Opens the file and sets settings.take_band, so that the bands of the molecule's picture go to it. Throws as
+  /// ImageWriter and annotate() do.
   PictureFile(const std::filesystem::path& path, const PictureMargins& margins, const Camera& camera,
               const ImageSettings& image, RenderSettings& settings);
   PictureFile(const PictureFile&) = delete;
   PictureFile& operator=(const PictureFile&) = delete;
 
-  /// Did a ray meet anything in what came?
+  /// True if a ray has hit anything in the bands so far.
   bool shows_something() const { return shows_something_; }
 
-  /// Labels that need not fit have no room in it.
+  /// True if labels that need not fit were left out because there is no room.
   bool lacks_labels() const { return annotations_.lacks_labels(); }
 
-  /// Once all of the molecule's picture is there.
+  /// Completes the file after the last band of the molecule's picture.
   void commit();
 
  private:
@@ -56,12 +56,12 @@ class PictureFile {
   const PictureLayers layers_;
   const glm::ivec2 molecule_size_, size_;
   AnnotationLayer annotations_;
-  std::unique_ptr<ImageWriter> writer_;  // one of the two
+  std::unique_ptr<ImageWriter> writer_;  // exactly one of the two exists
   std::unique_ptr<PageFile> page_;
   bool shows_something_ = false;
 };
 
-/// A legend as a file of its own. Throws as ImageWriter does.
+/// Writes a legend as a file of its own. Throws as ImageWriter does.
 void write_legend_picture(const std::filesystem::path& path, const Legend& legend, const ImageSettings& settings);
 
 }  // namespace meniscus

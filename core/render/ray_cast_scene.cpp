@@ -27,13 +27,13 @@ using ray_cast::Primitive;
 
 using geometry::PatchBound;
 
-/// Patches of one kind that are packed together.
+/// A range of patches of one kind that are packed together.
 struct PatchRange {
   PatchKind kind;
   std::uint32_t first, end;
 };
 
-/// All patches, by kind and index.
+/// Returns ranges of all patches, by kind and index.
 std::vector<PatchRange> ranges_of(const Surface& surface) {
   constexpr std::size_t kTogether = 2048;
   std::vector<PatchRange> ranges;
@@ -43,7 +43,7 @@ std::vector<PatchRange> ranges_of(const Surface& surface) {
           {kind, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(std::min(first + kTogether, count))});
   };
   add(PatchKind::convex, surface.convex.size());
-  if (surface.probe_radius > 0.0) {  // a probe of no size leaves these patches without area
+  if (surface.probe_radius > 0.0) {  // with a probe of radius 0 these patches have no area
     add(PatchKind::toroidal, surface.toroidal.size());
     add(PatchKind::concave, surface.concave.size());
   }
@@ -52,7 +52,8 @@ std::vector<PatchRange> ranges_of(const Surface& surface) {
 
 class Packer {
  public:
-  /// scene: with its slack. motion: where the surface is; nullptr: as it is.
+  /// Prepares packing. scene: receives the primitives; its slack must be set. motion: the placement of the surface;
+  /// nullptr: as it is.
   Packer(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene,
          const RigidMotion* motion = nullptr, std::uint32_t first_atom = 0)
       : surface_(surface),
@@ -97,7 +98,7 @@ class Packer {
     }
   }
 
-  /// False when nothing of the bound lies in front of the camera.
+  /// Begins a primitive. Returns false if the whole bound is behind the camera.
   bool begin(const PatchBound& bound, PatchKind kind, std::uint32_t index, Primitive& primitive) {
     const geometry::SeenBound seen =
         geometry::see_bound(bound, scene_.slack, frame_.pivot, frame_.camera.position, frame_.basis.forward,
@@ -122,7 +123,7 @@ class Packer {
 
   std::uint32_t tie_key(const ConcavePatch& patch) const {
     const std::span contacts(&surface_.contacts[patch.first_contact], patch.contact_count);
-    const auto least = std::ranges::min_element(contacts);  // the first of the key, and then around
+    const auto least = std::ranges::min_element(contacts);  // begins the key; the others follow around
     const auto add = [this](std::uint32_t key, std::uint32_t atom) {
       return geometry::add_to_key(key, first_atom_ + atom);
     };
@@ -161,7 +162,7 @@ class Packer {
     scene_.primitives.push_back(primitive);
   }
 
-  /// The patch is where it is placed; likewise below.
+  /// Returns the shape of the patch where it is placed.
   geometry::SaddleShape shape(const ToroidalPatch& patch) const {
     const auto height = [&](int i) {
       return glm::dot(placed(surface_.atoms[patch.atom[i]]).center - patch.center, patch.axis);
@@ -198,7 +199,7 @@ class Packer {
     scene_.primitives.push_back(primitive);
   }
 
-  /// Leaves the directions of its contacts in directions_.
+  /// Returns a bound of the patch. Leaves the directions of its contacts in directions_.
   PatchBound bound(const ConcavePatch& patch) {
     const double p = surface_.probe_radius;
     glm::dvec3 sum(0.0);
@@ -208,7 +209,7 @@ class Packer {
           glm::normalize(placed(surface_.atoms[surface_.contacts[patch.first_contact + i]]).center - patch.center));
       sum += directions_.back();
     }
-    // A cap of at most half a sphere is convex on the sphere: it holds the patch if it holds the contacts.
+    // A cap of at most half a sphere is convex on the sphere, so it contains the patch if it contains the contacts.
     PatchBound bound{patch.center, p};
     if (glm::length(sum) > 1e-6) {
       const glm::dvec3 axis = glm::normalize(sum);
@@ -240,10 +241,10 @@ class Packer {
   const RigidMotion* const motion_;
   const std::uint32_t first_atom_;
   RayCastScene& scene_;
-  std::vector<glm::dvec3> directions_;  // of a probe's contacts; kept for its memory
+  std::vector<glm::dvec3> directions_;  // of a probe's contacts; a member for the sake of its memory
 };
 
-/// Where a part of a scene is in the whole.
+/// The place of a part of a scene in the whole scene.
 struct PartPlace {
   std::size_t primitive = 0, row = 0;
 };
@@ -257,7 +258,7 @@ void copy_part(const RayCastScene& part, const PartPlace& place, RayCastScene& s
                          });
 }
 
-constexpr double kBoundRoom = 1e-6;  // Å, for the rounding of a bound and of what is compared with it
+constexpr double kBoundRoom = 1e-6;  // Å, rounding error of bounds and of values that are compared with them
 
 template <typename Visit>
 void for_each_ball(const BallGroup& group, std::size_t first, std::size_t past, const Visit& visit) {
@@ -268,12 +269,13 @@ void for_each_ball(const BallGroup& group, std::size_t first, std::size_t past, 
     for (const Ball& ball : balls) visit(moved(ball, *group.motion));
 }
 
-/// The least and the largest of some numbers.
+/// The smallest and the largest of some numbers.
 struct Range {
   double least = std::numeric_limits<double>::max(), largest = 0.0;
 };
 
-/// Calls note(ball, range) for each, of which the range comes to be that of all, in any order.
+/// Calls note(ball, range) for each ball of a group on several threads, and merges the ranges into noted_so_far. The
+/// order of balls must not matter.
 template <typename Note>
 void note_balls(const BallGroup& group, Range& noted_so_far, const Note& note) {
   noted_so_far = tbb::parallel_reduce(
@@ -295,7 +297,7 @@ float slack_of(std::span<const BallGroup> groups, double probe_radius, const Pic
       noted.largest = std::max(noted.largest, glm::length(ball.center - frame.pivot) + ball.radius + probe_radius);
     });
   }
-  // Centres are rounded to 2^-24 of the extent; rays to a little more. A local coordinate is a few Å.
+  // Centres are rounded to 2^-24 of the extent, rays have a slightly larger error. Local coordinates are a few Å.
   return static_cast<float>(1e-5 + 2.5e-7 * extent.largest);
 }
 
@@ -311,7 +313,7 @@ PictureFrame make_picture_frame(std::span<const BallGroup> groups, const Camera&
   frame.camera = camera;
   frame.basis = view_basis(camera);
   frame.size = size;
-  // The pivot: the first ball on the view axis, else as deep as the balls are on average.
+  // The pivot is the first ball on the view axis, or else a point at the mean depth of the balls.
   Range depths;
   for (const BallGroup& group : groups) {
     const glm::dvec3 from = group.center - camera.position;
@@ -336,7 +338,8 @@ PictureFrame make_picture_frame(std::span<const BallGroup> groups, const Camera&
         first += glm::dot(ball.center - camera.position, frame.basis.forward) / static_cast<double>(count);
       });
   }
-  frame.eye_distance = std::max(first, 1.0);  // a perspective camera needs some distance; 1 Å does inside an atom too
+  // A perspective camera needs some distance; 1 Å is sufficient inside an atom, too.
+  frame.eye_distance = std::max(first, 1.0);
   frame.pivot = camera.position + frame.basis.forward * frame.eye_distance;
   const double half_height = half_extent(camera, 1.0).y;
   frame.pixel_size = 2.0 * half_height / size.y;
@@ -401,7 +404,7 @@ std::vector<BoundedPatch> bounded_patches(const Surface& surface, const Coloring
   const std::vector<PatchRange> ranges = ranges_of(surface);
   std::vector<std::vector<BoundedPatch>> parts(ranges.size());
   tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t n) {
-    const PictureFrame frame{};  // of no picture: bounds do not depend on one
+    const PictureFrame frame{};  // no picture: bounds do not depend on the frame
     RayCastScene scene;
     Packer packer(surface, coloring, frame, scene);
     const PatchKind kind = ranges[n].kind;

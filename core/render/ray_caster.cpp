@@ -166,11 +166,11 @@ void TileLists::run(int pass, const GpuScene& scene, const PictureFrame& frame, 
   primitive_texels_.bind(0);
   counts_.bind(0);
   entries_.bind(1);
-  // Those of the picture's tiles say nothing of its map of shade, which has fewer.
+  // The bounds of the picture's tiles do not apply to its map of shade, which has fewer tiles.
   const glm::ivec2 all_tiles = tile_counts({{0, 0}, frame.size});
   const bool bounded =
       scene.tile_depths.byte_count() == sizeof(float) * static_cast<std::size_t>(all_tiles.x) * all_tiles.y;
-  (bounded ? scene.tile_depths : counts_).bind(2);  // something must be there
+  (bounded ? scene.tile_depths : counts_).bind(2);  // a buffer must be bound in any case
   kernel::TileListParameters parameters = tile_list_parameters(frame, block, scene.primitives.most());
   parameters.bounded = bounded;
   parameters.entry_capacity = trusted_;
@@ -210,7 +210,7 @@ void TileLists::clear_empty(const PictureBlock& block, const Buffer& picture, co
   program.dispatch_indirect(dispatches_, 4 * sizeof(std::uint32_t));
 }
 
-/// What the kernel is told.
+/// The parameters of the kernel.
 struct RayCaster::Parameters {
   kernel::RayCastParameters own;
   kernel::BlockView view;
@@ -302,7 +302,8 @@ void RayCaster::start(const Program& program, const GpuScene& scene, const CastS
   lists_.dispatch(program);
 }
 
-// Lists of thousands, as of large molecules in small pictures, are too long for one go of software GL's kernels.
+// Lists of thousands of primitives, as for large molecules in small pictures, are too long for a single dispatch of
+// software GL's kernels.
 void RayCaster::finish_long_lists(std::uint32_t longest, const GpuScene& scene, const CastSample& sample,
                                   Parameters parameters) {
   constexpr std::uint32_t kFirstPart = 256, kSmallestPart = 4;

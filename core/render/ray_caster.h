@@ -21,33 +21,34 @@
 
 namespace meniscus {
 
-/// One sample of each pixel of a block, as the ray caster leaves it.
+/// One sample of each pixel of a block, as the ray caster returns it.
 struct CastSample {
   const Buffer& colors;  ///< vec4 each
   const Buffer& hits;    ///< ray_cast::Hit each
   int index;
-  glm::vec2 offset;  ///< from the pixels' centres, pixels
+  glm::vec2 offset;  ///< from the centres of pixels, pixels
 };
 
-/// Kernels of gpu_shaders/look/ and their buffers. Needs a current GL context.
+/// Runs the kernels of gpu_shaders/look/ and owns their buffers. Needs a current GL context.
 class LookPass {
  public:
   explicit LookPass(ProgramCache& programs) : programs_(programs) {}
 
-  /// Adds the sample's colours, changed by the look's effects, to `picture`; the first sample replaces it.
+  /// Adds the sample's colours, changed by the look's effects, to `picture`; the first sample replaces its content.
   void add(const CastSample& sample, const Look& look, const GpuScene& scene, const PictureFrame& frame,
            const PictureBlock& block, const Buffer& picture);
 
-  /// Along the view axis, of the first sample's hits of a block; kernel::kNothing where nothing is met.
+  /// Returns the depths along the view axis of the first sample's hits in a block; kernel::kNothing where nothing is
+  /// hit.
   std::vector<float> depths(const Buffer& hits, const PictureFrame& frame, const PictureBlock& block);
 
-  /// Those of all pixels of shade_map_frame(): for pictures whose blocks do not hold the map.
+  /// Sets the depths of all pixels of shade_map_frame(), for pictures whose blocks do not contain the map.
   void set_shade_map(const std::vector<float>& depths);
 
  private:
   ProgramCache& programs_;
   Buffer depths_, shade_map_, marks_, shade_;
-  TexelBuffer first_hit_texels_{TexelFormat::uint4}, hit_texels_{TexelFormat::uint4};  // of sample 0, of the others
+  TexelBuffer first_hit_texels_{TexelFormat::uint4}, hit_texels_{TexelFormat::uint4};  // sample 0; other samples
   TexelBuffer depth_texels_{TexelFormat::uint1}, map_texels_{TexelFormat::uint1}, shade_texels_{TexelFormat::uint1},
       mark_texels_{TexelFormat::uint1}, atom_mark_texels_{TexelFormat::uint1};
 };
@@ -60,13 +61,14 @@ class Presenter {
   Presenter(const Presenter&) = delete;
   Presenter& operator=(const Presenter&) = delete;
 
-  /// picture: sums of `sample_count` samples, as RayCaster::picture(); background: sRGB. Others show the texture
-  /// without another look at it: the GPU's work has to be proven before they may. Throws GpuError.
+  /// Presents a picture. picture: sums of `sample_count` samples, as RayCaster::picture(); background: sRGB. Other code
+  /// displays the texture without further checks, so the GPU's work must be verified before this call. Throws GpuError.
   void present(const Buffer& picture, glm::ivec2 size, int sample_count, const glm::vec3& background);
 
-  /// GL_RGBA8, sRGB values, alpha 255, first row on top; lives until a picture of another size is presented.
+  /// Returns the texture: GL_RGBA8, sRGB values, alpha 255, first row on top. It is valid until a picture of another
+  /// size is presented.
   std::uint32_t texture() const { return texture_; }
-  /// The same on the host; waits for the GPU.
+  /// Returns the same pixels in memory. Waits for the GPU.
   std::vector<std::uint8_t> rgba() const;
 
  private:
@@ -78,30 +80,32 @@ class Presenter {
 inline constexpr std::uint32_t kSliceCount = 32;
 inline constexpr std::uint32_t kSlotsPerTile = 2 * kSliceCount;
 
-/// For each tile of 16 x 16 pixels two lists of primitives, spheres and tori, each by slices of depth, nearest slice
-/// first, in any order within a slice. A list covers all rays through any place of its tile's pixels. Needs a current
-/// GL context.
+/// Two lists of primitives, spheres and tori, for each tile of 16 x 16 pixels. Each list is divided into slices of
+/// depth, nearest slice first, in any order within a slice. A list covers all rays through any place in its tile's
+/// pixels. Needs a current GL context.
 class TileLists {
  public:
   explicit TileLists(ProgramCache& programs) : programs_(programs), scan_(programs) {}
 
-  /// Throws CapacityError when the lists are larger than a kernel can see; smaller blocks help. With Counting::later
-  /// they get the room that they needed last time and some more.
+  /// Builds the lists. Throws CapacityError if they are larger than a kernel can address; smaller blocks help. With
+  /// Counting::later they get the memory that they needed last time and some more.
   void build(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block,
              Counting counting = Counting::now);
-  /// For Counting::later: what the host has to know, and, once that has been read back, whether there was room.
+  /// For Counting::later, ask() queues the reading of the counts that the host needs. Once they have been read,
+  /// settle() returns whether the memory was sufficient.
   void ask(Readback& readback);
   bool settle();
 
   glm::ivec2 tiles() const { return tiles_; }  ///< columns, rows
-  /// uint32 for each slice of spheres and of tori of each tile, row by row: where its primitives end in entries(); they
-  /// begin where the slice before ends.
+  /// Returns one uint32 for each slice of spheres and of tori of each tile, row by row: the end of its primitives in
+  /// entries(). They begin at the end of the slice before.
   const Buffer& slot_ends() const { return counts_; }
   const Buffer& entries() const { return entries_; }  ///< uint32 each: places in GpuScene::primitives
 
-  /// Binds what gpu_shaders/ray_cast/ray_cast.comp fetches and starts it, a group for each tile that lists something.
+  /// Binds the buffers that gpu_shaders/ray_cast/ray_cast.comp reads and dispatches it, one group for each tile with a
+  /// list that is not empty.
   void dispatch(const Program& ray_cast) const;
-  /// Writes what rays see in the other tiles. Both buffers as RayCaster leaves them.
+  /// Writes the values of a miss to all other tiles of both buffers, in the same format as RayCaster.
   void clear_empty(const PictureBlock& block, const Buffer& picture, const Buffer& hits) const;
 
  private:
@@ -113,52 +117,53 @@ class TileLists {
   PrefixSum scan_;
   glm::ivec2 tiles_{0};
   Buffer counts_, entries_;
-  std::uint32_t counted_ = 0, known_ = 0, trusted_ = 0;  // entries: read back, as last counted, with room
-  Buffer tile_order_, dispatches_;                       // of split_tiles.comp
+  std::uint32_t counted_ = 0, known_ = 0, trusted_ = 0;  // sizes of entries: read back, last counted, allocated
+  Buffer tile_order_, dispatches_;                       // for split_tiles.comp
   TexelBuffer primitive_texels_{TexelFormat::uint4}, slot_texels_{TexelFormat::uint1},
       entry_texels_{TexelFormat::uint1}, order_texels_{TexelFormat::uint1};
 };
 
-/// Where the scene's depths are cut into slices.
+/// Returns the borders of the scene's slices of depth.
 kernel::DepthSlices depth_slices(const GpuScene& scene);
 
-/// How a block is cast.
+/// Settings for casting a block.
 struct CastSettings {
   int samples = 1;  ///< rays per pixel, the first through its centre
-  Look look{};      ///< but for its background; effects see nothing of what lies outside the block
+  Look look{};      ///< its background is ignored; effects do not see anything outside of the block
   Counting counting = Counting::now;
-  std::function<bool()> stop{};  ///< asked between samples; if true, the block is given up
-  StageClock* clock = nullptr;   ///< gets the time of each stage
+  std::function<bool()> stop{};  ///< called between samples; if it returns true, casting stops
+  StageClock* clock = nullptr;   ///< receives the time of each stage
 };
 
-/// Needs a current GL context for its whole life.
+/// Casts blocks of pictures. Needs a current GL context for its whole life.
 class RayCaster {
  public:
-  /// Casts a block of a picture and leaves it on the GPU, in picture() and hits(). frame.size is that of the whole
-  /// picture. False if it was given up: then there is no picture. Throws GpuError; CapacityError if the block is too
-  /// large for this GPU.
+  /// Casts a block of a picture and leaves the result on the GPU, in picture() and hits(). frame.size is the size of
+  /// the whole picture. Returns false if casting was stopped; then there is no picture. Throws GpuError; CapacityError
+  /// if the block is too large for this GPU.
   bool cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block,
             const CastSettings& settings = {});
 
-  /// The depths of a block of shade_map_frame(), row by row; picture() and hits() are then those of the map. Throws as
-  /// cast().
+  /// Returns the depths of a block of shade_map_frame(), row by row. picture() and hits() then belong to the map.
+  /// Throws as cast().
   std::vector<float> cast_depths(const GpuScene& scene, const PictureFrame& map, const PictureBlock& block) {
     cast(scene, map, block);
     return look_pass_.depths(hits_, map, block);
   }
-  /// For the shade of blocks that do not hold it: depths of the whole map.
+  /// Sets the depths of the whole map, for the shade of blocks that do not contain it.
   void set_shade_map(const std::vector<float>& depths) { look_pass_.set_shade_map(depths); }
 
-  /// Whether the next block, of so many pixels, may be cast with Counting::later: the last one was no other, and its
-  /// kernels' loops went to their ends. Such a block is good only if settle() says so, once what ask() asks for has
-  /// been read back.
+  /// True if the next block may be cast with Counting::later: the last block had the same size, and the loops of its
+  /// kernels ran to completion. Such a block is valid only if settle() returns true after the counts that ask() queued
+  /// have been read.
   bool can_trust(const PictureBlock& block) const { return known_size_ == block.size; }
   void ask(Readback& readback);
   bool settle();
 
-  /// Of the last block, row by row from the top: vec4 per pixel, the sum of its samples, linear and premultiplied.
+  /// Returns the pixels of the last block, row by row from the top: one vec4 per pixel, the sum of its samples, linear
+  /// and premultiplied.
   const Buffer& picture() const { return picture_; }
-  /// Likewise ray_cast::Hit, of the ray through the pixel's centre.
+  /// Returns the ray_cast::Hit of the ray through the centre of each pixel in the same order.
   const Buffer& hits() const { return hits_; }
 
  private:
@@ -174,12 +179,12 @@ class RayCaster {
   TexelBuffer row_texels_{TexelFormat::uint4};
   LookPass look_pass_{programs_};
   Buffer picture_, hits_;
-  glm::ivec2 known_size_{0};            // of the last block, if nothing went wrong
-  glm::ivec2 size_{0};                  // of the block at work
-  std::uint32_t longest_ = 0;           // list of an unfinished invocation
-  bool long_lists_ = false;             // some sample had one
-  Buffer unfinished_, states_;          // of invocations whose loops the driver cut short
-  Buffer sample_colors_, sample_hits_;  // where a look has effects
+  glm::ivec2 known_size_{0};            // size of the last block if its counts are valid
+  glm::ivec2 size_{0};                  // size of the current block
+  std::uint32_t longest_ = 0;           // longest list of an unfinished invocation
+  bool long_lists_ = false;             // some sample had unfinished invocations
+  Buffer unfinished_, states_;          // invocations whose loops the driver cut short
+  Buffer sample_colors_, sample_hits_;  // for looks with effects
 };
 
 }  // namespace meniscus

@@ -59,7 +59,7 @@ class ShapePacker {
  private:
   void add_row(const glm::dvec3& v, double w) { scene_.rows.emplace_back(glm::vec3(v), static_cast<float>(w)); }
 
-  /// nullptr when nothing of the bound lies in front of the camera.
+  /// Begins a primitive. Returns nullptr if the whole bound is behind the camera.
   Primitive* begin(const geometry::PatchBound& bound, std::uint32_t kind) {
     const geometry::SeenBound seen =
         geometry::see_bound(bound, scene_.slack, frame_.pivot, frame_.camera.position, frame_.basis.forward,

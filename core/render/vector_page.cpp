@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes pages, SVG and PDF: what is written over a picture as paths, and its pixels.
+// Writes pages, SVG and PDF: the pixels of a picture, and everything that is written over it as paths.
 #include "core/render/vector_page.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::vector<PathStep> line_path(const glm::dvec2& from, const glm::dvec2& to) {
   return {{Kind::move, {from}}, {Kind::line, {to}}};
 }
 
-/// Of four cubic curves, within 0.03 % of its radius.
+/// Returns a circle of four cubic curves, accurate to 0.03 % of its radius.
 std::vector<PathStep> circle_path(const glm::dvec2& middle, double radius) {
   const double handle = 0.5522847498 * radius;
   std::vector<PathStep> path{{Kind::move, {middle + glm::dvec2(radius, 0.0)}}};
@@ -54,7 +54,7 @@ std::vector<PathStep> circle_path(const glm::dvec2& middle, double radius) {
   return path;
 }
 
-/// `around` on all sides more than the stroke itself.
+/// Returns the shapes of a stroke that is wider by `around` on all sides.
 std::vector<PageShape> shapes_of(const InkStroke& stroke, const glm::vec3& color, double around, FontShelf& fonts) {
   std::vector<PageShape> shapes;
   if (const auto* const text = std::get_if<InkText>(&stroke)) {
@@ -114,7 +114,7 @@ std::vector<PageShape> shapes_of(const Legend& legend, const std::optional<glm::
     const glm::dvec2 low(box.low), high(box.high), frame(legend.frame_width());
     shapes.push_back({box_path(low - frame, high + frame), ink});
     const bool upright = high.y - low.y > high.x - low.x;
-    // Each colour reaches to the end of the bar, so that none of the paper is seen between two.
+    // Each colour extends to the end of the bar, so that no paper is visible between two colours.
     for (std::size_t n = 0; n < box.colors.size(); ++n) {
       if (n > 0 && box.colors[n] == box.colors[n - 1]) continue;
       const double along = static_cast<double>(n);
@@ -132,7 +132,7 @@ std::vector<PageShape> shapes_of(const Legend& legend, const std::optional<glm::
 
 namespace {
 
-constexpr double kPixelsPerInch = 96.0;  // unless something else is said; so does CSS
+constexpr double kPixelsPerInch = 96.0;  // the default, as in CSS
 
 std::string extension_in_small_letters(const std::filesystem::path& path) {
   std::string extension = text_of_path(path.extension());
@@ -140,7 +140,7 @@ std::string extension_in_small_letters(const std::filesystem::path& path) {
   return extension;
 }
 
-/// With at most three decimals.
+/// Returns a number with at most three decimals.
 std::string number(double value) {
   std::string text = fmt::format("{:.3f}", value);
   text.erase(text.find_last_not_of('0') + 1);
@@ -156,7 +156,7 @@ std::string hex(const glm::vec3& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte_of(color.x), byte_of(color.y), byte_of(color.z));
 }
 
-/// Compresses a stream (RFC 1950) as it comes.
+/// Compresses a stream (RFC 1950) incrementally.
 class Deflater {
  public:
   Deflater() {
@@ -188,7 +188,7 @@ class Deflater {
 
 }  // namespace
 
-/// What both kinds of pages have in common.
+/// The common part of both kinds of pages.
 class PageFile::Encoder {
  public:
   Encoder(const std::filesystem::path& path, const PageLayout& layout, const ImageSettings& settings)
@@ -208,7 +208,7 @@ class PageFile::Encoder {
   bool has_pixels() const { return layout_.picture_size.x > 0 && layout_.picture_size.y > 0; }
   int channels() const { return settings_.background ? 3 : 4; }
   glm::dvec2 size() const { return layout_.high - layout_.low; }
-  /// In inches.
+  /// Returns the size of a pixel in inches.
   double pixel() const { return 1.0 / (settings_.dots_per_inch > 0.0 ? settings_.dots_per_inch : kPixelsPerInch); }
 
   const PageLayout layout_;
@@ -309,7 +309,7 @@ class PageFile::SvgEncoder : public Encoder {
   std::optional<PngEncoder> png_;
 };
 
-/// Portable Document Format 1.4 (Adobe 2001): one page.
+/// Portable Document Format 1.4 (Adobe 2001) with a single page.
 class PageFile::PdfEncoder : public Encoder {
  public:
   PdfEncoder(const std::filesystem::path& path, const PageLayout& layout, const ImageSettings& settings)
@@ -408,7 +408,7 @@ class PageFile::PdfEncoder : public Encoder {
 
   double points() const { return 72.0 * pixel(); }
 
-  /// Bytes of UTF-8, as hexadecimal digits.
+  /// Returns the bytes of a text, UTF-8, as hexadecimal digits.
   static std::string hex_text(std::string_view text) {
     std::string digits = "<EFBBBF";
     for (const char c : text) digits += fmt::format("{:02X}", static_cast<unsigned char>(c));
@@ -420,7 +420,7 @@ class PageFile::PdfEncoder : public Encoder {
   }
 
   std::string contents(std::span<const PageShape> shapes, std::vector<std::string>& opacities) const {
-    // From here on in pixels of the picture, from its top left.
+    // From here on coordinates are pixels of the picture, from its top left.
     std::string text = fmt::format("{} 0 0 {} {} {} cm 1 J 1 j\n", scale(), "-" + scale(),
                                    number(-layout_.low.x * points()), number(layout_.high.y * points()));
     if (settings_.background)
@@ -457,7 +457,7 @@ class PageFile::PdfEncoder : public Encoder {
     return text;
   }
 
-  /// With more decimals than a place has.
+  /// Returns the scale with more decimals than coordinates have.
   std::string scale() const { return fmt::format("{:.9f}", points()); }
 
   std::array<std::size_t, kEnd> offsets_{};

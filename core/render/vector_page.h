@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures as pages, SVG and PDF: the molecule in pixels, and over it letters, bars and lines as paths.
+// Pictures as pages, SVG and PDF: the molecule in pixels, and letters, bars and lines over it as paths.
 #pragma once
 
 #include <filesystem>
@@ -21,36 +21,37 @@ namespace meniscus {
 /// True if the extension names a page (.svg, .pdf).
 bool is_page(const std::filesystem::path& path);
 
-/// A filled path, or its line. In pixels of the picture.
+/// A filled or stroked path, in pixels of the picture.
 struct PageShape {
   std::vector<PathStep> path;
   glm::vec3 color;  ///< sRGB
   double opacity = 1.0;
-  double line = 0.0;   ///< its width, with round ends and corners; 0: filled
-  std::string text{};  ///< that it shows
+  double line = 0.0;   ///< width of the stroke, with round ends and corners; 0: the path is filled
+  std::string text{};  ///< the text that it shows
 };
 
-/// What is written over a molecule in these rows of the picture. Its rim is around everything that reaches into them.
+/// Returns the shapes of the annotations in these rows of the picture, including the rims of everything that extends
+/// into them.
 std::vector<PageShape> shapes_of(const AnnotationLayer& annotations, int first_row, int end_row);
 std::vector<PageShape> shapes_of(const Legend& legend, const std::optional<glm::vec3>& background);
 
-/// Where things are on a page, in pixels of the picture.
+/// The arrangement of a page, in pixels of the picture.
 struct PageLayout {
-  glm::ivec2 low{0}, high{0};                    ///< of the page
-  glm::ivec2 picture_place{0}, picture_size{0};  ///< of its pixels; 0: there are none
+  glm::ivec2 low{0}, high{0};                    ///< borders of the page
+  glm::ivec2 picture_place{0}, picture_size{0};  ///< of the picture's pixels; 0: there are none
 };
 
-/// A page that is written as the rows of its pixels come; nothing is under its name before the end. A pixel is a
-/// 96th of an inch unless the settings say how many there are. Transparent unless there is a background.
+/// A page that is written as the rows of its pixels come. It gets its final name at the end. A pixel is 1/96 inch
+/// unless the settings give a resolution. The page is transparent unless there is a background.
 class PageFile {
  public:
-  /// Throws OutputError.
+  /// Opens the page. Throws OutputError.
   PageFile(const std::filesystem::path& path, const PageLayout& layout, const ImageSettings& settings);
   ~PageFile();
 
-  /// The next rows of pixels, as a picture of their own.
+  /// Adds the next rows of pixels, as a picture of their own.
   void add(const Framebuffer& rows);
-  /// Behind the last row.
+  /// Completes the page after the last row.
   void commit(std::span<const PageShape> shapes);
 
  private:

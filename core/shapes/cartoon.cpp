@@ -332,8 +332,8 @@ struct Base {
   std::uint32_t residue = 0, copy = 0;
 };
 
-/// The letters that the names of ring atoms with each number begin with, the better one first; those of substituents
-/// are left out.
+/// The letters that the names of ring atoms with each number begin with, the better one first; the letters of
+/// substituents are left out.
 constexpr std::array<std::string_view, 10> kLetters{"", "NC", "CN", "NC", "CN", "CN", "CN", "NC", "CN", "NC"};
 
 /// Adds an atom to a base if it is one of its ring or its sugar.

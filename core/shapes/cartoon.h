@@ -40,7 +40,7 @@ std::vector<std::uint32_t> file_order(std::span<const Atom> atoms);
 /// Returns the shapes of each nucleotide with a selected base: its rings as plates with round rims, twice the radius
 /// (Å) thick, and a rung from there by C1' to the middle line of backbone(). Rings are recognised by the numbers of
 /// their atoms, so that modified bases have them, too; a ring that is incomplete or not closed is left out. Plates have
-/// the colour of C4, rims those of their atoms.
+/// the colour of C4, and rims the colours of their atoms.
 Shapes bases(const Structure& structure, const std::vector<bool>& selected, double radius = kStickRadius);
 
 }  // namespace meniscus

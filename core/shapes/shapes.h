@@ -46,7 +46,7 @@ struct Shapes {
   bool empty() const { return spheres.empty() && cylinders.empty() && mesh.triangles.empty(); }
 };
 
-/// The radii of sticks in Å, those of most programs.
+/// The default radius of sticks in Å, as in most programs.
 inline constexpr double kStickRadius = 0.25;
 inline constexpr double kThinStickRadius = 0.15;
 /// The radius of balls as a share of the van der Waals radius.

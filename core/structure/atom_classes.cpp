@@ -57,8 +57,8 @@ bool is_named_like_polymer(const Names& names) {
          names.contains("C4*");
 }
 
-/// True if some atom belongs to a backbone. Names of force fields are also those of bare bases (ADE, URA) and other
-/// ligands, which have no such atoms.
+/// True if some atom belongs to a backbone. Bare bases (ADE, URA) and other ligands may have the same names as residues
+/// of force fields, but have no such atoms.
 bool has_backbone(const Names& names) {
   return names.contains("CA") || names.contains("P") || names.contains("C4'") || names.contains("C4*");
 }

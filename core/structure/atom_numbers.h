@@ -39,8 +39,8 @@ struct NumberFile {
 
   bool empty() const { return numbers.empty() && by_atom.empty() && by_residue.empty() && !by_frame; }
 
-  /// Returns the numbers of a frame; for no frame those of a structure that is not in a trajectory. Throws InputError
-  /// if there are none.
+  /// Returns the numbers of a frame, or, for no frame, of a structure that is not in a trajectory. Throws InputError if
+  /// there are none.
   const NumberFile& of_frame(const std::optional<std::uint64_t>& frame) const;
   /// Returns the least and the greatest number of all frames, so that a colour has the same meaning in each of them.
   /// Returns nothing if numbers are not by frame or all are missing.
@@ -54,7 +54,7 @@ inline constexpr const char* kNumberLayouts =
     "such as chain,resid,score, or resid,score for a molecule of one chain. Columns may be parted by commas, "
     "semicolons, tabs or blanks";
 
-/// Reads a file in one of three layouts. nan, ? and - stand for a missing number, and # begins a comment.
+/// Reads a file in one of three layouts. `nan`, `?` and `-` stand for a missing number, and `#` begins a comment.
 /// - Numbers separated by blanks, commas and line ends, one for each atom.
 /// - Lines with a chain, the number of a residue with its insertion code (52A), and a value. The first chain must not
 ///   be a number.

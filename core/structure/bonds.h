@@ -28,8 +28,8 @@ std::vector<Bond> guessed_bonds(std::span<const Atom> atoms, std::span<const glm
                                 const std::optional<PeriodicCell>& cell);
 
 /// Returns the bonds between these atoms as places in `atoms`, the lower place first, each once and in ascending order.
-/// They are the bonds of `listed` (by Atom::index, in an assembly for each copy), those of template_bonds, and bonds by
-/// distance for atoms that are in no standard residue.
+/// They are the bonds of `listed` (by Atom::index, in an assembly for each copy), the bonds of template_bonds(), and
+/// bonds by distance for atoms that are in no standard residue.
 /// An atom is bonded by distance if the distance is at most the sum of the covalent radii (B. Cordero et al., Dalton
 /// Trans. 2008, 2832) and 0.4 Å, or 0.2 Å between standard residues, as in disulphides and cross-links. No bonds by
 /// distance are made between two hydrogens, to a free ion or an atom of unknown element, or within 0.5 Å, because such

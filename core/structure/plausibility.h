@@ -20,7 +20,7 @@ void warn_of_coincident_atoms(Structure& structure);
 /// as in a file in nanometres. The median is over at most 64 atoms, evenly spread over the file.
 void warn_of_wrong_unit(Structure& structure);
 
-/// Adds a warning if atoms overlap with those of other models (median distance to the nearest below 1.5 Å), as in NMR
+/// Adds a warning if atoms overlap with atoms of other models (median distance to the nearest below 1.5 Å), as in NMR
 /// ensembles. Parts of an assembly that are stored as models do not overlap.
 void warn_of_overlaid_models(Structure& structure);
 

@@ -203,8 +203,8 @@ bool is_named_by_letters(std::string_view name) {
   return name.size() == 4 && among(kTailLetters, name.substr(0, 2)) && among(kHeadLetters, name.substr(2));
 }
 
-/// True if the residue has ten carbon atoms or more, as a residue with a tail has. Short names are also those of other
-/// residues.
+/// True if the residue has ten carbon atoms or more, as a residue with a tail has. Other residues may have the same
+/// short names.
 bool has_tail(std::span<const Atom> residue) {
   return std::ranges::count_if(residue, [](const Atom& atom) { return atom.element == 6; }) >= 10;
 }

@@ -79,7 +79,7 @@ struct ReadReport {
   std::size_t read = 0;  ///< all atom records of the file, with all models and alternate locations
   /// Number of atoms for each reason; an atom counts for the first reason that applies.
   std::map<std::string, std::size_t> excluded;
-  std::map<std::string, std::size_t> charged;  ///< those of `excluded` that occupy space and have a partial charge
+  std::map<std::string, std::size_t> charged;  ///< the part of `excluded` that occupies space and has a partial charge
   std::size_t used = 0;
   std::size_t models = 1;  ///< number of models in the file
   std::string assembled;   ///< description of the assembly of the used atoms; empty without an assembly
@@ -142,7 +142,7 @@ struct Topology {
   bool without_positions = false;  ///< true if the file has no coordinates, and another file gave them
 };
 
-/// A file whose atoms were added to those of another file.
+/// A file whose atoms were added to the atoms of another file.
 struct AddedFile {
   std::string file;                  ///< path as the user wrote it
   std::int32_t model = 0;            ///< Atom::model of its first atom
@@ -162,7 +162,7 @@ struct Structure {
   std::vector<RadiusClass> radius_classes;
   /// All chains of the file and of added files in order of appearance, whether or not they are used.
   std::vector<std::string> chains;
-  std::vector<AddedFile> added;  ///< files whose atoms follow those of `file`
+  std::vector<AddedFile> added;  ///< files whose atoms follow the atoms of `file`
   std::vector<Atom> atoms;
   std::vector<Atom> extra_atoms;  ///< atoms that are shown in addition to the surface, which is not computed for them
   /// Bonds of shown atoms, as places in `atoms` followed by `extra_atoms`.

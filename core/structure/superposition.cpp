@@ -38,8 +38,8 @@ std::string standard_name(const std::string& residue_name) {
   return standard ? standard : name;
 }
 
-/// Returns the sequences of the chains, from the atoms that take part, in the order of the file. Of atoms with
-/// alternate locations the first is used.
+/// Returns the sequences of the chains, from the atoms that take part, in the order of the file. The first of several
+/// alternate locations is used.
 std::vector<Sequence> sequences(std::span<const Atom> atoms, const std::vector<bool>& counts) {
   std::vector<Sequence> chains;
   std::map<std::pair<std::int32_t, std::string>, std::size_t> places;

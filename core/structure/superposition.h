@@ -16,8 +16,8 @@ namespace meniscus {
 struct Atom;
 
 /// Returns the rotation and translation of `positions` that minimizes the sum of squared distances between its `atoms`
-/// and those of `reference` (D. L. Theobald, Acta Cryst. A 61, 478, 2005). Mirror images are excluded. There must be at
-/// least three atoms. If they are in a line, the rotation about that line is arbitrary.
+/// and the same atoms of `reference` (D. L. Theobald, Acta Cryst. A 61, 478, 2005). Mirror images are excluded. There
+/// must be at least three atoms. If they are in a line, the rotation about that line is arbitrary.
 RigidMotion superposition(std::span<const glm::dvec3> reference, std::span<const glm::dvec3> positions,
                           std::span<const std::uint32_t> atoms);
 

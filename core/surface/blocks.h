@@ -27,33 +27,37 @@ namespace meniscus {
 
 class StageClock;
 
-/// Atoms by block, each a list of rising indices, of at most `most` atoms: halves of halves along the widest axis.
+/// Returns blocks of at most `most` atoms, made by repeated halving along the widest axis. Each block is a list of
+/// ascending indices.
 std::vector<std::vector<std::uint32_t>> divide_into_blocks(std::span<const Ball> atoms, std::size_t most);
 
-/// How far the halo of a block reaches beyond its atoms, Å: as above, and a little more for rounding.
+/// Returns the width of the halo around a block's atoms, Å: as above, and slightly more for rounding.
 double halo_reach(std::span<const Ball> atoms, double probe_radius);
 
-/// A block's own atoms and its halo, all within `reach` of the box around them: rising indices.
+/// Returns ascending indices of a block's own atoms and its halo, which are all atoms within `reach` of the box around
+/// the block's atoms.
 std::vector<std::uint32_t> with_halo(std::span<const Ball> atoms, std::span<const std::uint32_t> block, double reach);
 
-/// The surface without tables: what they add up to (Surface::sums), the components and the certificate, which is as
-/// strict as that of the whole surface. With ClipPlanes::listed it has its patches, from `convex` to `contacts`, too;
-/// those that no probe of size leaves area are left out. Look at the certificate. All numbers and patches are those of
-/// the whole surface, to the last bit, unless ties had to be told apart: radii then grow as in compute_through_ties(),
-/// but of atoms around the open ones alone, and only the blocks that have those are computed again. On the CPU. atoms:
-/// van der Waals balls in Å; probe_radius >= 0 in Å; blocks: each atom is in one; reach: halo_reach() at least;
-/// attempts: how often radii at one place grow, and 1. Throws CapacityError.
+/// Returns the surface without tables: their sums (Surface::sums), the components and the certificate, which is as
+/// strict as for the whole surface. With ClipPlanes::listed it has its patches, from `convex` to `contacts`, too,
+/// except patches that have no area with a probe of radius 0. Callers must check the certificate. All numbers and
+/// patches equal the whole surface's to the last bit unless ties had to be broken: radii then grow as in
+/// compute_through_ties(), but only for atoms around the open ones, and only the blocks with such atoms are computed
+/// again. It is computed on the CPU. atoms: van der Waals balls in Å; probe_radius >= 0 in Å; blocks: each atom is in
+/// one; reach: at least halo_reach(); attempts: one more than the number of times that radii at one place may grow.
+/// Throws CapacityError.
 Surface surface_in_blocks(std::span<const Ball> atoms, double probe_radius,
                           std::span<const std::vector<std::uint32_t>> blocks, double reach, ClipPlanes planes,
                           StageClock& clock, int attempts = kTieAttempts);
 
-/// By blocks, if the atoms are so many that these are worth while; else compute_surface() on the CPU.
+/// Computes the surface by blocks if there are enough atoms for it to be worthwhile, otherwise by compute_surface() on
+/// the CPU.
 Surface compute_without_borders(std::span<const Ball> atoms, double probe_radius, ClipPlanes planes, StageClock& clock);
 
 class StageClock;
 struct BlockPatches;
 
-/// What a face contributes to its component. Each block numbers its own pieces.
+/// The contribution of a face to its component. Each block numbers its own pieces.
 struct FaceSum {
   std::uint32_t atom = 0;  ///< the lowest that it touches
   std::uint32_t piece = 0;
@@ -76,7 +80,7 @@ struct SeamVertex {
   auto operator<=>(const SeamVertex&) const = default;
 };
 
-/// What is kept of a block.
+/// The part of a block's surface that is kept.
 struct BlockPart {
   std::array<std::vector<FaceSum>, 3> faces;  ///< by kind, of rising atoms
   std::vector<Farthest> farthest;             ///< by piece
@@ -92,9 +96,10 @@ struct BlockPart {
 /// The place of a kind's faces in BlockPart::faces.
 inline std::size_t place_of(PatchKind kind) { return static_cast<std::size_t>(kind); }
 
-/// Computes the surface of a block's atoms and its halo; keeps of it what is the block's own: faces whose lowest atom
-/// is. atoms: those of the whole with these numbers, rising; is_own: of each; origin: of integrals (measure.h);
-/// patches: get those of the block, unless it is nullptr.
+/// Computes the surface of a block's atoms and its halo, and keeps the faces that belong to the block because their
+/// lowest atom does. numbers: ascending indices in the whole surface; atoms: the atoms with these numbers; is_own: 1
+/// for each atom of the block itself; origin: the origin of integrals (measure.h); patches: receives the block's
+/// patches unless it is nullptr.
 BlockPart compute_block(std::vector<Ball> atoms, std::span<const std::uint32_t> numbers, std::vector<char> is_own,
                         double probe_radius, const glm::dvec3& origin, BlockPatches* patches, StageClock& clock);
 

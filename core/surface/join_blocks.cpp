@@ -267,7 +267,7 @@ class BlockSum {
     sums_.counts += part.counts;
   }
 
-  // Those of all blocks in the order of their keys, their pieces numbered through.
+  // Returns the rows of all blocks in the order of their keys, with pieces numbered consecutively.
   template <typename Row>
   std::vector<Row> gather(std::vector<Row> BlockPart::*rows) const {
     std::vector<Row> all;

@@ -65,9 +65,9 @@ class BondedPath {
   /// lengths, unless 300 rounds do not suffice.
   void correct(double share, std::vector<glm::dvec3>& positions) const;
 
-  /// Moves atoms so that the vectors between neighbours change from those in `instead_of` to those of the rotating
-  /// groups. move_weight: weight of the squared moves relative to the squared errors of the vectors. rounds: number of
-  /// Gauss-Seidel iterations.
+  /// Moves atoms so that the vectors between neighbours change from the vectors in `instead_of` to the vectors in the
+  /// rotating groups. move_weight: weight of the squared moves relative to the squared errors of the vectors. rounds:
+  /// number of Gauss-Seidel iterations.
   void rotate_groups(double share, const std::vector<glm::dvec3>& instead_of, double move_weight, int rounds,
                      std::vector<glm::dvec3>& positions) const;
   /// Moves atoms until bonds, angles and volumes of corners have their interpolated values, and until the pairs in

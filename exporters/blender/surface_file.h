@@ -49,7 +49,7 @@ struct MeshedObject {
   std::vector<glm::dvec3> velocities;         ///< per vertex, Å per scene frame; empty if not written
   bool thickens = false;                      ///< PictureObject::thickens, for colours with opacities
   std::vector<std::uint32_t> cap_plane = {};  ///< per triangle of the caps, which are the last triangles (CappedMesh)
-  CutFile cut = {};                           ///< planes that made the caps; empty: those of the file
+  CutFile cut = {};                           ///< planes that made the caps; empty: the planes of the file
   MaterialRequest material = {};              ///< differences from the default material
   /// A face on which each vertex lies, index into Surface::faces; empty: the face of its first triangle.
   std::vector<std::uint32_t> vertex_face = {};

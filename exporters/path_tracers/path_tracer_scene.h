@@ -72,7 +72,7 @@ enum class Material {
 /// A whole scene.
 struct Scene {
   std::vector<SceneItem> items;
-  glm::dvec3 origin{0.0};          ///< origin of its coordinates in those of the molecule, Å
+  glm::dvec3 origin{0.0};          ///< origin of its coordinates in the molecule's coordinates, Å
   Camera camera;                   ///< in the molecule's coordinates
   int width = 1280, height = 960;  ///< pixels
   Material material = Material::matte;

@@ -76,7 +76,7 @@ class PbrtWriter {
     const bool perspective = camera.projection == Projection::perspective;
     glm::dvec2 half = half_extent(camera, static_cast<double>(scene_.width) / scene_.height);
     if (perspective) half /= half.y;
-    // The axes of pbrt are left-handed, those of the molecule right-handed.
+    // The axes of pbrt are left-handed, the axes of the molecule right-handed.
     line("Scale -1 1 1");
     line(fmt::format("LookAt {}  {}  {}", vector_text(eye), vector_text(eye + forward), vector_text(up)));
     line(fmt::format(

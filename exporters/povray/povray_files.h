@@ -74,11 +74,11 @@ std::string ini_text(const SceneOptions& options, std::span<const std::uint64_t>
 /// Returns the command that renders all frames, for a POSIX shell in the folder of the scene.
 std::string render_command(const SceneOptions& options, std::span<const std::uint64_t> frames);
 
-/// Returns the text of <name>.inc, which includes <name>.pov. It declares those of Meniscus_Surface, Meniscus_Shapes,
-/// Meniscus_Object_1, ... that the scene has, and places nothing. Names that were declared before it stay as they were;
-/// all other names are undefined at its end. texts: the text of <name>.pov and of the files it includes, except the
-/// templates for caps, shapes and maps and the lists of colours, which are always searched for names. maps: true if
-/// each frame of a run may have a volume map.
+/// Returns the text of <name>.inc, which includes <name>.pov. It declares Meniscus_Surface, Meniscus_Shapes,
+/// Meniscus_Object_1, ... as far as the scene has them, and places nothing. Names that were declared before it stay as
+/// they were; all other names are undefined at its end. texts: the text of <name>.pov and of the files it includes,
+/// except the templates for caps, shapes and maps and the lists of colours, which are always searched for names. maps:
+/// true if each frame of a run may have a volume map.
 std::string own_scene_text(std::string_view name, std::span<const std::string_view> texts, bool maps = false);
 
 }  // namespace meniscus::povray

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the tree of a level set: a root, nodes of 32 x 32 x 32 nodes, those of 16 x 16 x 16 blocks, blocks of voxels.
+// Writes the tree of a level set: a root, nodes of 32 x 32 x 32 nodes, nodes of 16 x 16 x 16 blocks, blocks of voxels.
 #include "exporters/vdb/vdb_file.h"
 
 #include <array>

@@ -4,8 +4,8 @@
 //
 // Written in the common subset of GLSL and C++ with GLM. The includer defines `real`, `real2`, `real3` and
 // `GEOMETRY` (inline in C++, nothing in GLSL). Decisions use + - * / and sqrt only, because GLSL bounds their errors,
-// but not those of trigonometric functions. Results still differ between devices: a*b + c may be fused, a quotient is
-// good to 2.5 units in the last place, and sqrt, computed by inversesqrt, to 4.5. half_plane_noise() covers all of
+// but not the errors of trigonometric functions. Results still differ between devices: a*b + c may be fused, a quotient
+// is good to 2.5 units in the last place, and sqrt, computed by inversesqrt, to 4.5. half_plane_noise() covers all of
 // this; docs/explanation/theory.md derives it.
 //
 // All positions are relative to the centre of the circle's first ball. A ball is a centre and a weight (squared
@@ -85,7 +85,7 @@ struct HalfPlane {
 };
 
 // Returns a bound on the rounding error of covered_half_plane(), divided by (qq + w0) * (1 + |q| / radius). epsilon:
-// unit roundoff of `real`. The factor 18 is the worst sum of all errors, including those of the arguments.
+// unit roundoff of `real`. The factor 18 is the worst sum of all errors, including the arguments' errors.
 GEOMETRY real half_plane_noise(Circle c, real epsilon) {
   return real(18) * c.slackness * epsilon * c.inverse_radius;
 }

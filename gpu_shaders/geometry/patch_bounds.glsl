@@ -33,8 +33,8 @@ GEOMETRY SeenBound see_bound(PatchBound bound, real slack, real3 pivot, real3 ca
   return seen;
 }
 
-// Returns a bound of the spherical cap of points whose direction from the centre forms an angle with the unit vector
-// `axis` whose cosine is at least `cosine`.
+// Returns a bound of a spherical cap: the points with a direction from the centre at an angle to the unit vector `axis`
+// that has a cosine of at least `cosine`.
 GEOMETRY PatchBound cap_bound(real3 center, real radius, real3 axis, real cosine) {
   PatchBound bound;
   bound.center = center;

@@ -5,7 +5,7 @@
 #include "gpu_shaders/ray_cast/parameters.glsl"
 
 const uint kSliceCount = 32u;
-const uint kSlotsPerTile = 2u * kSliceCount;  // the slices of spheres first, then those of tori
+const uint kSlotsPerTile = 2u * kSliceCount;  // the slices of spheres first, then the slices of tori
 
 
 uint slice_of(DepthSlices slices, float nearest) {

@@ -17,7 +17,7 @@ struct Nearest {
   uvec4 tie_key;
 };
 
-// Keeps the nearer hit. Of two hits at the same distance it keeps the same one in any order.
+// Keeps the nearer hit. If two hits are at the same distance, the choice does not depend on their order.
 void keep_nearest(uint index, Primitive primitive, int k, float t, inout Nearest nearest) {
   bool tie_won = primitive.kind < nearest.kind[k] ||
                  (primitive.kind == nearest.kind[k] && primitive.tie_key < nearest.tie_key[k]);

@@ -37,7 +37,7 @@ struct Hit {
 const uint kConvex = 0u;
 const uint kToroidal = 1u;
 const uint kConcave = 2u;
-const uint kCylinder = 3u;  // this one and the next are not patches: sticks and ribbons beside a surface
+const uint kCylinder = 3u;  // this one and the next are not patches, but sticks and ribbons
 const uint kTriangle = 4u;
 const uint kNoPrimitive = 0xffffffffu;
 const uint kOnPlane = 0xfffffffeu;  // of a hit: where a plane cuts a solid

@@ -5,8 +5,8 @@
 // Written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where points may be packets with a common
 // primitive. The includer provides row(), shows() of an atom, and `some_hidden`, which is false if all atoms are shown.
 
-// Returns the atom of a point on a concave patch, which is that of the nearest contact. Of two equally near contacts,
-// the atom with the smaller number counts, in any order of the contacts. x: point relative to the probe's centre.
+// Returns the atom of a point on a concave patch, which is the atom of the nearest contact. If two contacts are equally
+// near, it is the atom with the smaller number, in any order of the contacts. x: point relative to the probe's centre.
 GEOMETRY natural concave_atom(Primitive primitive, real3 x, float radius) {
   uint first_contact = primitive.first_row + 1u + primitive.plane_count;
   natural atom = natural(kNoPrimitive);

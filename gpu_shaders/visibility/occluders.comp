@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stage "visible atoms", 1: draws the vdW spheres into blocks of pixels. Each block keeps a depth by which all of its
 // rays have ended.
-// Reads: balls. Writes: block_depths (bits of floats, filled with those of kNothing before). One group per atom.
+// Reads: balls. Writes: block_depths (bits of floats, filled with the bits of kNothing before). One group per atom.
 // Overflow: none.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.2 (visible atoms), with blocks of rays instead of single ones.
 #version 450 core

@@ -1,7 +1,7 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the atom whose sphere is nearest to each point of a cap. Each atom draws the ball in which it may be the
-// nearest, and the nearest one wins by its depth. Of two equally near atoms the one that is drawn first wins.
+// nearest, and the nearest one wins by its depth. If two atoms are equally near, the one that is drawn first wins.
 #define LAYERS 1
 #include "gpu_shaders/webgl/scene.glsl"
 

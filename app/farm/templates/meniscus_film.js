@@ -1,6 +1,6 @@
 // A job type of Flamenco 3 for bundles of Meniscus. Copy it once into the manager's scripts folder and restart the
 // manager; each job then names its bundle. A worker of Flamenco does one task at a time, so a task may use all of its
-// machine unless "threads" says less; what memory it needs stands in the bundle's flamenco_job.json.
+// machine unless "threads" says less; the bundle's flamenco_job.json gives the memory that it needs.
 const JOB_TYPE = {
     label: "Meniscus Film",
     description: "Frames of a molecular surface: a bundle made by meniscus farm bundle",

@@ -21,7 +21,7 @@
 namespace meniscus {
 namespace {
 
-/// Formulas of the shared sources.
+/// The formulas of the shared sources for transparent surfaces.
 struct SeenThrough {
   using vec3 = glm::vec3;
   using vec4 = glm::vec4;
@@ -30,7 +30,7 @@ struct SeenThrough {
 
 constexpr ray_cast::Hit kNoHit{glm::vec3(0.0f), 0.0f, ray_cast::kNoPrimitive, ray_cast::kNoPrimitive, 0, 0};
 
-/// In whole tiles.
+/// Returns the edge of a block, in whole tiles.
 int block_edge(const RenderSettings& settings) {
   return std::max(settings.block_edge / kTileEdge * kTileEdge, kTileEdge);
 }
@@ -73,7 +73,7 @@ void CpuRenderer::place(std::span<const PictureObject> objects, const Camera& ca
   placement_ = place_atoms(balls, probe_radius, frame_);
   const std::vector<Ball> kept = kept_balls(objects);
   if (kept.empty() || kept.size() == balls.size()) return;
-  // Air begins where a cut picture does.
+  // The depth cue of a picture with cuts begins at the part that is kept.
   const ScenePlacement seen = place_atoms(kept, probe_radius, frame_);
   placement_.first_depth = seen.first_depth;
   placement_.last_depth = seen.last_depth;
@@ -186,7 +186,7 @@ void CpuRenderer::resize_samples(const BlockTask& task) {
   if (content.shows_through) front_.resize(task.pixel_count(), content.marks, false);
 }
 
-/// Depths need no light.
+/// Depths do not depend on light.
 void CpuRenderer::cast_shade_map(PictureScene& scene, const RenderSettings& settings, Interruption& interruption) {
   const PictureFrame map = shade_map_frame(frame_);
   const BlockTask task{scene, {map, {{0, 0}, map.size}}, settings};
@@ -258,7 +258,7 @@ void CpuRenderer::look_at(int sample, const BlockTask& block, Interruption& inte
   for_each_until(interruption, task.view.size.y, [&](int y) { kernels_.finish_row(task, y); });
 }
 
-/// Sets what a sample's shade is made of; finds it, if the sample has its own.
+/// Prepares the shade of a sample, and computes it unless the sample shares the shade of an earlier one.
 void CpuRenderer::find_shade(BlockSamples& samples, int sample, const Look& look, LaneLook& task,
                              Interruption& interruption) {
   task.visibility = samples.visibility.data();
@@ -278,15 +278,15 @@ void CpuRenderer::find_shade(BlockSamples& samples, int sample, const Look& look
   for_each_row(kernels_.occlude_row);
 }
 
-/// Finishes what is seen through and first along its ray: its shade, air and lines go into samples_.over, each as
-/// opaque as it is.
+/// Finishes the first transparent point along each ray: shade, depth cue and lines are written to samples_.over, each
+/// premultiplied by the opacity there.
 void CpuRenderer::look_at_front(int sample, LaneLook task, const Look& look, Interruption& interruption) {
   const glm::ivec2 size = task.view.size;
   const std::size_t pixel_count = static_cast<std::size_t>(size.x) * size.y;
   front_sums_.assign(pixel_count, glm::vec4(0.0f));
   front_ink_.assign(pixel_count, 0.0f);
   task.samples = front_.lanes(look.traces_sky());
-  task.finish.specular = 0.0f;  // highlights are in what is cast
+  task.finish.specular = 0.0f;  // what is cast has highlights already
   task.shade_map = front_shade_map_.data();
   task.sums = front_sums_.data();
   task.ink = front_ink_.data();
@@ -303,7 +303,7 @@ void CpuRenderer::look_at_front(int sample, LaneLook task, const Look& look, Int
         continue;
       }
       if (front_ink_[at] == 0.0f) continue;
-      float nearby = 0.0f;  // a line beside it is as opaque as it is there
+      float nearby = 0.0f;  // a line next to it is as opaque as it is there
       for (int row = std::max(y - reach, 0); row <= std::min(y + reach, size.y - 1); ++row)
         for (int column = std::max(x - reach, 0); column <= std::min(x + reach, size.x - 1); ++column)
           nearby = std::max(nearby, front_.color[static_cast<std::size_t>(row) * size.x + column].w);

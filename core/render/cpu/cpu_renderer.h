@@ -24,12 +24,12 @@
 
 namespace meniscus {
 
-/// Makes one picture after another on all threads of the CPU: the same picture to the bit for vectors of any width and
-/// for any number of threads, and the picture that GL makes but for the rounding of its arithmetic.
+/// Makes pictures one after another on all threads of the CPU. A picture is the same to the bit for vectors of any
+/// width and for any number of threads, and equals GL's picture except for the rounding of arithmetic.
 class CpuRenderer {
  public:
-  /// most_lanes: vectors are no longer than that, of 4, 8 or 16 numbers; the machine has them or shorter ones.
-  /// patches_together: that of VisibleCopies.
+  /// Chooses the widest kernels with at most most_lanes (4, 8 or 16) numbers per vector that the machine can run.
+  /// patches_together: see VisibleCopies.
   explicit CpuRenderer(int most_lanes = 16, std::size_t patches_together = VisibleCopies::kPatchesTogether)
       : kernels_(widest_kernels(most_lanes)), patches_together_(patches_together) {}
 
@@ -43,9 +43,9 @@ class CpuRenderer {
     return render(*pack_copies(objects, camera, settings), settings);
   }
 
-  /// Draws a finished picture over the look's background, which stays as rgba(). stop is called now and then on this
-  /// thread; if it returns true, the picture is given up: draw() returns false, rgba() is the picture before, and
-  /// nothing can be picked. Throws as render().
+  /// Draws a finished picture over the look's background, which stays available as rgba(). `stop` is called regularly
+  /// on this thread; if it returns true, drawing stops: draw() returns false, rgba() keeps the previous picture, and
+  /// pick() finds nothing. Throws as render().
   bool draw(std::span<const PictureObject> objects, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop = {}) {
     return draw(pack(objects, camera, settings), settings, stop);
@@ -59,8 +59,8 @@ class CpuRenderer {
   /// Returns the last drawn picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.
   const std::vector<std::uint8_t>& rgba() const { return rgba_; }
   glm::ivec2 size() const { return size_; }
-  /// Returns what a pixel of the last drawn picture shows; nothing where nothing is hit. pixel: column, row from the
-  /// top.
+  /// Returns what a pixel (column, row from the top) of the last drawn picture shows; nothing where no ray hit
+  /// anything.
   std::optional<PickedPoint> pick(glm::ivec2 pixel) const;
 
   /// Returns the times of the stages of the last picture.
@@ -69,25 +69,25 @@ class CpuRenderer {
   static std::string device();
 
  private:
-  /// One sample of each pixel of a block and, after the last, of what lies outside. Tiles that list nothing are never
-  /// written, so that one beginning does for all samples.
+  /// One sample of each pixel of a block, and an element after the last for everything outside. Tiles without
+  /// primitives are never written, so they are initialised once for all samples.
   struct BlockSamples {
     std::vector<glm::vec4> color, over;
     std::vector<float> depth, normal[3], mark, visibility;
-    std::vector<float> shade_depth;  ///< depth of the sample whose visibility it is, if several share it
+    std::vector<float> shade_depth;  ///< depth of the sample whose visibility this is, if several samples share it
     std::vector<float> shade_size;   ///< LaneLook::shade_size
 
     void resize(std::size_t pixel_count, bool has_marks, bool has_layers);
     LaneSamples lanes(bool has_visibility);
   };
 
-  /// What is made of a block.
+  /// The requested results of a block.
   struct BlockTask {
     PictureScene& scene;
     SceneBlock at;
     const RenderSettings& settings;
-    bool hits = false;  ///< wanted, too
-    /// Called behind each sample, whose hits are there then; empty: hits are those of the first.
+    bool hits = false;  ///< true: hits are requested, too
+    /// Called after each sample, when its hits are complete. If it is empty, hits are the hits of the first sample.
     std::function<void(int sample)> after_sample{};
 
     std::size_t pixel_count() const { return static_cast<std::size_t>(at.block.size.x) * at.block.size.y; }
@@ -117,19 +117,19 @@ class CpuRenderer {
   const LaneKernels& kernels_;
   const std::size_t patches_together_;
   StageClock clock_;
-  PictureFrame frame_;                  // of the picture at work, and when it is drawn, of that
-  ScenePlacement placement_;            // of the picture at work
-  std::optional<Occluders> occluders_;  // of the picture at work, if its light is traced
-  const std::shared_ptr<SurfaceScene> surface_ = std::make_shared<SurfaceScene>();  // of pictures of one surface
+  PictureFrame frame_;                  // frame of the current or last drawn picture
+  ScenePlacement placement_;            // placement of the current picture
+  std::optional<Occluders> occluders_;  // occluders of the current picture, if its light is traced
+  const std::shared_ptr<SurfaceScene> surface_ = std::make_shared<SurfaceScene>();  // for pictures of one surface
   std::vector<glm::vec4> sums_;
   std::vector<ray_cast::Hit> hits_;
-  BlockSamples samples_, front_;                    // front_: of pictures in which something is seen through
-  std::vector<glm::vec4> front_sums_;               // of front_, finished
-  std::vector<float> front_ink_;                    // share of it that lines cover
-  std::vector<float> shade_map_, front_shade_map_;  // depths of the whole picture, and after the last that of nothing
+  BlockSamples samples_, front_;                    // front_: for pictures with transparent parts
+  std::vector<glm::vec4> front_sums_;               // finished colours of front_
+  std::vector<float> front_ink_;                    // share of front_ that lines cover
+  std::vector<float> shade_map_, front_shade_map_;  // depths of the whole picture; the last is the depth of nothing
   std::vector<std::uint8_t> rgba_;
-  glm::ivec2 size_{0};                         // of rgba_
-  std::shared_ptr<const PictureScene> drawn_;  // hits_ are those of rgba_ in this scene; nullptr: they are not
+  glm::ivec2 size_{0};                         // size of rgba_
+  std::shared_ptr<const PictureScene> drawn_;  // the scene of rgba_, which hits_ belong to; nullptr: hits_ are invalid
 };
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A picture at work: how far it is, and whether it is given up.
+// Progress and interruption of the current picture.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace meniscus {
 
-/// Whether a picture is to be given up; the one who wants it is asked on its own thread only.
+/// Decides whether the current picture is to be stopped. The caller's function is called on the caller's thread only.
 class Interruption {
  public:
   explicit Interruption(const std::function<bool()>& stop) : stop_(stop) {}
@@ -24,7 +24,7 @@ class Interruption {
     return came_;
   }
 
-  /// How many of `samples` of this block are cast, from 0; on the thread that is asked.
+  /// Notes how many of `samples` of this block are cast, from 0. Only the caller's thread may call it.
   void note(int sample, int samples) { block_share_ = static_cast<double>(sample) / samples; }
   double block_share() const { return block_share_; }
 
@@ -35,7 +35,7 @@ class Interruption {
   std::atomic<bool> came_ = false;
 };
 
-/// Tells how far a picture is that is cast block by block.
+/// Reports the progress of a picture that is cast block by block.
 class BlockProgress {
  public:
   BlockProgress(const RenderSettings& settings, std::size_t blocks) : blocks_(static_cast<double>(blocks)) {
@@ -46,7 +46,7 @@ class BlockProgress {
     };
   }
 
-  /// Of the block at work.
+  /// Returns the interruption of the current block.
   Interruption& interruption() { return interruption_; }
   void end_block() {
     ++done_;
@@ -59,7 +59,7 @@ class BlockProgress {
   Interruption interruption_{tell_};
 };
 
-/// Calls work(n) for n < count on all threads until an interruption comes.
+/// Calls work(n) for n < count on all threads until an interruption occurs.
 template <typename Work>
 void for_each_until(Interruption& interruption, int count, const Work& work) {
   tbb::parallel_for(0, count, [&](int n) {

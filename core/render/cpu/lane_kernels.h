@@ -22,72 +22,75 @@ namespace meniscus {
 
 struct VolumePaint;
 
-/// Colours of points by a volume map, from outside of the kernels: what is seen only is asked.
+/// Colours points by a volume map. It is called from the kernels, for visible points only, and is compiled outside of
+/// them.
 struct PointPaint {
-  const VolumePaint* map = nullptr;           ///< nullptr: colours are those of atoms
-  glm::dvec3 pivot{0.0};                      ///< Å: where positions count from
-  const std::uint8_t* keeps_color = nullptr;  ///< of atoms: whether they have their own
+  const VolumePaint* map = nullptr;           ///< nullptr: points have the colours of atoms
+  glm::dvec3 pivot{0.0};                      ///< Å, the origin of positions
+  const std::uint8_t* keeps_color = nullptr;  ///< for each atom, 1 if it keeps its own colour
 };
 
-/// Linear, for a point of this atom. x: Å from the pivot; normal: towards the solvent.
+/// Returns the linear colour of a point of this atom. x: Å from the pivot; normal: towards the solvent.
 glm::vec3 painted(const PointPaint& paint, std::uint32_t atom, const glm::vec4& atom_color, const glm::vec3& x,
                   const glm::vec3& normal);
 
 /// A box of a tree over the primitives of an object; low and high are relative to the pivot.
 struct OccluderBox {
   glm::vec3 low;
-  std::uint32_t first;  ///< of a leaf: in LaneOccluder::order; else its second child, for the first one follows it
+  /// For a leaf the first index in LaneOccluder::order; otherwise the second child, because the first one follows.
+  std::uint32_t first;
   glm::vec3 high;
-  std::uint32_t count;  ///< of a leaf's primitives; 0: it has two children
+  std::uint32_t count;  ///< number of a leaf's primitives; 0: the box has two children
 };
 
 struct LaneOccluder;
 
-/// Where light comes from, and what may keep it away. Directions are towards the light, of length 1, in the molecule's
-/// axes; each sample of a pixel takes those that follow the last sample's.
+/// The light of a scene and its occluders. Directions are unit vectors towards the light in the molecule's axes. Each
+/// sample of a pixel takes the directions that follow the previous sample's directions.
 struct LaneLight {
   const LaneOccluder* occluders = nullptr;
   int occluder_count = 0;
-  const glm::vec3* lamp = nullptr;  ///< over the disc of the key light
-  int lamp_rays = 0;                ///< of a sample; 0: it casts no shadows
-  float shadow = 0.0f;              ///< how dark those are, 0 to 1
-  const glm::vec3* sky = nullptr;   ///< over the whole sphere
-  int sky_rays = 0;                 ///< of a sample; 0: nobody asks what is seen of the sky
-  float sky_reach = 0.0f;           ///< Å: what is farther away covers nothing
-  float lift = 0.0f;                ///< Å by which rays begin above the surface
+  const glm::vec3* lamp = nullptr;  ///< directions over the disc of the key light
+  int lamp_rays = 0;                ///< rays per sample; 0: the lamp casts no shadows
+  float shadow = 0.0f;              ///< darkness of shadows, 0 to 1
+  const glm::vec3* sky = nullptr;   ///< directions over the whole sphere
+  int sky_rays = 0;                 ///< rays per sample; 0: visibility of the sky is not computed
+  float sky_reach = 0.0f;           ///< Å, farther occluders are ignored
+  float lift = 0.0f;                ///< Å, distance of the rays' origins from the surface
 };
 
-/// What a tile's rays are traced through; see gpu_shaders/ray_cast/records.glsl.
+/// The scene that a tile's rays are traced through; see gpu_shaders/ray_cast/records.glsl.
 struct LaneScene {
   const ray_cast::Primitive* primitives = nullptr;
   const glm::vec4* rows = nullptr;
-  const glm::vec4* colors = nullptr;  ///< linear, alpha: opacity, 0 if hidden; of atoms, then of kinds
-  const float* marks = nullptr;       ///< of atoms: Coloring::line_marks(), or nullptr
+  const glm::vec4* colors = nullptr;  ///< linear, alpha: opacity, 0 if hidden; one for each atom, then for each kind
+  const float* marks = nullptr;       ///< Coloring::line_marks() of atoms, or nullptr
   bool some_hidden = false;
   PointPaint paint;
   kernel::RayCastParameters params{};
-  kernel::BlockView view{};          ///< but for its sample_offset
-  const LaneLight* light = nullptr;  ///< nullptr: light goes through everything
+  kernel::BlockView view{};          ///< its sample_offset is not used
+  const LaneLight* light = nullptr;  ///< nullptr: light passes through everything
 };
 
-/// All of one object that keeps light away: what is opaque. Its scene is seen by nobody.
+/// The opaque parts of one object, which block light. The scene of an occluder is not visible.
 struct LaneOccluder {
   LaneScene scene;
-  const OccluderBox* boxes = nullptr;    ///< the first is around all; nullptr: there is nothing
-  const std::uint32_t* order = nullptr;  ///< of its primitives
+  const OccluderBox* boxes = nullptr;    ///< the first contains all others; nullptr: there are no primitives
+  const std::uint32_t* order = nullptr;  ///< indices of its primitives
   const glm::vec4* planes = nullptr;     ///< as LayerTask::planes
   int plane_count = 0;
-  glm::mat3 turn{1.0f};  ///< of a point x of the picture, turn * x + shift is where it is in the object's own place
+  glm::mat3 turn{1.0f};  ///< turn * x + shift is the place, in the object's own axes, of a point x of the picture
   glm::vec3 shift{0.0f};
-  bool is_solid = false;   ///< where planes cut it there are caps
-  bool is_opaque = false;  ///< all of it
+  bool is_solid = false;   ///< true: where planes cut it there are caps
+  bool is_opaque = false;  ///< true: all of it is opaque
 };
 
-/// A tile's primitives by rising Primitive::nearest; each array goes on for kListPadding entries that no ray meets.
+/// A tile's primitives by increasing Primitive::nearest. Each array is followed by kListPadding entries that no ray
+/// hits.
 struct LaneList {
   static constexpr int kListPadding = 16;
   int count = 0;
-  const float* x = nullptr;  ///< of their bounds
+  const float* x = nullptr;  ///< x of the centres of their bounds
   const float* y = nullptr;
   const float* z = nullptr;
   const float* radius = nullptr;
@@ -95,114 +98,114 @@ struct LaneList {
   const std::uint32_t* primitive = nullptr;
 };
 
-/// What is known of one sample of each pixel of a block, row by row.
+/// The properties of one sample of each pixel of a block, row by row.
 struct LaneSamples {
   glm::vec4* color = nullptr;   ///< linear, premultiplied
-  float* depth = nullptr;       ///< along the view axis, Å; kernel::kNothing where nothing is met
+  float* depth = nullptr;       ///< along the view axis, Å; kernel::kNothing where nothing is hit
   float* normal[3] = {};        ///< towards the solvent, in the molecule's axes
-  float* visibility = nullptr;  ///< what it sees of the sky, by rays; nullptr: LaneLight::sky_rays is 0
-  float* mark = nullptr;        ///< LaneScene::marks of what is met, else 0; nullptr if there are none
-  glm::vec4* over = nullptr;    ///< what is seen through before all of this, premultiplied; nullptr: nothing
+  float* visibility = nullptr;  ///< the share of the sky that it sees, from rays; nullptr: LaneLight::sky_rays is 0
+  float* mark = nullptr;        ///< LaneScene::marks of what is hit, otherwise 0; nullptr if there are none
+  glm::vec4* over = nullptr;    ///< transparent parts before all of this, premultiplied; nullptr: none
 };
 
 /// Some samples of a tile's pixels.
 struct LaneTile {
   static constexpr int kMostSamples = 4;
   static constexpr int kMostRays = kMostSamples * kernel::kTileEdge * kernel::kTileEdge;
-  /// Of a pixel's sample.
+  /// Returns the number of the ray of a pixel's sample.
   static constexpr std::uint32_t ray_number(int sample, int x, int y) {
     return static_cast<std::uint32_t>((sample * kernel::kTileEdge + y) * kernel::kTileEdge + x);
   }
-  glm::ivec2 origin{0};              ///< in the block, pixels
-  int first_sample = 0;              ///< of all that the pixels get
+  glm::ivec2 origin{0};              ///< place in the block, pixels
+  int first_sample = 0;              ///< number of the first sample among all samples of a pixel
   int sample_count = 1;              ///< 1 to kMostSamples
-  glm::vec2 offset[kMostSamples]{};  ///< of the samples from the pixels' centres
+  glm::vec2 offset[kMostSamples]{};  ///< offsets of samples from the pixels' centres
   LaneList list;
 
-  glm::vec4* sums = nullptr;      ///< of the block: gets the samples' sum added; or nullptr
-  ray_cast::Hit* hits = nullptr;  ///< of the block: gets those of the first sample; or nullptr
-  LaneSamples samples;            ///< of the block, for one sample; its pointers may be nullptr all together
-  /// Likewise, of layers: the first thing along each ray that is not quite transparent. Where that lets light through,
-  /// `color` is its own, not premultiplied, and its opacity; else 0.
+  glm::vec4* sums = nullptr;      ///< pixels of the block, to which the sum of samples is added; or nullptr
+  ray_cast::Hit* hits = nullptr;  ///< pixels of the block, which get the hits of the first sample; or nullptr
+  LaneSamples samples;            ///< pixels of the block, for one sample; all of its pointers may be nullptr
+  /// The samples of the first point along each ray that is not completely transparent. If it is partly transparent,
+  /// `color` has its own colour, not premultiplied, and its opacity; otherwise `color` is 0.
   LaneSamples front;
 };
 
-/// A point where a ray meets something: what layers are made of.
+/// A point where a ray hits something; the elements of layers.
 struct LayerHit {
   float t = 0.0f;
-  std::uint32_t ray = 0;        ///< of the tile: LaneTile::ray_number()
-  std::uint32_t layer = 0;      ///< for the host, which sets it
+  std::uint32_t ray = 0;        ///< number in the tile: LaneTile::ray_number()
+  std::uint32_t layer = 0;      ///< set by the host, for its own use
   std::uint32_t primitive = 0;  ///< kOnPlane where a plane cuts the layer
   std::uint32_t atom = 0;
-  float facing = 0.0f;      ///< normal . direction of the ray: it goes into the solid where this is negative
+  float facing = 0.0f;      ///< dot(normal, direction of the ray): negative where the ray enters the solid
   float depth = 0.0f;       ///< along the view axis, Å
-  glm::vec4 color{0.0f};    ///< lit, linear, not premultiplied; alpha: opacity
+  glm::vec4 color{0.0f};    ///< with light, linear, not premultiplied; alpha: opacity
   glm::vec3 normal{0.0f};   ///< towards the solvent
   float visibility = 1.0f;  ///< LaneSamples::visibility
 };
 
-/// Room for hits; the kernels ask for more of it.
+/// Memory for hits, which the kernels extend as needed.
 struct LayerHits {
   LayerHit* hits = nullptr;
   std::uint32_t count = 0, capacity = 0;
   void (*grow)(LayerHits& full) = nullptr;
 };
 
-/// Where a ray of a tile goes into the half-spaces of its layer and out of them; `out` <= `in`: it stays outside.
+/// The interval of a ray of a tile in the half-spaces of its layer; if `out` <= `in` it is empty.
 struct ClippedRay {
   float in = 0.0f, out = 0.0f;
-  std::uint32_t in_plane = kNoPlane, out_plane = kNoPlane;  ///< of LayerTask::planes
-  static constexpr std::uint32_t kNoPlane = ~0u;            ///< the camera; far away
+  std::uint32_t in_plane = kNoPlane, out_plane = kNoPlane;  ///< indices in LayerTask::planes
+  static constexpr std::uint32_t kNoPlane = ~0u;            ///< the camera, or infinity
 };
 
-/// How a layer is cast: a scene whose solids are cut by planes, or seen through.
+/// The settings for casting a layer, which is a scene whose solids planes cut or that is transparent.
 struct LayerTask {
-  const glm::vec4* planes = nullptr;  ///< kept is where dot(xyz, x) < w, relative to the pivot
+  const glm::vec4* planes = nullptr;  ///< points with dot(xyz, x) < w, relative to the pivot, are kept
   int plane_count = 0;
-  bool all = false;                 ///< every hit; else the nearest of each ray
-  bool has_caps = false;            ///< where a ray meets its solid from inside behind a plane, that is not seen
-  bool thickens = false;            ///< opacity grows where a ray goes along the surface, as in a thin film
-  const float* farthest = nullptr;  ///< for each ray of the tile, what may still be seen; nullptr: everything
-  ClippedRay* clipped = nullptr;    ///< gets, for each ray of the tile, where its planes cut it
+  bool all = false;                 ///< true: every hit; false: the nearest hit of each ray
+  bool has_caps = false;            ///< true: the inner side of a solid behind a plane is not visible
+  bool thickens = false;            ///< true: opacity is that of a thin film, higher where a ray is nearly tangential
+  const float* farthest = nullptr;  ///< greatest visible distance on each ray of the tile; nullptr: no limit
+  ClippedRay* clipped = nullptr;    ///< receives the interval that the planes leave of each ray of the tile
 };
 
-/// What a look makes of one sample of each pixel of a block. Arrays of pixels, those of `samples` too, have one more
-/// after the last: it stands for whatever lies outside.
+/// The input and output of a look for one sample of each pixel of a block. Arrays of pixels, also in `samples`, have an
+/// additional element at the end, which represents everything outside.
 struct LaneLook {
   kernel::BlockView view{};
   kernel::OcclusionParameters occlusion{};
   kernel::FinishParameters finish{};
   LaneSamples samples;
   const float* shade_map = nullptr;    ///< depths of the whole picture, for occlude_row
-  const float* shade_depth = nullptr;  ///< of the sample whose visibility this is
-  float* shade_size = nullptr;         ///< of a pixel at that depth, Å
+  const float* shade_depth = nullptr;  ///< depths of the sample whose visibility this is
+  float* shade_size = nullptr;         ///< size of a pixel at that depth, Å
   float* visibility = nullptr;
-  glm::vec4* sums = nullptr;  ///< gets the finished colours added
-  float* ink = nullptr;       ///< gets the share of each pixel that lines cover; or nullptr
+  glm::vec4* sums = nullptr;  ///< the finished colours are added to it
+  float* ink = nullptr;       ///< receives the share of each pixel that lines cover; or nullptr
 };
 
 /// The kernels for one width.
 struct LaneKernels {
   int lanes;
   void (*cast_tile)(const LaneScene& scene, const LaneTile& tile);
-  /// Adds what the tile's rays meet to `hits`, in any order; the tile's own arrays are left alone.
+  /// Appends what the tile's rays hit to `hits`, in any order. The tile's own arrays do not change.
   void (*cast_layer)(const LaneScene& scene, const LaneTile& tile, const LayerTask& task, LayerHits& hits);
-  /// Lights points on planes, whose t, ray, normal and colour are given; sets their depth.
+  /// Lights points on planes, with t, ray, normal and colour given, and sets their depths.
   void (*light_points)(const LaneScene& scene, const LaneTile& tile, LayerHit* points, std::uint32_t count);
-  /// What points, relative to the pivot, see of light.sky, all of it; normals towards the solvent.
+  /// Computes the visible share of all of light.sky for points relative to the pivot; normals are towards the solvent.
   void (*see_sky)(const LaneLight& light, const glm::vec3* points, const glm::vec3* normals, float* seen,
                   std::uint32_t count);
-  void (*measure_row)(const LaneLook& look, int y);  ///< what pixels measure at their shade's depth, into shade_size
-  void (*occlude_row)(const LaneLook& look, int y);  ///< what hits see of the sky, into visibility
-  void (*finish_row)(const LaneLook& look, int y);   ///< needs the visibility and size of two rows around
+  void (*measure_row)(const LaneLook& look, int y);  ///< writes pixel sizes at the shade's depth to shade_size
+  void (*occlude_row)(const LaneLook& look, int y);  ///< writes the visible share of the sky to visibility
+  void (*finish_row)(const LaneLook& look, int y);   ///< reads the visibility and size of two rows around
 };
 
-/// For 4, 8 (AVX2) and 16 (AVX-512) lanes; nullptr where this processor cannot run them.
+/// Returns the kernels for 4, 8 (AVX2) and 16 (AVX-512) lanes; nullptr if this processor cannot run them.
 const LaneKernels* kernels_of_4_lanes();
 const LaneKernels* kernels_of_8_lanes();
 const LaneKernels* kernels_of_16_lanes();
 
-/// The widest that this processor can run, of those with at most so many lanes.
+/// Returns the widest kernels with at most most_lanes lanes that this processor can run.
 const LaneKernels& widest_kernels(int most_lanes);
 
 }  // namespace meniscus

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compiles packets of sixteen rays, for processors with AVX-512. Headers with code of their own come first: it stays
-// fit for every processor.
+// Compiles packets of sixteen rays, for processors with AVX-512. Headers with inline code are included first, so that
+// their code still runs on every processor.
 #include "core/render/cpu/lane_kernels.h"
 
 #if defined(__x86_64__)
 #include "core/render/cpu/processor.h"
 
 #if defined(__clang__) && __clang_major__ >= 18 && __clang_major__ < 22
-// These versions name registers of 512 bits apart (evex512).
+// These compilers have a separate option for registers of 512 bits (evex512).
 #pragma clang attribute push(__attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,evex512"))), apply_to = function)
 #elif defined(__clang__)
 #pragma clang attribute push(__attribute__((target("avx512f,avx512dq,avx512vl,avx512bw"))), apply_to = function)

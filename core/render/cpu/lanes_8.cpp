@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compiles packets of eight rays, for processors with AVX2. Headers with code of their own come first: it stays fit for
-// every processor.
+// Compiles packets of eight rays, for processors with AVX2. Headers with inline code are included first, so that their
+// code still runs on every processor.
 #include "core/render/cpu/lane_kernels.h"
 
 #if defined(__x86_64__)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Casts the rays of one tile through a layer: solids cut by planes, and all points of those that are seen through;
-// included by lanes_*.cpp alone.
+// Casts the rays of one tile through a layer: solids cut by planes, and all points of transparent parts. Only
+// lanes_*.cpp include it.
 #pragma once
 
 #include "core/render/cpu/tile_caster.h"
 
 namespace meniscus::MENISCUS_LANE_NAMESPACE {
 
-/// A bundle that keeps points instead of colours.
+/// A bundle that collects points instead of colours.
 class LayerBundle : Bundle {
  public:
   LayerBundle(const LaneScene& scene, const LaneTile& tile, glm::ivec2 origin, const LayerTask& task, LayerHits& hits)
@@ -29,7 +29,7 @@ class LayerBundle : Bundle {
   }
 
  private:
-  /// Light is for what is seen: of points behind caps alone it matters that they are there.
+  /// Shades the points of a packet. Points behind caps need no light, because only their existence matters.
   Shaded shade_before_caps(int packet) {
     Shaded shaded = met_by(packet);
     const Rays& rays = rays_[packet];
@@ -38,7 +38,7 @@ class LayerBundle : Bundle {
     return shaded;
   }
 
-  /// The number of the ray in this lane of a packet; kNoRay outside of the block.
+  /// A ray outside of the block.
   static constexpr uint kNoRay = ~0u;
   uint ray_of(int packet, int n) const {
     const int sample = packet / kPixelPackets, place = packet % kPixelPackets * kLanes + n;
@@ -47,7 +47,7 @@ class LayerBundle : Bundle {
     return LaneTile::ray_number(sample, x - tile_.origin.x, y - tile_.origin.y);
   }
 
-  /// Where along its rays a packet looks for something.
+  /// Sets the intervals along its rays in which a packet searches for hits.
   void bound(int packet) {
     Rays& rays = rays_[packet];
     if (task_.plane_count > 0) clip(packet);
@@ -170,19 +170,19 @@ inline void cast_layer(const LaneScene& scene, const LaneTile& tile, const Layer
   for_each_bundle(scene, tile, [&](glm::ivec2 origin) { LayerBundle(scene, tile, origin, task, hits).cast(); });
 }
 
-/// Points of a tile's rays, a packet of them at a time.
+/// Lights points of a tile's rays, a packet of points at a time.
 class PointLighter : LightedScene {
  public:
   PointLighter(const LaneScene& scene, const LaneTile& tile)
       : LightedScene(scene), tile_(tile), first_offset_(scene.view.first_offset) {
-    // Places hold both: whole numbers are added first, so that there is one rounding, as for rays.
+    // The places contain both offsets: integers are added first, so that there is a single rounding, as for rays.
     view.first_offset = view.sample_offset = vec2(0.0f);
   }
 
-  /// Of the tile's.
+  /// Returns the number of the tile's sample that has the point.
   static std::uint32_t sample_of(const LayerHit& point) { return point.ray / (kernel::kTileEdge * kernel::kTileEdge); }
 
-  /// Points of one sample.
+  /// Lights points of one sample.
   void light(LayerHit* points, int count) {
     Floats x, y;
     real t;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Casts opaque layers first, which limit how far rays see the others; then sorts and composites all layers.
+// Casts opaque layers first, which limit the visible distance in the others. Then sorts and composites all layers.
 #include "core/render/cpu/layered_scene.h"
 
 #include <algorithm>
@@ -21,8 +21,8 @@ namespace {
 using ray_cast::kOnPlane;
 
 constexpr float kFar = 3.0e38f;    // beyond every hit
-constexpr double kCapRoom = 1e-6;  // Å, for rounding of distances
-/// Of what was seen through, what is left of a ray that has met enough.
+constexpr double kCapRoom = 1e-6;  // Å, tolerance for the rounding of distances
+/// The transmittance below which a ray ends in transparent parts.
 constexpr float kLeastLeft = 1.0f / 1024.0f;
 
 glm::ivec2 pixel_of(const LaneTile& task, std::uint32_t ray) {
@@ -36,17 +36,17 @@ std::uint32_t ray_count(const LaneTile& task) {
 
 std::uint32_t sample_of(std::uint32_t ray) { return ray / (kTileEdge * kTileEdge); }
 
-/// Formulas of the shared sources, for single rays.
+/// The formulas of the shared sources, for single rays.
 struct SingleRays {
   static float abs(float number) { return std::abs(number); }
   static float max(float a, float b) { return std::max(a, b); }
 #include "gpu_shaders/ray_cast/repeated_hit.glsl"
 };
 
-/// Through a place of the picture, in pixels from its corner.
+/// A ray through a point of the picture, in pixels from its corner.
 struct PictureRay {
   glm::dvec3 on_pivot_plane;  // Å from the pivot
-  glm::dvec3 direction;       // of length 1
+  glm::dvec3 direction;       // unit vector
 };
 
 PictureRay picture_ray(const PictureFrame& frame, const glm::dvec2& place) {
@@ -62,22 +62,22 @@ bool is_repeated(const LayerHit& hit, const LayerHit& before, float slack) {
   return SingleRays().is_repeated(hit.t, hit.facing, before.t, before.facing, slack);
 }
 
-/// Where a plane cuts, hidden atoms are seen through, and shapes lie within each other: all points of a ray tell what
-/// is solid.
+/// True if the layer needs all points of a ray to find the inside of solids: a plane cuts it, hidden atoms are
+/// transparent, or shapes lie within each other.
 bool is_translucent(const PictureObject& object) {
   return object.coloring->is_translucent() ||
          (!object.clip.empty() && (object.shapes || object.coloring->hides_some()));
 }
 
-/// Of the planes of an object those through which every ray of the block comes in, moved outwards by more than all
-/// roundings: no ray meets what lies wholly beyond one of them.
+/// Returns those planes of an object through which every ray of the block enters, moved outwards by more than all
+/// rounding errors: no ray hits what lies completely beyond one of them.
 std::vector<glm::vec4> entered_planes(std::span<const glm::vec4> planes, float slack, const PictureFrame& frame,
                                       const PictureBlock& block) {
-  constexpr float kSteep = 1e-2f;  // of a plane that rays do not graze
+  constexpr float kSteep = 1e-2f;  // smallest cosine between a plane's normal and a ray
   const float room = 0.01f + 100.0f * slack;
   std::vector<glm::vec4> entered;
   for (const glm::vec4& plane : planes) {
-    // Of directions that are not of unit length this is linear: corners have the extremes.
+    // The value is linear in directions that are not normalised, so the corners have the extremes.
     bool by_all = true;
     for (const glm::ivec2 corner : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)}) {
       const PictureRay ray = picture_ray(frame, glm::dvec2(block.origin + corner * block.size));
@@ -88,7 +88,7 @@ std::vector<glm::vec4> entered_planes(std::span<const glm::vec4> planes, float s
   return entered;
 }
 
-/// Darker in stripes across a plane.
+/// Returns a factor of brightness, which is lower on stripes across a plane.
 float hatched(const glm::dvec3& point, const glm::dvec3& normal, double distance) {
   const double stripe = glm::dot(point, hatching_direction(normal)) / (std::sqrt(2.0) * distance);
   return stripe - std::floor(stripe) < kHatchedShare ? kHatchedLight : 1.0f;
@@ -101,7 +101,7 @@ LayeredScene::LayeredScene(std::span<const PictureObject> objects, const Picture
     : frame_(frame) {
   layers_.reserve(objects.size());
   content_.several_objects = objects.size() > 1;
-  // The finish knows one material alone.
+  // The finish of samples knows a single material only.
   content_.highlights = std::ranges::any_of(objects, [](const PictureObject& o) { return !o.material.empty(); });
   for (const bool translucent : {false, true})
     for (const PictureObject& object : objects)
@@ -123,11 +123,11 @@ void LayeredScene::pack(Layer& layer, const ScenePlacement& placement, const Loo
   own.material = object.material.over(look.material);
   layer.scene.placement = placement;
   layer.scene.pack(object, frame_, own);
-  // What is seen through is not finished.
+  // Transparent parts are not finished.
   if (layer.translucent || content_.highlights) layer.scene.lanes.params.specular = own.material.specular;
   layer.planes = planes_around(frame_.pivot, object.clip);
   if (!object.surface || object.clip.empty()) return;
-  // A point of the solid lies in the ball of some atom, grown by the probe.
+  // A point of the solid lies in the ball of some atom, enlarged by the probe.
   double largest = 0.0;
   for (const Ball& ball : object.surface->atoms) largest = std::max(largest, ball.radius);
   layer.farthest_atom = largest + object.surface->probe_radius;
@@ -166,7 +166,7 @@ void LayeredScene::begin_block(const SceneBlock& block, Interruption&, StageCloc
 }
 
 void LayeredScene::cast_tile(std::size_t tile, LaneTile task, const LaneKernels& kernels) {
-  // Nothing has changed there since the block began, but for lines of what is seen through.
+  // Nothing has changed there since the block began, except for lines of transparent parts.
   const bool is_empty = std::ranges::all_of(layers_, [&](Layer& layer) { return layer.lists.entries(tile).empty(); });
   if (is_empty && !task.front.color) return;
   Workplace& place = workplaces_.local();
@@ -192,7 +192,7 @@ void LayeredScene::cast_layer(std::uint32_t number, std::size_t tile, const Tile
                          .all = layer.translucent,
                          .has_caps = layer.object->surface != nullptr && !layer.translucent,
                          .thickens = layer.object->thickens,
-                         // What lies behind a plane, however far, tells whether there is a cap.
+                         // The points behind a plane, at any distance, determine whether there is a cap.
                          .farthest = cut_by_planes ? nullptr : place.farthest.data(),
                          .clipped = place.clipped.data()};
   const std::size_t first = place.hits.size();
@@ -242,7 +242,7 @@ void LayeredScene::cut(std::uint32_t number, std::size_t first_hit, const TileWo
     const std::span<const std::uint32_t> order = work.place.order_of(ray);
     if (order.empty()) continue;
     const ClippedRay& clipped = work.place.clipped[ray];
-    bool hidden = false;  // by a cap
+    bool hidden = false;  // true: behind a cap
     if (clipped.in_plane != ClippedRay::kNoPlane && begins_inside(layer, hits, order)) {
       add_cap(ray, clipped.in, clipped.in_plane, -1.0f);
       caps.back().atom = leaving_hit(hits, order).atom;
@@ -266,8 +266,9 @@ const LayerHit& LayeredScene::leaving_hit(std::span<const LayerHit> hits, std::s
   return hits[*std::ranges::find_if(order, [&](std::uint32_t n) { return hits[n].facing > 0.0f; })];
 }
 
-/// order: of all points of a ray that lie beyond the plane. Of a surface the first tells. Shapes lie within each other,
-/// so that those count that are left and were not entered; but cylinders are open at their ends, in spheres.
+/// True if the ray is inside a solid at the plane. order: all points of the ray beyond the plane. In a surface the
+/// first point decides. Shapes lie within each other, so exits without an entry count; but cylinders are open at their
+/// ends inside spheres.
 bool LayeredScene::begins_inside(const Layer& layer, std::span<const LayerHit> hits,
                                  std::span<const std::uint32_t> order) {
   if (hits[order.front()].facing > 0.0f || layer.object->surface) return hits[order.front()].facing > 0.0f;
@@ -288,8 +289,8 @@ glm::dvec3 LayeredScene::cap_point(const LaneTile& task, const LayerHit& cap) co
   return frame_.pivot + ray.on_pivot_plane + ray.direction * static_cast<double>(cap.t);
 }
 
-/// All of a tile, row by row: the atoms that are near the tile are looked for once, and only those that are near enough
-/// to the middle of a row are asked for each of its caps.
+/// Colours all caps of a tile, row by row: the atoms near the tile are searched once, and a cap is compared only with
+/// the atoms that are near enough to the middle of its row.
 void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps) const {
   if (caps.empty()) return;
   if (layer.object->shapes) {
@@ -333,7 +334,7 @@ void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps, double re
   for (Cap& cap : caps) {
     NearAtom first{std::numeric_limits<double>::infinity(), 0};
     for (const auto& [distance, a] : near) {
-      if (distance - reach > first.first + kCapRoom) break;  // as are all that follow
+      if (distance - reach > first.first + kCapRoom) break;  // and so are all that follow
       first = std::min(first, {glm::length(cap.point - balls[a].center) - balls[a].radius, a});
     }
     cap.atom = first.second;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several objects in one picture: each is a layer that is cast by itself, and all are composited along each ray.
+// Several objects in one picture: each is a layer that is cast separately, and all layers are composited along each
+// ray.
 //
-// A closed surface that a plane cuts needs no geometry for its cap: the next point behind the plane tells whether the
-// ray is inside the solid there, for then it goes out of it at that point.
+// A closed surface that a plane cuts needs no geometry for its cap: the ray is inside the solid at the plane if it
+// leaves the solid at the next point behind the plane.
 #pragma once
 
 #include <array>
@@ -21,10 +22,10 @@
 
 namespace meniscus {
 
-/// The objects of one picture, packed.
+/// The packed objects of one picture.
 class LayeredScene final : public PictureScene {
  public:
-  /// placement: of all objects. What the objects point to must stay.
+  /// Packs the objects. placement: of all objects together. The data that the objects point to must outlive the scene.
   LayeredScene(std::span<const PictureObject> objects, const PictureFrame& frame, const ScenePlacement& placement,
                const Look& look);
 
@@ -39,22 +40,22 @@ class LayeredScene final : public PictureScene {
   struct Layer {
     const PictureObject* object = nullptr;
     const Surface* surface = nullptr;
-    std::uint32_t number = 0;  // of the object
+    std::uint32_t number = 0;  // index of the object
     bool translucent = false;
     HostScene scene;
     std::vector<glm::vec4> planes;  // relative to the pivot
     CpuTileLists lists;
-    std::optional<BallGrid> atoms;  // of surfaces that are cut
-    double farthest_atom = 0.0;     // Å: a point of the solid has the surface of an atom's sphere within this reach
+    std::optional<BallGrid> atoms;  // for surfaces that planes cut
+    double farthest_atom = 0.0;     // Å, each point of the solid is at most this far from the sphere of some atom
   };
 
-  /// A point of a cap, on which plane.
+  /// A point of a cap, with its plane.
   struct Cap : LayerHit {
     std::uint32_t plane = 0;
     glm::dvec3 point{0.0};  // Å
   };
 
-  /// What a thread works with.
+  /// The memory of a thread.
   struct Workplace {
     SortedList sorted;
     std::vector<LayerHit> hits;
@@ -63,13 +64,13 @@ class LayeredScene final : public PictureScene {
     std::vector<ClippedRay> clipped;
     std::vector<std::uint32_t> starts, next, order;
 
-    /// A ray's hits, once they are in order.
+    /// Returns the indices of a ray's hits, once they are sorted.
     std::span<std::uint32_t> order_of(std::uint32_t ray) {
       return std::span(order).subspan(starts[ray], starts[ray + 1] - starts[ray]);
     }
   };
 
-  /// A tile at work.
+  /// The current tile.
   struct TileWork {
     const LaneTile& task;
     const LaneKernels& kernels;
@@ -85,24 +86,24 @@ class LayeredScene final : public PictureScene {
   glm::dvec3 cap_point(const LaneTile& task, const LayerHit& cap) const;
   void color_caps(const Layer& layer, std::span<Cap> caps) const;
   static void paint_cap(const Layer& layer, Cap& cap);
-  /// Of caps, and how far from it they lie, Å.
+  /// The middle of some caps, and the largest distance of a cap from it, Å.
   struct Middle {
     glm::dvec3 point{0.0};
     double reach = 0.0;
   };
   static Middle middle_of(std::span<const Cap> caps);
-  using NearAtom = std::pair<double, std::uint32_t>;  // how far its sphere is from the middle, Å
-  /// near: in order. reach: of the caps, from that middle.
+  using NearAtom = std::pair<double, std::uint32_t>;  // distance of the atom's sphere from the middle, Å
+  /// Colours caps. near: atoms in order of distance. reach: the largest distance of a cap from the middle, Å.
   void color_caps(const Layer& layer, std::span<Cap> caps, double reach, std::span<const NearAtom> near) const;
-  /// Of each ray, the nearest first; those from first_hit on.
+  /// Sorts the hits from first_hit on by ray and distance, nearest first.
   void order_hits(std::size_t first_hit, const TileWork& work) const;
   void put_together(const TileWork& work) const;
-  /// Of a sample what the look needs to know beside its colour; nullptr: nothing is met.
+  /// Writes the properties of a sample that the look needs in addition to its colour; nullptr: nothing is hit.
   void write(const LaneSamples& samples, std::size_t at, const LayerHit* hit) const;
 
   PictureFrame frame_;
   PictureBlock block_;
-  std::vector<Layer> layers_;  // opaque ones first
+  std::vector<Layer> layers_;  // opaque layers first
   SceneContent content_{.layers = true};
   tbb::enumerable_thread_specific<Workplace> workplaces_;
 };

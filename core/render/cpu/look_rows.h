@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ambient occlusion, depth cueing and silhouettes on rows of pixels in packets; included by lanes_*.cpp alone.
+// Computes ambient occlusion, depth cueing and silhouettes for rows of pixels in packets. Only lanes_*.cpp include it.
 #pragma once
 
 #include "core/render/cpu/lane_kernels.h"
@@ -12,16 +12,16 @@ using glm::vec3;
 using kernel::kNothing;
 using kernel::kStepCount;
 
-inline constexpr int kShadeReach = 2;  // pixels: of mean_visibility
+inline constexpr int kShadeReach = 2;  // pixels, the range of mean_visibility
 
-/// A cast block as the shared sources want to see it. kInside: all pixels that they ask for, the map's aside, lie in
-/// it.
+/// Presents a cast block to the shared sources. kInside: all pixels that they read lie in the block, except texels of
+/// the map.
 template <bool kInside>
 struct LookedAtBlock {
   explicit LookedAtBlock(const LaneLook& look)
       : look_(look), view(look.view), occlusion(look.occlusion), params(look.finish) {}
 
-  /// What an array holds for these pixels; outside of the block that after the last.
+  /// Returns the elements of an array for these pixels; outside of the block the element after the last one.
   real fetch(const float* values, integer2 pixel) {
     const integer behind = view.size.x * view.size.y;
     return gather(values, select(in_block(pixel), pixel.y * integer(view.size.x) + pixel.x, behind));
@@ -36,7 +36,8 @@ struct LookedAtBlock {
   }
   real depth_or_nothing(integer2 pixel) { return fetch(look_.samples.depth, pixel); }
   real depth_or_nothing(pixel_row pixel) { return fetch(look_.samples.depth, pixel); }
-  /// Outside of the map the entry behind its last says that there is nothing.
+  /// Returns depths of the map. The element after the map's last one has the depth of nothing, and is used outside of
+  /// it.
   real map_depth_or_nothing(integer2 texel) {
     const glm::ivec2 size = occlusion.map_size;
     if (within_map_) return gather(look_.shade_map, texel.y * integer(size.x) + texel.x);
@@ -67,13 +68,13 @@ struct LookedAtBlock {
 #include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/look/finish.glsl"
 
-  /// Shares of a pixel that black lines cover, with the depth of what they outline, and that lines around patches
+  /// The shares of a pixel that black lines cover, with the depth of what they outline, and that lines around patches
   /// cover.
   struct Ink {
     real covered, depth, patched;
   };
 
-  /// No line reaches the pixels: what is around each is one part without a step, or nothing.
+  /// True if no line touches the pixels: the surroundings of each are a single part without a step, or empty.
   bool has_no_ink(pixel_row pixel) requires kInside {
     const Extremes depth = extremes_around(look_.samples.depth, pixel);
     const truth nothing = depth.least == real(kNothing);
@@ -175,9 +176,9 @@ struct LookedAtBlock {
   }
 
  private:
-  /// Whether all texels that the shade of these pixels asks for are in the map. reach: shade_reach(), at most.
+  /// True if all texels that the shade of these pixels depends on are in the map. reach: the maximum of shade_reach().
   bool lies_within_map(pixel_row pixel, float reach) const {
-    constexpr float kRoom = 2.0f;  // for rounding
+    constexpr float kRoom = 2.0f;  // tolerance for rounding
     const glm::vec2 first = view.first_offset + glm::vec2(pixel.x, pixel.y) + view.sample_offset;
     const float farthest = reach > kStepCount ? reach : kStepCount;
     const glm::vec2 low = (first - farthest) / occlusion.texel_edge + occlusion.map_middle - kRoom;
@@ -191,7 +192,8 @@ struct LookedAtBlock {
     real least, greatest;
   };
 
-  /// Of the pixels as far as lines reach. reach: farthest_neighbor(), where the compiler may know it.
+  /// Returns the extremes around the pixels, as far as lines extend. reach: farthest_neighbor(), passed as a constant
+  /// where possible.
   [[gnu::always_inline]] Extremes extremes_around(const float* values, pixel_row pixel, int reach) const {
     const float* const middle = values + place_in_block(pixel);
     Extremes found{load(middle), load(middle)};
@@ -207,7 +209,7 @@ struct LookedAtBlock {
     return reach == 1 ? extremes_around(values, pixel, 1) : extremes_around(values, pixel, reach);
   }
 
-  /// Pixels of the block.
+  /// Returns the number of these pixels that are in the block.
   int count_of(pixel_row pixel) const {
     return kInside || view.size.x - pixel.x > kLanes ? kLanes : view.size.x - pixel.x;
   }
@@ -224,7 +226,7 @@ struct LookedAtBlock {
     return load(some);
   }
 
-  /// To the sums of these pixels, behind what is seen through.
+  /// Adds colours to the sums of these pixels, behind the transparent parts.
   void add(pixel_row pixel, real4 finished) const {
     const std::ptrdiff_t first = place_in_block(pixel);
     glm::vec4* const sums = look_.sums + first;
@@ -244,11 +246,11 @@ struct LookedAtBlock {
 
   bool within_map_ = false;
   int first_across_ = 0;
-  real across_[2 * kShadeReach + 1];  // of the pixels that a packet's shade is made of: place_of().x
+  real across_[2 * kShadeReach + 1];  // x of the pixels from which a packet's shade is computed: place_of().x
 };
 
-/// Calls look(block, pixels) for each packet of a row; of pixels that are at least `reach` from the block's borders
-/// with a block that knows it.
+/// Calls look(block, pixels) for each packet of a row. Pixels at least `reach` away from the block's borders get a
+/// block with kInside.
 template <typename Look>
 void for_each_packet(const LaneLook& task, int y, int reach, const Look& look) {
   LookedAtBlock<true> inner(task);
@@ -267,7 +269,7 @@ inline void measure_row(const LaneLook& task, int y) {
 }
 
 inline void occlude_row(const LaneLook& task, int y) {
-  const int reach = 0;  // the block's own depths are asked for anywhere
+  const int reach = 0;  // the block's own depths are read at arbitrary places
   for_each_packet(task, y, reach, [](auto& block, pixel_row pixel) { block.occlude(pixel); });
 }
 

@@ -19,10 +19,10 @@
 namespace meniscus {
 namespace {
 
-constexpr double kAfar = 1e6;  // Å: from the pivot to a camera that has everything before it
+constexpr double kAfar = 1e6;  // Å, from the pivot to a camera that has everything in front of it
 constexpr std::uint32_t kLeaf = 4;
 
-/// From everywhere alike: nothing lies behind the camera.
+/// Returns a frame for rays from all directions: nothing lies behind the camera.
 PictureFrame seen_from_afar(const glm::dvec3& pivot) {
   PictureFrame frame;
   frame.camera.projection = Projection::orthographic;
@@ -34,7 +34,7 @@ PictureFrame seen_from_afar(const glm::dvec3& pivot) {
   return frame;
 }
 
-/// Sorts `order` into leaves of kLeaf primitives, and writes the boxes around them, parents before children.
+/// Sorts `order` into leaves of kLeaf primitives, and appends the boxes around them, parents before children.
 class TreeBuilder {
  public:
   TreeBuilder(std::span<const ray_cast::Primitive> primitives, float room, std::vector<OccluderBox>& boxes,
@@ -65,7 +65,7 @@ class TreeBuilder {
     if (count <= kLeaf) return;
     const glm::vec3 extent = most - least;
     const int axis = extent.x > extent.y ? (extent.x > extent.z ? 0 : 2) : (extent.y > extent.z ? 1 : 2);
-    const std::uint32_t half = (leaf_count(count) + 1) / 2 * kLeaf;  // all leaves but the last are full
+    const std::uint32_t half = (leaf_count(count) + 1) / 2 * kLeaf;  // all leaves except the last are full
     const auto begin = order_.begin() + static_cast<std::ptrdiff_t>(first);
     std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
       const float left = primitives_[a].bound[axis], right = primitives_[b].bound[axis];
@@ -90,7 +90,7 @@ class TreeBuilder {
   std::vector<std::uint32_t>& order_;
 };
 
-/// In the square [0, 1)².
+/// Returns a point of the R2 sequence in the square [0, 1)².
 glm::dvec2 r2_point(std::size_t index) {
   const auto n = static_cast<double>(index);
   const double u = 0.5 + n * 0.7548776662466927, v = 0.5 + n * 0.5698402909980532;
@@ -117,7 +117,7 @@ LaneOccluder Occluders::pack(const PictureObject& object) {
   scene.placement.slack = slack_;
   scene.pack(object, seen_from_afar(pivot_), Look{});
   scene.lanes.view.orthographic = 1;
-  scene.lanes.view.eye_distance = 1e30f;  // rays begin anywhere
+  scene.lanes.view.eye_distance = 1e30f;  // rays start at arbitrary points
   TreeBuilder(scene.packed.primitives, 1e-3f + 4.0f * slack_, packed.boxes, packed.order);
   packed.planes = planes_around(pivot_, object.clip);
   return {.scene = scene.lanes,
@@ -134,7 +134,8 @@ void Occluders::add(const PictureObject& object) { occluders_.push_back(pack(obj
 void Occluders::add(const SurfaceObject& object) {
   LaneOccluder occluder = pack(whole_surface(object.surface, object.coloring)[0]);
   for (const RigidMotion& motion : object.copies) {
-    // A point x of the picture, relative to the pivot, is rotation^T (x + pivot - translation) at home.
+    // A point x of the picture, relative to the pivot, is rotation^T (x + pivot - translation) in the object's own
+    // axes.
     const glm::dmat3 back = glm::transpose(motion.rotation);
     occluder.turn = glm::mat3(back);
     occluder.shift = glm::vec3(back * (pivot_ - motion.translation) - pivot_);
@@ -152,7 +153,7 @@ LaneLight Occluders::towards(std::span<const glm::vec3> sky) const {
 }
 
 void Occluders::aim(const Look& look, const ViewBasis& basis, int samples) {
-  constexpr int kLampRays = 32;  // of a pixel
+  constexpr int kLampRays = 32;  // rays per pixel
   const auto share = [samples](int rays) { return std::max((rays + samples - 1) / samples, 2); };
   const auto all = [samples](int of_each) { return static_cast<std::size_t>(of_each) * samples; };
   light_ = towards({});
@@ -174,7 +175,7 @@ void Occluders::aim(const Look& look, const ViewBasis& basis, int samples) {
     light_.lamp = lamp_.data();
   }
   if (look.traces_sky()) {
-    light_.sky_rays = 2 * share(static_cast<int>(look.ambient_occlusion_rays));  // half of them go inwards
+    light_.sky_rays = 2 * share(static_cast<int>(look.ambient_occlusion_rays));  // half of them point inwards
     light_.sky_reach = look.ambient_occlusion_radius;
     sky_ = sky_directions(0, all(light_.sky_rays));
     light_.sky = sky_.data();

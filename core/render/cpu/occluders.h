@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What keeps light away from points of a picture or of a surface, and the directions of the rays that find out.
+// Occluders of light for points of a picture or of a surface, and the directions of the rays towards the light.
 #pragma once
 
 #include <cstddef>
@@ -19,29 +19,30 @@ namespace meniscus {
 struct RigidMotion;
 struct SurfaceObject;
 
-/// Surfaces and shapes as rays towards the light meet them, wherever the camera is. What is hidden, cut away or seen
-/// through keeps no light away.
+/// Surfaces and shapes as rays towards the light hit them, independent of the camera. Hidden, cut and transparent parts
+/// do not block light.
 class Occluders {
  public:
-  /// pivot: that of the picture. slack: of all its objects.
+  /// Makes an empty set of occluders for a picture with this pivot. slack: ScenePlacement::slack of all its objects.
   Occluders(const glm::dvec3& pivot, float slack) : pivot_(pivot), slack_(slack) {}
 
-  /// What it points to must stay until the last picture.
+  /// Adds an object. The data that it points to must exist until the last picture is finished.
   void add(const PictureObject& object);
-  /// Each copy of the surface, which is in memory once.
+  /// Adds each copy of the surface, which is in memory only once.
   void add(const SurfaceObject& object);
 
-  /// Directions for so many samples of a pixel. basis: of the camera, which the lamp stands beside.
+  /// Sets the directions for this number of samples per pixel. basis: of the camera, which the lamp moves with.
   void aim(const Look& look, const ViewBasis& basis, int samples);
 
-  /// All that keeps light away, and rays towards these directions alone, however far they go; both must stay.
+  /// Returns all occluders, and rays in these directions only, of any length. The occluders and the directions must
+  /// outlive the result.
   LaneLight towards(std::span<const glm::vec3> sky) const;
 
-  /// For LaneScene::light; valid until something is added.
+  /// Returns the light for LaneScene::light; valid until something is added.
   const LaneLight* light() const { return &light_; }
 
  private:
-  /// An object, packed.
+  /// A packed object.
   struct Packed {
     HostScene scene;
     std::vector<OccluderBox> boxes;
@@ -59,26 +60,26 @@ class Occluders {
   LaneLight light_;
 };
 
-/// So many directions over the whole sphere, of length 1, which differ from those of any other `first`, and are spread
-/// evenly together with those that follow: the R2 sequence (Roberts 2018) on the equal-area cylinder (Lambert 1772).
+/// Returns `count` unit vectors over the whole sphere, numbers `first` and following of one sequence, which is spread
+/// evenly: the R2 sequence (Roberts 2018) on the equal-area cylinder (Lambert 1772).
 std::vector<glm::vec3> sky_directions(std::size_t first, std::size_t count);
 
 struct Surface;
 
-/// Rays into the hemisphere of a point that its number is made of, unless others are asked for. Against 10,000 rays
-/// drawn by lot at 1,000 points of 1UBQ the error is 0.008 (rms), at most 0.03: tests/image/light_test.cpp.
+/// The default number of rays into the hemisphere of a point from which its visibility is computed. Compared with
+/// 10,000 random rays at 1,000 points of 1UBQ the error is 0.008 (rms), at most 0.03: tests/image/light_test.cpp.
 inline constexpr std::size_t kSkyRays = 256;
 
-/// Points and the normals there, of length 1, towards the solvent; as many of both.
+/// Points, and the unit normals there, towards the solvent; equally many of both.
 struct SkyPoints {
   std::span<const glm::dvec3> positions;  ///< Å, on the surface
   std::span<const glm::dvec3> normals;
 };
 
-/// For each point the share, in [0, 1], of the sky above its normal that it sees past the whole surface, however far
-/// away: each direction weighs as much as the cosine of its angle to the normal. 1 on a ball alone, 0 in a cavity.
-/// directions: towards the sky, of length 1, all over the sphere, the same for every point; nothing: 2 * kSkyRays of
-/// sky_directions().
+/// Returns for each point the share, in [0, 1], of the sky above its normal that the surface does not block at any
+/// distance. Each direction is weighted by the cosine of its angle to the normal. The share is 1 on a single ball, and
+/// 0 in a cavity. directions: unit vectors towards the sky over the whole sphere, the same for every point; if empty, 2
+/// * kSkyRays of sky_directions().
 std::vector<float> sky_visibility(const Surface& surface, const SkyPoints& points,
                                   std::span<const glm::vec3> directions = {});
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Packets of numbers, one for each of MENISCUS_LANES rays: the types of gpu_shaders/shared/lane.glsl for C++.
 //
-// Only operations that IEEE 754 rounds correctly, one lane like another, and functions made of them: so a picture is
-// the same to the bit whatever the width of the machine's vectors. What the shared sources call is here under GLSL's
-// names. Included by lanes_*.cpp alone, each with lanes and instructions of its own.
+// There are only operations that IEEE 754 rounds correctly, equally in every lane, and functions made of them. So a
+// picture is the same to the bit for any width of the machine's vectors. Functions that the shared sources call have
+// GLSL's names. Only lanes_*.cpp include this, each with its own lanes and instructions.
 #pragma once
 
 #include <cmath>
@@ -37,13 +37,13 @@ struct real {
   Floats v;
   real() = default;
   real(Floats lanes) : v(lanes) {}
-  real(float all) : v(all - Floats{}) {}  // minus 0 keeps all values, -0 too
+  real(float all) : v(all - Floats{}) {}  // adding -0 changes no value, not even -0
   real(double all) : real(static_cast<float>(all)) {}
   real(int all) : real(static_cast<float>(all)) {}
   explicit real(integer lanes);
 };
 
-/// A mask: all bits of a lane are alike.
+/// A mask: all bits of a lane are equal.
 struct truth {
   Ints v;
   truth() = default;
@@ -110,14 +110,14 @@ inline real select(truth c, real a, real b) { return c.v ? a.v : b.v; }
 inline integer select(truth c, integer a, integer b) { return c.v ? a.v : b.v; }
 inline natural select(truth c, natural a, natural b) { return c.v ? a.v : b.v; }
 
-/// 0, 1, 2, ...
+/// Returns 0, 1, 2, ...
 inline integer lane_numbers() {
   Ints lanes;
   for (int n = 0; n < kLanes; ++n) lanes[n] = n;
   return lanes;
 }
 
-/// Bit n for lane n.
+/// Returns bit n for lane n.
 inline uint bits(truth a) {
 #if MENISCUS_LANES == 4 && defined(__x86_64__)
   return static_cast<uint>(_mm_movemask_ps(__builtin_bit_cast(__m128, a.v)));
@@ -160,14 +160,14 @@ inline Floats greater(Floats a, Floats b) { return _mm256_max_ps(a, b); }
 inline Floats lesser(Floats a, Floats b) { return a < b ? a : b; }
 inline Floats greater(Floats a, Floats b) { return a > b ? a : b; }
 #endif
-// Of two that are equal, or not numbers, a.
+// The result is a if both are equal or one is not a number.
 inline real min(real a, real b) { return lesser(b.v, a.v); }
 inline real max(real a, real b) { return greater(b.v, a.v); }
 inline real clamp(real a, real low, real high) { return min(max(a, low), high); }
 inline real mix(real a, real b, real share) { return a * (1.0f - share) + b * share; }
-/// To the nearest, of two the even one; |a| < 2^22.
+/// Returns the nearest integers, the even one of two; |a| < 2^22.
 inline real round(real a) {
-  const float shift = 12582912.0f;  // 1.5 * 2^23: no digit is left behind the point
+  const float shift = 12582912.0f;  // 1.5 * 2^23: no digit is left after the point
   return (a + shift) - shift;
 }
 inline integer to_whole(real a) { return __builtin_convertvector(a.v, Ints); }
@@ -179,14 +179,14 @@ inline real smoothstep(real low, real high, real a) {
 inline float lane(real a, int n) { return a.v[n]; }
 inline uint lane(natural a, int n) { return a.v[n]; }
 
-/// The greatest of all lanes.
+/// Returns the maximum of all lanes.
 inline float greatest(real a) {
   float result = a.v[0];
   for (int n = 1; n < kLanes; ++n) result = result < a.v[n] ? a.v[n] : result;
   return result;
 }
 
-// Cephes (Moshier 1992): relative errors of about 2e-7.
+// This is Cephes (Moshier 1992), with relative errors of about 2e-7.
 inline real log2(real a) {
   Ints exponent = (bits_of(a) >> 23) - 126;
   real m = from_bits((bits_of(a) & 0x007fffff) | 0x3f000000);  // in [0.5, 1)
@@ -213,14 +213,14 @@ inline real exp2(real a) {
   return y * from_bits((to_whole(nearest).v + 127) << 23);
 }
 
-/// a >= 0; 0 for 0.
+/// Returns powers of a >= 0; 0 for a = 0.
 inline real pow(real a, real exponent) { return select(a > 0.0f, exp2(exponent * log2(a)), 0.0f); }
 
 struct SineCosine {
   real sine, cosine;
 };
 
-/// |a| < 1000.
+/// Returns sine and cosine; |a| < 1000.
 inline SineCosine sine_cosine(real a) {
   const real quarter = round(a * 0.63661977f);
   const Ints quadrant = to_whole(quarter).v;
@@ -236,7 +236,7 @@ inline SineCosine sine_cosine(real a) {
 inline real sin(real a) { return sine_cosine(a).sine; }
 inline real cos(real a) { return sine_cosine(a).cosine; }
 
-/// -1 <= a <= 1. Abramowitz & Stegun 1964, 4.4.46: error below 1e-7.
+/// Returns the arc cosine, -1 <= a <= 1, with an error below 1e-7 (Abramowitz & Stegun 1964, 4.4.46).
 inline real acos(real a) {
   const real x = abs(a);
   real y = -0.0012624911f;
@@ -299,7 +299,7 @@ inline integer2 operator+(integer2 a, integer2 b) { return {a.x + b.x, a.y + b.y
 inline integer2 operator-(integer2 a, integer2 b) { return {a.x - b.x, a.y - b.y}; }
 inline real2::real2(const integer2& lanes) : x(lanes.x), y(lanes.y) {}
 
-/// Pixels side by side, one for each lane, by the first of them.
+/// Adjacent pixels, one for each lane, given by the first of them.
 struct pixel_row {
   int x, y;
   operator integer2() const { return {integer(x) + lane_numbers(), integer(y)}; }
@@ -309,7 +309,7 @@ inline glm::ivec2 operator-(pixel_row a, pixel_row b) { return {a.x - b.x, a.y -
 
 inline real2 round(real2 a) { return {round(a.x), round(a.y)}; }
 
-/// values[at] of each lane.
+/// Returns values[at] for each lane.
 inline real gather(const float* values, integer at) {
 #if MENISCUS_LANES == 8 && defined(__x86_64__)
   return __builtin_bit_cast(Floats, _mm256_i32gather_ps(values, __builtin_bit_cast(__m256i, at.v), 4));
@@ -336,7 +336,7 @@ struct real4 {
 inline real4 operator+(const real4& a, const real4& b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
 
 #if MENISCUS_LANES == 8 && defined(__x86_64__)
-/// Four packets of which each half is a row of a matrix, as its columns.
+/// Transposes four packets: each half of a packet is a row of a matrix before, and a column after.
 inline void turn(__m256 (&rows)[4]) {
   const __m256 a = _mm256_unpacklo_ps(rows[0], rows[1]), b = _mm256_unpackhi_ps(rows[0], rows[1]);
   const __m256 c = _mm256_unpacklo_ps(rows[2], rows[3]), d = _mm256_unpackhi_ps(rows[2], rows[3]);
@@ -347,7 +347,7 @@ inline void turn(__m256 (&rows)[4]) {
 }
 #endif
 
-/// Of kLanes vectors: rows of four, each `pitch` vectors behind the last.
+/// Loads kLanes vectors: rows of four, each `pitch` vectors after the previous one.
 inline real4 load(const glm::vec4* values, std::ptrdiff_t pitch = 4) {
 #if MENISCUS_LANES == 8 && defined(__x86_64__)
   __m256 rows[4];

@@ -27,7 +27,7 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
-/// The shared source that says which tiles a bound touches.
+/// The shared source that computes which tiles a bound touches.
 struct Footprints {
   const kernel::TileListParameters& params;
 #include "gpu_shaders/ray_cast/bound_footprint.glsl"
@@ -39,7 +39,7 @@ void for_each_tile(const ivec4& footprint, int columns, const Work& work) {
     for (int x = footprint.x; x < footprint.y; ++x) work(static_cast<std::size_t>(y) * columns + x);
 }
 
-/// In the order of floats.
+/// Returns bits that have the order of floats.
 std::uint32_t ordered_bits(float value) {
   const auto bits = std::bit_cast<std::uint32_t>(value);
   return bits & 0x80000000u ? ~bits : bits | 0x80000000u;

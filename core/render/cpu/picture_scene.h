@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a picture on the CPU shows: packed objects, their primitives by tile, and the scene as its renderer sees it.
+// The content of a picture on the CPU: packed objects, lists of their primitives by tile, and the scene for the
+// renderer.
 #pragma once
 
 #include <cstddef>
@@ -22,20 +23,20 @@ namespace meniscus {
 struct ClipPlane;
 struct PictureObject;
 
-/// A picture's scene on the host.
+/// A packed scene on the host.
 struct HostScene {
   RayCastScene packed;
   ScenePlacement placement;
   std::vector<glm::vec4> colors;          ///< linear_colors()
-  std::vector<float> marks;               ///< Coloring::line_marks(): whole numbers that a float holds exactly
-  std::vector<std::uint8_t> keeps_color;  ///< of atoms, if there is a volume map
-  LaneScene lanes;                        ///< all of this as the kernels read it, but for its view
+  std::vector<float> marks;               ///< Coloring::line_marks(): integers that a float represents exactly
+  std::vector<std::uint8_t> keeps_color;  ///< one for each atom, if there is a volume map
+  LaneScene lanes;                        ///< all of this for the kernels, except its view
 
-  /// Packs a surface or shapes, with `placement` but for its probe, and connects them. What a plane cuts is packed as a
-  /// whole, hidden atoms too.
+  /// Packs a surface or shapes, with `placement` except for its probe, and connects them. If planes cut it, all of it
+  /// is packed, hidden atoms too.
   void pack(const PictureObject& object, const PictureFrame& frame, const Look& look);
 
-  /// What a volume map colours of atoms that follow those of before. For connect().
+  /// Adds the volume map and its atoms, which follow the previous ones. For connect().
   void add_paint(const Coloring& coloring, const glm::dvec3& pivot) {
     if (!coloring.volume) return;
     lanes.paint.map = coloring.volume.get();
@@ -43,7 +44,7 @@ struct HostScene {
     for (std::uint32_t a = 0; a < coloring.atom.size(); ++a) keeps_color.push_back(coloring.by_volume(a) ? 0 : 1);
   }
 
-  /// Sets `lanes`, once everything else is there. color_by_kind: the last three colours are those of kinds.
+  /// Sets `lanes`, after everything else. color_by_kind: the last three colours belong to kinds.
   void connect(const Look& look, bool color_by_kind, bool some_hidden) {
     lanes.primitives = packed.primitives.data();
     lanes.rows = packed.rows.data();
@@ -56,47 +57,49 @@ struct HostScene {
   }
 };
 
-/// Returns planes relative to a pivot: kept is where dot(xyz, x) < w.
+/// Returns planes relative to a pivot: points with dot(xyz, x) < w are kept.
 std::vector<glm::vec4> planes_around(const glm::dvec3& pivot, std::span<const ClipPlane> planes);
 
-/// Tiles that a bound may touch: columns from x to before y, rows from z to before w.
+/// Computes the tiles that a bound may touch: columns from x to before y, rows from z to before w.
 class TileFootprints {
  public:
   TileFootprints(const PictureFrame& frame, const PictureBlock& block)
       : TileFootprints(tile_list_parameters(frame, block, 0)) {}
   explicit TileFootprints(const kernel::TileListParameters& params) : params_(params) {}
 
-  /// bound: Primitive::bound.
+  /// Returns the tiles of a bound (Primitive::bound).
   glm::ivec4 of(const glm::vec4& bound) const;
 
  private:
   kernel::TileListParameters params_;
 };
 
-/// For each tile the primitives whose bounds it may touch: the same lists as the GPU's (ray_caster.h), each in order.
+/// Lists for each tile the primitives with bounds that may touch it. The lists equal the GPU's (ray_caster.h), and each
+/// is sorted by index.
 class CpuTileLists {
  public:
-  /// cuts: planes, kept is where dot(xyz, x) < w, through which all rays of the block come in; what is wholly cut away
-  /// by one of them is not listed.
+  /// Builds the lists. cuts: planes (points with dot(xyz, x) < w are kept) through which all rays of the block enter;
+  /// primitives that one of them cuts away completely are left out.
   void build(std::span<const ray_cast::Primitive> primitives, const PictureFrame& frame, const PictureBlock& block,
              std::span<const glm::vec4> cuts = {});
 
   glm::ivec2 tiles() const { return tiles_; }  ///< columns, rows
-  /// Places among the primitives, in any order; `tile` counts row by row.
+  /// Returns indices of primitives, in any order. Tiles are numbered row by row.
   std::span<std::uint32_t> entries(std::size_t tile) {
     return std::span(entries_).subspan(starts_[tile], starts_[tile + 1] - starts_[tile]);
   }
 
  private:
   glm::ivec2 tiles_{0};
-  std::vector<std::uint32_t> starts_;  // one more than tiles
+  std::vector<std::uint32_t> starts_;  // one more than there are tiles
   std::vector<std::uint32_t> entries_;
 };
 
-/// A tile's list as the inner loops read it. Keeps its arrays from tile to tile.
+/// A tile's list for the inner loops. Its arrays are reused from tile to tile.
 class SortedList {
  public:
-  /// Valid until the next one is sorted. Leaves the entries in its order, for tiles are cast again and again.
+  /// Returns the sorted list, which is valid until the next call. Also sorts the entries, because tiles are cast
+  /// repeatedly.
   LaneList sort(std::span<std::uint32_t> entries, std::span<const ray_cast::Primitive> primitives);
 
  private:
@@ -108,46 +111,47 @@ class SortedList {
 class Interruption;
 class StageClock;
 
-/// A block of pixels and the rays that are cast through it.
+/// A block of pixels and the settings of its rays.
 struct SceneBlock {
-  const PictureFrame& frame;  ///< that of the picture or of its shade map, which is the same view in other pixels
+  /// The frame of the picture, or of its shade map, which is the same view with other pixels.
+  const PictureFrame& frame;
   PictureBlock block;
-  int samples = 1;                   ///< rays of each pixel
-  const LaneLight* light = nullptr;  ///< nullptr: light goes through everything
+  int samples = 1;                   ///< rays per pixel
+  const LaneLight* light = nullptr;  ///< nullptr: light passes through everything
 };
 
-/// What a block of a scene has.
+/// The properties of a scene's block.
 struct SceneContent {
   bool marks = false;            ///< points have LaneSamples::mark
   bool layers = false;           ///< samples have LaneSamples::over
   bool shows_through = false;    ///< samples have LaneTile::front
-  bool highlights = false;       ///< they are cast with everything else; else the finish adds them
+  bool highlights = false;       ///< true: they are cast with everything else; false: the finish of samples adds them
   bool several_objects = false;  ///< hits have several values of Hit::object
 };
 
-/// Everything that rays of one picture may meet.
+/// Everything that the rays of one picture may hit.
 class PictureScene {
  public:
   virtual ~PictureScene() = default;
 
-  /// Prepares a block, which stays until the next one begins. It must not be cast if the interruption has come.
+  /// Prepares a block, which is valid until the next call. It must not be cast if the interruption has occurred.
   virtual void begin_block(const SceneBlock& block, Interruption& interruption, StageClock& clock) = 0;
   /// Casts a tile of the block: adds to task.sums, or writes task.samples and task.front, and task.hits. Any number of
-  /// threads may call it at once.
+  /// threads may call it at the same time.
   virtual void cast_tile(std::size_t tile, LaneTile task, const LaneKernels& kernels) = 0;
 
-  /// Returns what is in the block.
+  /// Returns the properties of the block.
   virtual SceneContent content() const = 0;
 
   /// Returns the names of a hit of the block at a point, Å.
   virtual HitNames names_of(const ray_cast::Hit& hit, const glm::dvec3& point) const = 0;
   /// Returns HitNames::atom of a hit of the block.
   virtual std::uint32_t atom_of(const ray_cast::Hit& hit) const { return hit.atom; }
-  /// Returns everything but the position of a hit of the block. What the scene was made of need not exist any more.
+  /// Returns everything except the position of a hit of the block. The objects of the scene need not exist any more.
   virtual PickedPoint picked(const ray_cast::Hit& hit) const = 0;
 };
 
-/// A scene in which each ray shows the nearest primitive that it meets.
+/// A scene in which each ray shows the nearest primitive that it hits.
 class OpaqueScene : public PictureScene {
  public:
   void cast_tile(std::size_t tile, LaneTile task, const LaneKernels& kernels) final;
@@ -168,10 +172,10 @@ class OpaqueScene : public PictureScene {
   tbb::enumerable_thread_specific<SortedList> sorted_;
 };
 
-/// A whole surface. Keeps its memory from picture to picture.
+/// A whole surface. Its memory is reused from picture to picture.
 class SurfaceScene final : public OpaqueScene {
  public:
-  /// What the object points to must stay while the scene is cast.
+  /// Packs an object. The data that it points to must exist while the scene is cast.
   void pack(const PictureObject& object, const PictureFrame& frame, const ScenePlacement& placement, const Look& look);
 
   void begin_block(const SceneBlock& block, Interruption& interruption, StageClock& clock) override;

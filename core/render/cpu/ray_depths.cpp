@@ -18,11 +18,11 @@ namespace {
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 constexpr std::size_t kMostRays = std::size_t{1} << 26;
-constexpr double kInto = 0.02;  // Å: by so much less than its radius a ball is drawn, far more than rounding moves rays
+constexpr double kInto = 0.02;  // Å, balls are drawn this much smaller, which is far more than the rounding of rays
 
 float rounded_up(double depth) { return static_cast<float>(depth + 1e-6 * std::abs(depth)); }
 
-/// Rounding of the ray caster and of what is made here, Å.
+/// Returns a bound of the rounding errors of the ray caster and of this file at this distance, Å.
 double room_at(double distance) { return 1e-4 + 1e-6 * distance; }
 
 void lower(float& depth, float to) {
@@ -51,20 +51,21 @@ void RayDepths::begin(const PictureBlock& block, int samples) {
   }
 }
 
-/// Where the ray goes through the plane of the pivot, right and up, Å.
+/// Returns the point, right and up in Å, where the ray intersects the plane of the pivot.
 glm::dvec2 RayDepths::on_pivot_plane(glm::ivec2 pixel, glm::dvec2 offset) const {
   const glm::dvec2 from_middle = glm::dvec2(block_.origin + pixel) + 0.5 - 0.5 * glm::dvec2(frame_.size) + offset;
   return glm::dvec2(from_middle.x, -from_middle.y) * frame_.pixel_size;
 }
 
-/// Of a point, right, up and forward from the camera, to the ray through a point of the pivot's plane.
+/// Returns the squared distance of a point (right, up and forward from the camera) to the ray through a point of the
+/// pivot's plane.
 double RayDepths::squared_distance(const glm::dvec3& point, const glm::dvec2& through) const {
   if (frame_.camera.projection == Projection::orthographic) {
     const glm::dvec2 aside = glm::dvec2(point) - through;
     return glm::dot(aside, aside);
   }
   const glm::dvec3 direction(through, frame_.eye_distance);
-  const glm::dvec3 across = glm::cross(point, direction);  // no digits are lost as by Pythagoras
+  const glm::dvec3 across = glm::cross(point, direction);  // more accurate than Pythagoras, which cancels digits
   return glm::dot(across, across) / glm::dot(direction, direction);
 }
 
@@ -81,7 +82,7 @@ void RayDepths::add_ball(const Ball& ball) {
     add_to_rays(ball.center, radius, pixels);
 }
 
-/// Of pixels that are all within it, whatever their samples are.
+/// Draws a ball into pixels that it covers completely, wherever their samples are.
 void RayDepths::add_to_pixels(const glm::dvec3& center, double radius, const glm::ivec4& pixels) {
   constexpr double kHalfDiagonal = 0.7072;  // pixels
   const bool orthographic = frame_.camera.projection == Projection::orthographic;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far the rays of a block can see, so that nothing beyond is made.
+// Computes how far the rays of a block can see, so that no primitives beyond are made.
 #pragma once
 
 #include <cstddef>
@@ -15,22 +15,23 @@
 namespace meniscus {
 
 /// A depth for each pixel of a block, beyond which none of its samples shows anything: Å from the camera (orthographic:
-/// from its plane). At first all are infinite.
+/// from its plane). Initially all are infinite.
 class RayDepths {
  public:
-  /// frame: as it is when a block begins; it must stay as long.
+  /// Uses the frame of a picture, which is read at the start of each block and must outlive this object.
   explicit RayDepths(const PictureFrame& frame) : frame_(frame) {}
 
   void begin(const PictureBlock& block, int samples);
 
-  /// A ball that lies within an opaque solid whose outside the camera is in: rays that go well into it have met the
-  /// solid by then. On several threads at once; counts from the next gather() on.
+  /// Adds a ball inside an opaque solid that does not contain the camera: rays that enter the ball well have hit the
+  /// solid before. Several threads may call it at once. It takes effect with the next gather().
   void add_ball(const Ball& ball);
-  /// No sample of this pixel of the block sees farther. Counts from the next gather() on.
+  /// Declares that no sample of this pixel of the block sees farther. It takes effect with the next gather().
   void limit(glm::ivec2 pixel, double depth);
   void gather();
 
-  /// False only if nothing that lies within a bound (Primitive::bound) and begins there (Primitive::nearest) can show.
+  /// Returns false only if nothing within a bound (Primitive::bound) that begins there (Primitive::nearest) can be
+  /// visible.
   bool may_show(const glm::vec4& bound, float nearest) const;
 
  private:
@@ -42,7 +43,7 @@ class RayDepths {
   bool meets_ray(const glm::vec4& bound, const glm::ivec4& pixels, float nearest) const;
   std::size_t at(glm::ivec2 pixel) const { return static_cast<std::size_t>(pixel.y) * block_.size.x + pixel.x; }
 
-  /// Of 2^n x 2^n pixels each the farthest.
+  /// The farthest depth of each square of 2^n x 2^n pixels.
   struct Level {
     glm::ivec2 size{0};
     std::vector<float> depths;
@@ -51,9 +52,9 @@ class RayDepths {
   const PictureFrame& frame_;
   PictureBlock block_;
   int samples_ = 0;
-  kernel::TileListParameters pixels_{};  // of tiles as large as a pixel
-  std::vector<float> rays_;              // of each sample, pixel by pixel; empty where there are too many
-  std::vector<Level> levels_;            // the first has the pixels
+  kernel::TileListParameters pixels_{};  // parameters of tiles of one pixel
+  std::vector<float> rays_;              // depth of each sample, pixel by pixel; empty if there are too many
+  std::vector<Level> levels_;            // the first has single pixels
 };
 
 }  // namespace meniscus

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays from points of surfaces towards the lamp and the sky (Appel 1968); included by lanes_*.cpp alone.
+// Casts rays from points of surfaces towards the lamp and the sky (Appel 1968). Only lanes_*.cpp include it.
 //
-// All rays of a packet have one direction, which is the same for every point of a picture: what a point sees depends on
-// nothing but the point, and stays in a film. They go through a tree of boxes (Rubin & Whitted 1980).
+// All rays of a packet have one direction, which is the same for every point of a picture: the visibility of a point
+// depends on the point alone, and is constant in a film. Rays traverse a tree of boxes (Rubin & Whitted 1980).
 #pragma once
 
 #include "core/render/cpu/traced_scene.h"
 
 namespace meniscus::MENISCUS_LANE_NAMESPACE {
 
-/// What of an object lies in the way of packets.
+/// Tests packets of rays against one object.
 class OccluderRays : RayMeeter {
  public:
   explicit OccluderRays(const LaneOccluder& occluder) : RayMeeter(occluder.scene), occluder_(occluder) {}
 
-  /// Of the rays from these points that are asked those that meet something opaque before `reach`, Å.
+  /// Returns which of the given rays (`asked`) hit something opaque before `reach`, Å.
   truth block(const real3& from, const vec3& direction, float reach, truth asked) {
     if (!occluder_.boxes) return truth(false);
     Rays rays;
     const glm::mat3& turn = occluder_.turn;
     vec3 d = turn * direction;
-    for (int axis = 0; axis < 3; ++axis) d[axis] = d[axis] == 0.0f ? 1e-9f : d[axis];  // boxes are entered by divisions
+    for (int axis = 0; axis < 3; ++axis) d[axis] = d[axis] == 0.0f ? 1e-9f : d[axis];  // boxes are entered by division
     rays.p = turn[0] * from.x + turn[1] * from.y + turn[2] * from.z + occluder_.shift;
     rays.d = real3(d);
     rays.eye_t = rays.from = 0.0f;
@@ -39,10 +39,10 @@ class OccluderRays : RayMeeter {
     return in <= out;
   }
 
-  /// Calls visit(index) for what may lie nearer than some ray's `t`, until it returns false.
+  /// Calls visit(index) for primitives that may be nearer than the `t` of some ray, until it returns false.
   template <typename Visit>
   void visit_near(const Rays& rays, const real3& inverse, const Visit& visit) {
-    constexpr float kRoom = 1e-3f;  // Å, for rounding: which rays share a packet must not matter
+    constexpr float kRoom = 1e-3f;  // Å, for rounding: the result must not depend on which rays share a packet
     std::uint32_t waiting[kDeepest];
     int waiting_count = 0;
     for (std::uint32_t at = 0;;) {
@@ -77,10 +77,10 @@ class OccluderRays : RayMeeter {
     return rays.primitive != natural(kNoPrimitive);
   }
 
-  /// The same where planes cut, and where some atoms are seen through. A ray that comes out of a solid has been inside,
-  /// from the plane on through which it came in.
+  /// Returns the same for objects with cuts or with some transparent atoms. A ray that leaves a solid has been inside
+  /// it, from the plane on through which it entered.
   truth block_first(Rays& rays, const real3& inverse, float reach, truth asked) {
-    constexpr int kMostTries = 64;  // atoms that are seen through, one behind the other
+    constexpr int kMostTries = 64;  // transparent atoms one after the other
     real in(0.0f), out(kMiss);
     for (int i = 0; i < occluder_.plane_count; ++i) {
       const vec4& plane = occluder_.planes[i];
@@ -113,7 +113,7 @@ class OccluderRays : RayMeeter {
 
   struct Met {
     truth opaque;
-    real facing;  // above 0: the ray comes out of the solid
+    real facing;  // above 0: the ray leaves the solid
   };
 
   Met met_at(const Rays& rays, truth met) {
@@ -136,7 +136,7 @@ class OccluderRays : RayMeeter {
   const LaneOccluder& occluder_;
 };
 
-/// Points that rays of these directions meet.
+/// Points where rays of these directions hit.
 struct SeenPoints {
   real3 x, normal, d;
   truth met;
@@ -152,7 +152,7 @@ class LightedScene : protected RayMeeter {
     real visibility;
   };
 
-  /// sample: of all that a pixel gets.
+  /// Returns the light of points. sample: the number among all samples of a pixel.
   Lighted lit_at(const real3& albedo, const SeenPoints& points, int sample) {
     const real3 n = shown_normal(points.normal, points.d);
     KeyLight key = open_key_light(n);
@@ -167,7 +167,7 @@ class LightedScene : protected RayMeeter {
     return lighted;
   }
 
-  /// Of the hemisphere, weighted by cosine (Zhukov, Iones & Kronin 1998).
+  /// Returns the visible share of the hemisphere, weighted by the cosine (Zhukov, Iones & Kronin 1998).
   real sky_seen(const real3& from, const real3& outward, truth met, int sample) const {
     const LaneLight& light = *scene_.light;
     real seen(0.0f), all(1e-6f);
@@ -194,7 +194,8 @@ class LightedScene : protected RayMeeter {
     return result;
   }
 
-  /// The share of a lamp that is seen, times how much the surface is turned towards it.
+  /// Darkens the key light where occluders hide the lamp. Diffuse light is the visible share of the lamp, weighted by
+  /// the cosine of the angle between its direction and the normal.
   void cast_shadows(const real3& from, const real3& outward, truth met, int sample, KeyLight& key) const {
     const LaneLight& light = *scene_.light;
     if (light.lamp_rays == 0) return;
@@ -213,7 +214,7 @@ class LightedScene : protected RayMeeter {
   }
 };
 
-/// Points of no picture.
+/// Computes the visibility of the sky for points that are not in a picture.
 class SkyWatcher : LightedScene {
  public:
   explicit SkyWatcher(const LaneScene& scene) : LightedScene(scene) {}

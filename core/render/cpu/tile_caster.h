@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Casts the rays of one tile in packets; included by lanes_*.cpp alone.
+// Casts the rays of one tile in packets. Only lanes_*.cpp include it.
 //
-// Rays go in bundles of 4 x 4 pixels, with up to four samples of each: bounds are tried once for a bundle, a packet of
-// them at a time, and what a patch's rows say is fetched once for all its rays. The bundle is the same for every width.
+// Rays are in bundles of 4 x 4 pixels, with up to four samples of each. Bounds are tested once per bundle, a packet of
+// them at a time, and the rows of a patch are read once for all its rays. The bundle is the same for every width.
 #pragma once
 
 #include "core/render/cpu/shadow_rays.h"
@@ -15,7 +15,7 @@ inline constexpr int kMostPackets = kPixelPackets * LaneTile::kMostSamples;
 
 inline constexpr int kPacketRows = kLanes / kBundleEdge;
 
-// Places of a bundle's pixels: row by row, for that is how pictures have them.
+// The places of a bundle's pixels, row by row, which is the order of pictures.
 inline constexpr int kPixelX[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 inline constexpr int kPixelY[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
@@ -75,7 +75,7 @@ class Bundle : protected LightedScene {
         rays.primitive = rays.kind = rays.tie_key = kNoPrimitive;
       }
     }
-    // Samples lie within half a pixel of a centre; a little more covers their rounding.
+    // Samples lie within half a pixel of a centre, and slightly more covers their rounding.
     view.sample_offset = vec2(0.0f);
     const real3 p = ray_point_at(vec2(origin_) + (0.5f * kBundleEdge - 0.5f));
     const real3 d = ray_direction(p);
@@ -85,7 +85,7 @@ class Bundle : protected LightedScene {
     spread_ = 2.9f * view.pixel_size;
   }
 
-  /// From the camera, of what may still be hidden.
+  /// Returns the distance from the camera beyond which everything is hidden.
   float farthest_distance() const {
     real farthest = rays_[0].t - rays_[0].eye_t;
     for (int n = 1; n < packet_count_; ++n) farthest = max(farthest, rays_[n].t - rays_[n].eye_t);
@@ -97,13 +97,13 @@ class Bundle : protected LightedScene {
     return greatest(farthest);
   }
 
-  /// Calls meet_primitive(index) for what may lie nearer than some ray's `t`.
+  /// Calls meet_primitive(index) for primitives that may be nearer than the `t` of some ray.
   template <typename Meet>
   void trace(const Meet& meet_primitive) {
     const LaneList& list = tile_.list;
     for (int first = 0; first < list.count; first += kLanes) {
       const float farthest = farthest_distance();
-      if (list.nearest[first] > farthest) return;  // as do all that follow
+      if (list.nearest[first] > farthest) return;  // as are all that follow
       const real3 center(load(list.x + first), load(list.y + first), load(list.z + first));
       const truth missed = misses_bound(center, load(list.radius + first), real3(middle_), real3(middle_direction_),
                                         middle_eye_, spread_, farthest_t());
@@ -112,7 +112,7 @@ class Bundle : protected LightedScene {
     }
   }
 
-  /// Of a packet, among all that the pixels get.
+  /// Returns the number of a packet's sample among all samples of the pixels.
   int sample_of(int packet) const { return tile_.first_sample + packet / kPixelPackets; }
 
   Shaded shade(int n) {
@@ -121,7 +121,7 @@ class Bundle : protected LightedScene {
     return shaded;
   }
 
-  /// Without light.
+  /// Returns the hits of a packet without light.
   Shaded met_by(int n) {
     const Rays& rays = rays_[n];
     const real3 x = rays.p + rays.d * rays.t;
@@ -152,12 +152,12 @@ class Bundle : protected LightedScene {
     shaded.visibility = lighted.visibility;
   }
 
-  /// Of points on patches of these kinds.
+  /// Returns the colours of points on patches of these kinds.
   real3 albedo(truth met, natural kind, const real3& x, const SurfacePoint& point) const {
     return scene_.paint.map ? painted_albedo(met, x, point) : atom_albedo(met, kind, point.atom);
   }
 
-  /// Where a volume map colours points.
+  /// Returns the colours of points where a volume map colours them.
   real3 painted_albedo(truth met, const real3& x, const SurfacePoint& point) const {
     real3 result(0.0f);
     for (uint left = bits(met); left != 0; left &= left - 1) {
@@ -182,7 +182,7 @@ class Bundle : protected LightedScene {
   std::size_t place_in_block(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(view.size.x) + static_cast<std::size_t>(x);
   }
-  /// Of a packet's first pixel.
+  /// Returns the place of a packet's first pixel in the block.
   std::size_t place_in_block(int v) const { return place_in_block(origin_.x, origin_.y + v * kPacketRows); }
 
   /// Calls write(lane, place) for the pixels of a packet that are in the block.
@@ -241,7 +241,7 @@ class Bundle : protected LightedScene {
   }
 
   const LaneTile& tile_;
-  const glm::ivec2 origin_;  // in the block, pixels
+  const glm::ivec2 origin_;  // place in the block, pixels
   const int packet_count_;
   vec3 middle_, middle_direction_;
   float middle_eye_, spread_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where packets of rays meet the primitives of a scene; included by lanes_*.cpp alone.
+// Computes where packets of rays hit the primitives of a scene. Only lanes_*.cpp include it.
 #pragma once
 
 #include "core/render/cpu/lane_kernels.h"
@@ -25,7 +25,7 @@ inline uint floatBitsToUint(float a) { return std::bit_cast<uint>(a); }
 #include "gpu_shaders/geometry/ray_shapes.glsl"
 #include "gpu_shaders/geometry/ray_torus.glsl"
 
-/// The scene as the shared sources want to see it.
+/// Presents the scene to the shared sources.
 struct TracedScene {
   explicit TracedScene(const LaneScene& scene)
       : scene_(scene), params(scene.params), view(scene.view), some_hidden(scene.some_hidden) {}
@@ -53,22 +53,22 @@ struct TracedScene {
 #include "gpu_shaders/ray_cast/shade.glsl"
 #include "gpu_shaders/ray_cast/shape_hits.glsl"
 
-  /// Of a patch or a shape.
+  /// Returns a point of a patch or of a shape.
   SurfacePoint point_of(const Primitive& primitive, const real3& p) {
     if (primitive.kind == kCylinder) return cylinder_point(primitive, p);
     if (primitive.kind == kTriangle) return triangle_point(primitive, p);
     return surface_point(primitive, p);
   }
 
-  /// Along the view axis, Å. Rays count from the pivot's plane; a perspective one is longer than its part along the
-  /// axis.
+  /// Returns the depth along the view axis, Å. Rays count from the pivot's plane; in a perspective, a ray is longer
+  /// than its component along the axis.
   real depth_at(const real3& d, real t) const {
     const real along = view.orthographic != 0u ? t : t * dot(d, view.forward);
     return view.eye_distance + along;
   }
 };
 
-/// Rays, and what they meet first.
+/// Rays, and their first hits.
 class RayMeeter : protected TracedScene {
  protected:
   using TracedScene::TracedScene;
@@ -81,7 +81,7 @@ class RayMeeter : protected TracedScene {
     natural primitive, kind, tie_key;
   };
 
-  /// Keeps of each ray what of the primitive is nearer than its `t`.
+  /// Updates each ray with the hit of a primitive that is nearer than its `t`.
   void meet(uint index, Rays* rays, int count) {
     const Primitive& primitive = load_primitive(index);
     if (primitive.kind == kToroidal) {
@@ -97,7 +97,7 @@ class RayMeeter : protected TracedScene {
     }
   }
 
-  /// Keeps the nearer hit; of two at the same distance the same one in any order.
+  /// Keeps the nearer hit. If two hits are at the same distance, the choice does not depend on their order.
   static void keep_nearest(uint index, const Primitive& primitive, truth met, real t, Rays& rays) {
     const natural kind = primitive.kind, tie_key = primitive.tie_key;
     const truth tie_won = kind < rays.kind || (kind == rays.kind && tie_key < rays.tie_key);

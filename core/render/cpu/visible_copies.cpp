@@ -30,9 +30,9 @@ using ray_cast::Primitive;
 
 constexpr double kNothingMet = std::numeric_limits<double>::infinity();
 constexpr double kClusterEdge = 8.0;  // Å
-constexpr double kRoom = 1e-6;        // Å, for the rounding of what is moved
+constexpr double kRoom = 1e-6;        // Å, for the rounding of moved points
 
-/// A ball around all of a surface: no patch is farther from the atoms than a probe's diameter.
+/// Returns a ball around a whole surface: no patch is farther from the atoms than a probe's diameter.
 geometry::PatchBound bound_of(const Surface& surface) {
   Box box;
   for (const Ball& ball : surface.atoms) box.include(ball.center);
@@ -43,7 +43,7 @@ geometry::PatchBound bound_of(const Surface& surface) {
   return bound;
 }
 
-/// Appends the primitives for which keep(place) is true, with their rows.
+/// Appends the primitives for which keep(index) is true, with their rows.
 template <typename Keep>
 void append_kept(const RayCastScene& from, const Keep& keep, RayCastScene& to) {
   for (std::size_t n = 0; n < from.primitives.size(); ++n) {
@@ -56,7 +56,7 @@ void append_kept(const RayCastScene& from, const Keep& keep, RayCastScene& to) {
   }
 }
 
-/// Makes indices of atoms count from another one.
+/// Increases indices of atoms by an offset.
 void shift_atoms(RayCastScene& scene, std::uint32_t by) {
   for (Primitive& primitive : scene.primitives) {
     if (primitive.kind == ray_cast::kConcave) {
@@ -102,7 +102,8 @@ VisibleCopies::VisibleCopies(std::span<const SurfaceObject> objects, const Pictu
   std::ranges::stable_sort(copies_, {}, &Copy::nearest);
 }
 
-/// next: the copy after those that are there, but for what it is a copy of.
+/// Adds the copies of an object. next: its first numbers follow the numbers of the copies before; updated for the next
+/// object.
 void VisibleCopies::add_copies(std::uint32_t object, Copy& next) {
   const Surface& surface = objects_[object].surface;
   const Coloring& coloring = objects_[object].coloring;
@@ -170,7 +171,7 @@ bool VisibleCopies::may_show(const geometry::SeenBound& seen) const {
                                            static_cast<float>(seen.nearest));
 }
 
-/// From within a solid its surface is seen behind its atoms.
+/// True if the atoms of a copy hide what is behind them. A camera inside of a solid sees its surface behind its atoms.
 bool VisibleCopies::hides_others(const Copy& copy) const {
   return homes_[copy.object].opaque && copy.nearest > 0.0f && depths_.may_show(copy.bound, copy.nearest);
 }
@@ -252,7 +253,7 @@ void VisibleCopies::connect() {
   scene_.connect(look_, !objects_.empty() && objects_.front().coloring.kind, some_hidden_);
 }
 
-/// Leaves the scene incomplete if the interruption comes.
+/// Finds the visible patches. The scene is incomplete if the interruption occurs.
 void VisibleCopies::find(Interruption& interruption) {
   moved_ = 0;
   places_.clear();
@@ -303,7 +304,7 @@ PickedPoint VisibleCopies::picked(const ray_cast::Hit& hit) const {
   return {.atom = hit.atom - place.first_atom, .kind = kind_of(hit), .object = place.object, .copy = place.copy};
 }
 
-/// Casts tiles that list one of the new primitives, and leaves of the scene what rays may show.
+/// Casts tiles that list one of the new primitives, and keeps only primitives that rays may show.
 void VisibleCopies::cast_from(std::size_t first_new) {
   list_tiles(frame_, block_);
   shown_ = std::vector<std::atomic<std::uint8_t>>(scene_.packed.primitives.size());
@@ -312,7 +313,7 @@ void VisibleCopies::cast_from(std::size_t first_new) {
     const std::span<const std::uint32_t> entries = lists_.entries(tile);
     if (std::ranges::any_of(entries, [&](std::uint32_t entry) { return entry >= first_new; })) {
       note_tile(tile);
-    } else {  // nothing has changed here, and what was shown elsewhere may be shown here, too
+    } else {  // there is nothing new here, and primitives shown elsewhere may be shown here, too
       for (const std::uint32_t entry : entries) shown_[entry].store(1, std::memory_order_relaxed);
     }
   });
@@ -324,7 +325,7 @@ void VisibleCopies::cast_from(std::size_t first_new) {
   scene_.packed = std::move(kept);
 }
 
-/// Casts a tile, notes what its rays show, and limits how far they see.
+/// Casts a tile, marks what its rays show, and limits how far they see.
 void VisibleCopies::note_tile(std::size_t tile) {
   LaneTile task;
   task.origin = tile_origin(block_, tile);
@@ -343,10 +344,10 @@ void VisibleCopies::note_tile(std::size_t tile) {
     }
 }
 
-/// How far from the camera (orthographic: from its plane) the rays of one sample end, more than rounding makes of it;
-/// marks what they show.
+/// Marks what the rays of one sample show, and computes how far they see: a distance from the camera (orthographic:
+/// from its plane), increased by more than rounding.
 void VisibleCopies::note_hits(const LaneTile& tile, const kernel::BlockView& view, std::span<double> farthest) {
-  constexpr double kRounding = 1e-5;  // more than rays and bounds have in single precision
+  constexpr double kRounding = 1e-5;  // more than the rounding of rays and bounds in single precision
   const glm::ivec2 end = glm::min(tile.origin + kTileEdge, view.size);
   for (int y = tile.origin.y; y < end.y; ++y) {
     for (int x = tile.origin.x; x < end.x; ++x) {

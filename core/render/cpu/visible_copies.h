@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds what a block of a picture shows of many copies of surfaces, without holding all of them in memory.
+// Finds the visible parts of many copies of surfaces in a block of a picture, without holding all copies in memory.
 //
-// First the atoms are drawn, as balls that no ray goes through. Then patches that may show in front of them are moved
-// and packed, copy after copy from front to back; when there are many they are cast, and whatever no ray shows is
-// dropped again. A picture does not depend on primitives that it does not show, so it is that of all copies, to the
-// bit.
+// First the atoms are drawn, as balls that no ray passes through. Then patches that may be visible in front of them are
+// moved and packed, copy after copy from front to back. When there are many, they are cast, and patches that no ray
+// shows are dropped. A picture does not depend on primitives that it does not show, so it equals the picture of all
+// copies, to the bit.
 #pragma once
 
 #include <atomic>
@@ -22,28 +22,28 @@
 
 namespace meniscus {
 
-/// The balls of every copy, in the order of merged(); of `objects`, which must stay as long as they.
+/// Returns the balls of every copy, in the order of merged(). They refer to `objects`, which must outlive them.
 std::vector<BallGroup> ball_groups(std::span<const SurfaceObject> objects);
 
-/// A copy, and where its atoms are among those of a scene or of all copies.
+/// A copy, and the place of its atoms in a scene or among the atoms of all copies.
 struct CopyPlace {
-  std::uint32_t object = 0;  ///< which of the objects
-  std::uint32_t copy = 0;    ///< which of SurfaceObject::copies
+  std::uint32_t object = 0;  ///< index of the object
+  std::uint32_t copy = 0;    ///< index in SurfaceObject::copies
   std::uint32_t first_atom = 0;
 };
 
-/// Which of them has the atom of a scene; they are by first_atom, and the first has 0.
+/// Returns the index of the place that has the atom of a scene. Places are sorted by first_atom; the first has 0.
 std::size_t place_of(std::span<const CopyPlace> places, std::uint32_t atom);
 
-/// A scene of copies that holds what a block shows of them, and perhaps a little more.
+/// A scene of copies that contains everything that a block shows of them, and possibly more.
 class VisibleCopies final : public OpaqueScene {
  public:
-  /// Patches of the copies that are looked at together, unless one has more. An eighth of that is packed before it is
-  /// cast.
+  /// The number of patches of the copies that are processed together, unless a single copy has more. They are cast
+  /// after each eighth of this number has been packed.
   static constexpr std::size_t kPatchesTogether = std::size_t{1} << 21;
 
-  /// objects: of one probe radius, all coloured by kind, alike, or none; they must stay while the scene is cast.
-  /// placement: of all copies.
+  /// Sorts the copies from front to back. objects: all have the same probe radius, and either all are coloured by kind
+  /// in the same way or none is. They must exist while the scene is cast. placement: of all copies.
   VisibleCopies(std::span<const SurfaceObject> objects, const PictureFrame& frame, const ScenePlacement& placement,
                 const Look& look, const LaneKernels& kernels, std::size_t patches_together = kPatchesTogether);
 
@@ -53,30 +53,30 @@ class VisibleCopies final : public OpaqueScene {
   std::uint32_t atom_of(const ray_cast::Hit& hit) const override;
   PickedPoint picked(const ray_cast::Hit& hit) const override;
 
-  /// Returns how many copies of the block were looked at patch by patch.
+  /// Returns the number of copies of the block that were tested patch by patch.
   std::size_t moved() const { return moved_; }
 
  private:
-  /// A copy, and what of it does not depend on a block.
-  struct Copy : CopyPlace {        // first_atom: among those of all copies
-    std::uint32_t first_part = 0;  // likewise
+  /// A copy, and its properties that do not depend on a block.
+  struct Copy : CopyPlace {        // first_atom: among the atoms of all copies
+    std::uint32_t first_part = 0;  // among the parts of all copies
     std::uint32_t first_component = 0;
     glm::vec4 bound{0.0f};  // as Primitive::bound
     float nearest = 0.0f;   // as Primitive::nearest
   };
 
-  /// Patches that are together, and a ball around them at home.
+  /// Patches that are close together, and a ball around them before the copy's motion.
   struct Cluster {
-    std::size_t first = 0, count = 0;  // of Home::patches
+    std::size_t first = 0, count = 0;  // in Home::patches
     geometry::PatchBound bound{};
   };
 
-  /// What all copies of an object have in common.
+  /// The common properties of all copies of an object.
   struct Home {
     geometry::PatchBound bound{};
     std::vector<BoundedPatch> patches;  // cluster by cluster
     std::vector<Cluster> clusters;
-    bool opaque = false;  // and whole: what is in an atom's ball is behind the surface
+    bool opaque = false;  // opaque and complete: everything in an atom's ball is behind the surface
   };
 
   static Home home_of(const SurfaceObject& object);
@@ -100,21 +100,21 @@ class VisibleCopies final : public OpaqueScene {
   const Look look_;
   const LaneKernels& kernels_;
   const std::size_t patches_together_;
-  std::vector<std::vector<glm::vec4>> colors_;  // of objects
-  std::vector<Home> homes_;                     // likewise
+  std::vector<std::vector<glm::vec4>> colors_;  // for each object
+  std::vector<Home> homes_;                     // for each object
   std::vector<Copy> copies_;                    // from front to back
   bool some_hidden_ = false;
   std::size_t moved_ = 0;
 
-  // Of the block at work.
-  PictureFrame frame_;  // of the picture or of its shade map
+  // The members that follow belong to the current block.
+  PictureFrame frame_;  // frame of the picture or of its shade map
   PictureBlock block_;
   int samples_ = 0;
-  std::vector<ray_cast::Hit> hits_;  // of one sample
+  std::vector<ray_cast::Hit> hits_;  // hits of one sample
   RayDepths depths_;
-  std::vector<std::atomic<std::uint8_t>> shown_;  // primitives that stay
-  std::vector<CopyPlace> places_;                 // of the scene
-  std::vector<const Copy*> placed_;               // likewise
+  std::vector<std::atomic<std::uint8_t>> shown_;  // 1 for primitives that are kept
+  std::vector<CopyPlace> places_;                 // places of the copies in the scene
+  std::vector<const Copy*> placed_;               // these copies
 };
 
 }  // namespace meniscus

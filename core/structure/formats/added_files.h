@@ -15,11 +15,11 @@
 
 namespace meniscus {
 
-/// The atoms of added files, which follow those of the first file.
+/// The atoms of added files, which follow the atoms of the first file.
 class AddedFiles {
  public:
-  /// Reads the files and appends their atoms and bonds to `contents`. Of each file the first model is used, or all of
-  /// them if models.all is set. Their numbers continue those of the models before. superpose_on: the atoms by which
+  /// Reads the files and appends their atoms and bonds to `contents`. The first model of each file is used, or all
+  /// models if models.all is set. The models are numbered on from the models before. superpose_on: the atoms by which
   /// each file is superposed on the first, selected by this expression in both files (corresponding_atoms); none: the
   /// file keeps its positions. path: the first file, for messages. Throws InputError as the readers do, and for files
   /// without positions, files of which only some have radii, and files with no corresponding chain.

@@ -51,7 +51,7 @@ struct StreamedDocument : gemmi::cif::Document {
   }
 };
 
-// The actions of gemmi's grammar, with those of two rules extended.
+// The actions of gemmi's grammar, which are extended for two rules.
 template <typename Rule>
 struct StreamAction : gemmi::cif::Action<Rule> {};
 
@@ -86,8 +86,8 @@ gemmi::cif::Document stream(const TextFile& file, const TakeAtomRows& take) {
   return document;
 }
 
-// Passes on the rows that were not passed on while parsing: those of BinaryCIF, and a table with a single atom, which
-// is not a loop.
+// Passes on the rows that were not passed on while parsing: the rows of BinaryCIF, and a table with a single atom,
+// which is not a loop.
 gemmi::cif::Document hand_over_rest(gemmi::cif::Document document, const TakeAtomRows& take) {
   for (gemmi::cif::Block& block : document.blocks)
     if (block.find("_atom_site.", {"Cartn_x"}).length() > 0) take(block, 0);

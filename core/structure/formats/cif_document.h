@@ -19,7 +19,7 @@ bool is_binary_cif(std::string_view bytes);
 /// rows before these. Tables that follow in the file are not in the block yet.
 using TakeAtomRows = std::function<void(gemmi::cif::Block& block, std::size_t first)>;
 
-/// Parses the whole file once. Of BinaryCIF only the tables of binary_cif.h are read. Rows of _atom_site are passed to
+/// Parses the whole file once. In BinaryCIF only the tables of binary_cif.h are read. Rows of _atom_site are passed to
 /// `take` while they are read and are not kept, because all rows as text take three times the memory of all atoms. The
 /// table without rows stays in the document. Throws InputError with the line of a syntax error, and what `take` throws.
 gemmi::cif::Document parse_cif(const TextFile& file, const TakeAtomRows& take);

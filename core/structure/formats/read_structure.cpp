@@ -46,7 +46,7 @@ bool has_charge_and_room(const Atom& atom, std::string_view reason) {
 }
 
 /// Moves the atoms without a reason for leaving them out to the front of `atoms`. The reasons of the others are
-/// counted, and those of them that are shown are moved to `extra_atoms`.
+/// counted, and the others that are shown are moved to `extra_atoms`.
 template <typename Reason>
 void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& extra_atoms, ReadReport& report, Reason&& reason_of) {
   std::size_t kept = 0;
@@ -285,7 +285,7 @@ void keep_trajectory_atoms(FileContents& contents, const Selection& selection, c
     for (std::uint32_t& end : bond) end = place[end];
 }
 
-/// Sets the positions of a topology to those of the options.
+/// Sets the positions of a topology to the positions in the options.
 void place_atoms(FileContents& contents, const ReadOptions& options, const TextFile& file) {
   if (!contents.without_positions) return;
   if (options.positions.empty())

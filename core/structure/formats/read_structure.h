@@ -68,7 +68,7 @@ struct ReadOptions {
 
 /// Reads a file of any format in structure_formats.h, plain or gzipped; "-" is standard input. The default is: polymer
 /// and ligands, no water and free ions, the first model, the best alternate location, and the radii of the file (XYZR,
-/// PQR) or else those of Bondi.
+/// PQR) or else Bondi's radii.
 /// Throws InputError as read_text_file and the readers do, and if there is no such model, nothing is selected, no atoms
 /// are left, or elements are unknown. Throws CapacityError.
 Structure read_structure(const std::string& path, const ReadOptions& options = {});

@@ -49,7 +49,7 @@ class RadiiChoice {
   /// true if the molecule has hydrogens.
   bool united(bool any_hydrogens) const;
 
-  /// Assigns a radius to every atom, and leaves out those of radius zero (which tables give to some hydrogens).
+  /// Assigns a radius to every atom, and leaves out atoms of radius zero (which tables give to some hydrogens).
   /// Structure::radii_set and radius_classes are filled in. Warnings are added for atoms that neither files nor set
   /// cover, which get Bondi's radius of their element, for explicit hydrogens with united atoms, for elements without a
   /// published radius, and for overrides that select nothing. Returns the labels of atoms whose radius is a guess

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tables of van der Waals radii: the built-in sets, each with its source, and those of users' files.
+// Tables of van der Waals radii: the built-in sets, each with its source, and sets in users' files.
 #pragma once
 
 #include <bitset>
@@ -62,7 +62,7 @@ class NamePattern {
  private:
   struct Piece {
     std::bitset<256> characters;
-    bool is_optional = false;  // followed by ? or *
+    bool is_optional = false;  // followed by `?` or `*`
     bool is_repeated = false;  // followed by + or *
   };
   static std::vector<Piece> pieces_of(std::string_view alternative);

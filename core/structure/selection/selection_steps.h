@@ -65,7 +65,7 @@ enum class AtomField : std::uint8_t {
 
 enum class Comparison : std::uint8_t { less, less_or_equal, greater, greater_or_equal, equal, not_equal };
 
-/// A value of a text field. With wildcards, * stands for any characters and ? for one.
+/// A value of a text field. With wildcards, `*` stands for any characters and `?` for one.
 struct TextPattern {
   std::string text;
   bool has_wildcards = false;

@@ -294,7 +294,7 @@ class LammpsDump final : public Trajectory {
     frame_positions_.push_back(columns.is_scaled ? header.low + header.box * p : p);
   }
 
-  /// Sorts the atoms by their numbers, which must be those of the first frame.
+  /// Sorts the atoms by their numbers, which must be the same as in the first frame.
   void sort_atoms(std::uint64_t number) {
     if (!std::ranges::is_sorted(frame_ids_)) {
       std::vector<std::size_t> order(frame_ids_.size());

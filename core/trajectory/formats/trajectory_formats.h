@@ -29,9 +29,9 @@ inline constexpr std::size_t kTrajectoryStart = 4096;
 /// format of core/structure/formats/structure_formats.h.
 std::span<const TrajectoryFormat* const> trajectory_formats();
 
-/// Returns the name of the format that a file begins like, if files of this format have no names of atoms. Those are
-/// all formats but the last. The result is empty for other files and for files that cannot be read. Throws InputError
-/// for a run input file of GROMACS.
+/// Returns the name of the format that a file begins like, if files of this format have no names of atoms. These are
+/// all formats except the last. The result is empty for other files and for files that cannot be read. Throws
+/// InputError for a run input file of GROMACS.
 std::string_view bare_trajectory_format(const std::string& path);
 
 extern const TrajectoryFormat kDcdFormat;

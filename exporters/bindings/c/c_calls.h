@@ -97,8 +97,8 @@ inline void require_zero(std::int32_t reserved, const char* name) {
   if (reserved != 0) refuse(MENISCUS_USAGE, "{} is {}; it has to be 0", name, reserved);
 }
 
-/// Refuses a number outside of the range of a property with MENISCUS_INPUT. key: that of the property. name, unit:
-/// those of the message, as in "tolerance is 2 Å".
+/// Refuses a number outside of the range of a property with MENISCUS_INPUT. key: the property's key. name, unit: the
+/// words of the message, as in "tolerance is 2 Å".
 void check_number(std::string_view key, const char* name, double value, const char* unit);
 
 /// Refuses a number that is outside of a range, or NaN, with MENISCUS_INPUT.
