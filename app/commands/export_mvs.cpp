@@ -53,7 +53,7 @@ void run(const SceneCommand& asked) {
   std::vector<mvs::State> states;
   const auto make = [&](FigureFrame frame) -> FinishFrame {
     const std::string title = fmt::format("{}, frame {}", title_of(command.scene), frame.number);
-    const TracedScene made = traced_scene(run, std::move(frame));
+    const TracedFigure made = traced_figure(run, std::move(frame));
     auto state = std::make_shared<mvs::State>(mvs::State{mvs::tree_of(made.scene), title});
     std::size_t triangles = 0;
     for (const path_tracers::SceneItem& item : made.scene.items)

@@ -71,7 +71,7 @@ void run(const PathTracerCommand& command) {
   if (run.is_run()) run.save_cameras();
   const auto make = [&](FigureFrame frame) -> FinishFrame {
     const std::uint64_t number = frame.number;
-    auto [scene, tolerance] = traced_scene(run, std::move(frame));
+    auto [scene, tolerance] = traced_figure(run, std::move(frame));
     scene.material = command.material;
     const path_tracers::SceneReport report = write_scene(
         scene, target_of(command, run.is_run() ? fmt::format("surface_{:05}", number) : std::string("surface")));

@@ -286,7 +286,7 @@ TakenProperties traced_properties() {
   return figure_properties().with({"look.material", "mesh.tolerance", "mesh.tolerance_pixels"});
 }
 
-TracedScene traced_scene(const FigureRun& run, FigureFrame frame) {
+TracedFigure traced_figure(const FigureRun& run, FigureFrame frame) {
   const Scene& asked = run.scene();
   Figure& figure = frame.figure;
   const std::vector<Ball> balls = run.is_run() ? standing_balls(run.structure()) : figure.balls();

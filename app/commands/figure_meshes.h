@@ -82,7 +82,7 @@ std::string add_numbers(const SceneCommand& command, blender::SurfaceNumbers wan
 TakenProperties traced_properties();
 
 /// A figure's scene, and its fineness.
-struct TracedScene {
+struct TracedFigure {
   path_tracers::Scene scene;
   double tolerance = 0.0;  ///< Å
 };
@@ -90,6 +90,6 @@ struct TracedScene {
 /// Makes the scene of a frame of the run, or of its one molecule: the surface with caps where planes cut it, and
 /// everything drawn in addition. Scenes of a run have one origin, and the fineness that its first camera needs, unless
 /// another tolerance is set. Throws like capped_mesh().
-TracedScene traced_scene(const FigureRun& run, FigureFrame frame);
+TracedFigure traced_figure(const FigureRun& run, FigureFrame frame);
 
 }  // namespace meniscus

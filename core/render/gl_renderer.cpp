@@ -26,18 +26,18 @@ void SurfaceDrawable::show(const Surface& surface, const Coloring& coloring) {
   coloring_ = &coloring;
 }
 
-const GpuScene& SurfaceDrawable::prepare(const PictureFrame& frame, StageClock& clock) {
+const GpuPack& SurfaceDrawable::prepare(const PictureFrame& frame, StageClock& clock) {
   const GpuStage stage(clock, "pack");
   upload_scene(pack_scene(*surface_, *coloring_, frame), *surface_, frame, scene_);
   upload_coloring(*coloring_, scene_);
   return scene_;
 }
 
-void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene) {
+void upload_scene(const RayCastPack& packed, const Surface& surface, const PictureFrame& frame, GpuPack& scene) {
   scene.primitives.upload(packed.primitives);
   scene.rows.upload(packed.rows);
   scene.counters.upload(std::vector<std::uint32_t>{scene.primitives.count()});
-  static_cast<ScenePlacement&>(scene) = place_atoms(surface.atoms, surface.probe_radius, frame);
+  static_cast<PackPlacement&>(scene) = place_atoms(surface.atoms, surface.probe_radius, frame);
 }
 
 namespace {

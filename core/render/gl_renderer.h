@@ -15,10 +15,10 @@
 #include "core/base/progress.h"
 #include "core/camera/camera.h"
 #include "core/gpu/buffer.h"
-#include "core/render/gpu_scene.h"
+#include "core/render/gpu_pack.h"
 #include "core/render/picture.h"
 #include "core/render/picture_block.h"
-#include "core/render/ray_cast_scene.h"
+#include "core/render/ray_cast_pack.h"
 #include "core/render/ray_caster.h"
 #include "core/surface/primitives.h"
 
@@ -40,7 +40,7 @@ class Drawable {
 
   /// Puts everything that this picture shows on the GPU, including colours. The result is valid until the next call.
   /// Adds the time of each stage to `clock`. Throws GpuError, CapacityError, OpenSurfaceError.
-  virtual const GpuScene& prepare(const PictureFrame& frame, StageClock& clock) = 0;
+  virtual const GpuPack& prepare(const PictureFrame& frame, StageClock& clock) = 0;
 
   /// An implementation of prepare() may assume that a frame needs no more memory than the one before. ask() then queues
   /// the reading of the counts that the frame needed, and settle() returns whether the memory was sufficient. If it was
@@ -62,17 +62,17 @@ class SurfaceDrawable final : public Drawable {
   void show(const Surface& surface, const Coloring& coloring);
 
   std::span<const Ball> atoms() const override { return surface_->atoms; }
-  const GpuScene& prepare(const PictureFrame& frame, StageClock& clock) override;
+  const GpuPack& prepare(const PictureFrame& frame, StageClock& clock) override;
   const Surface* surface() const override { return surface_; }
 
  private:
   const Surface* surface_ = nullptr;
   const Coloring* coloring_ = nullptr;
-  GpuScene scene_;
+  GpuPack scene_;
 };
 
 /// Uploads everything of `scene` except the colours.
-void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene);
+void upload_scene(const RayCastPack& packed, const Surface& surface, const PictureFrame& frame, GpuPack& scene);
 
 /// Returns the renderer and the version of GL.
 std::string gl_words(const EglContext& context);
@@ -126,8 +126,8 @@ class GlRenderer {
   SurfaceDrawable surface_;  // for pictures of computed surfaces
   Presenter presenter_;
   StageClock clock_;
-  PictureFrame frame_;               // of the last picture
-  const GpuScene* scene_ = nullptr;  // scene of the last picture
+  PictureFrame frame_;              // of the last picture
+  const GpuPack* scene_ = nullptr;  // scene of the last picture
 };
 
 }  // namespace meniscus

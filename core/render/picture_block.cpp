@@ -153,7 +153,7 @@ kernel::TileListParameters tile_list_parameters(const PictureFrame& frame, const
           .entry_capacity = 0};  // there are no lists yet
 }
 
-kernel::RayCastParameters cast_parameters(const ScenePlacement& scene, const Look& look, std::uint32_t atom_count,
+kernel::RayCastParameters cast_parameters(const PackPlacement& scene, const Look& look, std::uint32_t atom_count,
                                           bool color_by_kind) {
   kernel::RayCastParameters own{};
   own.key_direction = glm::normalize(look.light_direction);
@@ -203,7 +203,7 @@ kernel::OcclusionParameters occlusion_parameters(const Look& look, glm::ivec2 pi
           .sample_index = static_cast<std::uint32_t>(sample / kSamplesOfShade)};
 }
 
-kernel::FinishParameters finish_parameters(const Look& look, const ScenePlacement& scene, glm::ivec2 picture_size,
+kernel::FinishParameters finish_parameters(const Look& look, const PackPlacement& scene, glm::ivec2 picture_size,
                                            int sample, bool has_marks) {
   constexpr float kLeastPixels = 2.0f;  // slopes and rounding cause smaller steps, which get no line
   const float step_pixels = look.line_step * static_cast<float>(std::min(picture_size.x, picture_size.y));

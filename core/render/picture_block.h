@@ -17,10 +17,10 @@
 
 #include "core/base/constants.h"
 #include "core/gpu/kernel_records.h"
-#include "core/render/gpu_scene.h"
+#include "core/render/gpu_pack.h"
 #include "core/render/look.h"
 #include "core/render/picture.h"
-#include "core/render/ray_cast_scene.h"
+#include "core/render/ray_cast_pack.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -113,12 +113,12 @@ kernel::TileListParameters tile_list_parameters(const PictureFrame& frame, const
                                                 std::uint32_t primitive_count);
 
 /// Returns the parameters for the first sample, without tiles.
-kernel::RayCastParameters cast_parameters(const ScenePlacement& scene, const Look& look, std::uint32_t atom_count,
+kernel::RayCastParameters cast_parameters(const PackPlacement& scene, const Look& look, std::uint32_t atom_count,
                                           bool color_by_kind);
 
 /// Returns the parameters for the sample with number `sample` of each pixel.
 kernel::OcclusionParameters occlusion_parameters(const Look& look, glm::ivec2 picture_size, int sample);
-kernel::FinishParameters finish_parameters(const Look& look, const ScenePlacement& scene, glm::ivec2 picture_size,
+kernel::FinishParameters finish_parameters(const Look& look, const PackPlacement& scene, glm::ivec2 picture_size,
                                            int sample, bool has_marks);
 
 /// Returns the blocks of a picture, of at most `edge` pixels, which are multiples of kTileEdge.

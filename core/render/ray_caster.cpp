@@ -18,7 +18,7 @@
 
 namespace meniscus {
 
-void LookPass::add(const CastSample& sample, const Look& look, const GpuScene& scene, const PictureFrame& frame,
+void LookPass::add(const CastSample& sample, const Look& look, const GpuPack& scene, const PictureFrame& frame,
                    const PictureBlock& block, const Buffer& picture) {
   const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
   const bool is_map = look.ambient_occlusion > 0.0f && sample.index == 0 && holds_shade_map(block, frame.size);
@@ -112,7 +112,7 @@ std::vector<std::uint8_t> Presenter::rgba() const {
   return bytes;
 }
 
-void upload_coloring(const Coloring& coloring, GpuScene& scene) {
+void upload_coloring(const Coloring& coloring, GpuPack& scene) {
   scene.atom_count = static_cast<std::uint32_t>(coloring.atom.size());
   scene.color_by_kind = coloring.kind.has_value();
   scene.some_hidden = coloring.hides_some();
@@ -120,7 +120,7 @@ void upload_coloring(const Coloring& coloring, GpuScene& scene) {
   scene.marks.upload(coloring.line_marks());
 }
 
-kernel::DepthSlices depth_slices(const GpuScene& scene) {
+kernel::DepthSlices depth_slices(const GpuPack& scene) {
   const float thickness = (scene.last_depth - scene.first_depth) / static_cast<float>(kSliceCount);
   return {.first_depth = scene.first_depth, .slices_per_angstrom = thickness > 0.0f ? 1.0f / thickness : 0.0f};
 }
@@ -129,7 +129,7 @@ std::uint32_t TileLists::slot_count() const {
   return static_cast<std::uint32_t>(tiles_.x) * static_cast<std::uint32_t>(tiles_.y) * kSlotsPerTile;
 }
 
-void TileLists::build(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block, Counting counting) {
+void TileLists::build(const GpuPack& scene, const PictureFrame& frame, const PictureBlock& block, Counting counting) {
   tiles_ = (block.size + (kTileEdge - 1)) / kTileEdge;
   counts_.resize((slot_count() + 1) * sizeof(std::uint32_t));
   counts_.fill(0);
@@ -161,7 +161,7 @@ bool TileLists::settle() {
   return true;
 }
 
-void TileLists::run(int pass, const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block) {
+void TileLists::run(int pass, const GpuPack& scene, const PictureFrame& frame, const PictureBlock& block) {
   const Program& program = programs_.get("gpu_shaders/ray_cast/tile_lists.comp", {{"PASS", std::to_string(pass)}});
   primitive_texels_.bind(0);
   counts_.bind(0);
@@ -217,7 +217,7 @@ struct RayCaster::Parameters {
   kernel::DepthSlices slices;
 };
 
-bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block,
+bool RayCaster::cast(const GpuPack& scene, const PictureFrame& frame, const PictureBlock& block,
                      const CastSettings& settings) {
   StageClock unused;
   StageClock& clock = settings.clock ? *settings.clock : unused;
@@ -273,14 +273,14 @@ bool RayCaster::settle() {
   return true;
 }
 
-const Program& RayCaster::program(const GpuScene& scene, bool resumed) {
+const Program& RayCaster::program(const GpuPack& scene, bool resumed) {
   ShaderDefines defines;
   if (scene.some_hidden) defines.emplace_back("SOME_HIDDEN", "1");
   if (resumed) defines.emplace_back("RESUMED", "1");
   return programs_.get("gpu_shaders/ray_cast/ray_cast.comp", defines);
 }
 
-void RayCaster::cast_sample(const GpuScene& scene, const CastSample& sample, const Parameters& parameters,
+void RayCaster::cast_sample(const GpuPack& scene, const CastSample& sample, const Parameters& parameters,
                             Counting counting) {
   start(program(scene, false), scene, sample, parameters);
   if (counting == Counting::later) return;
@@ -289,7 +289,7 @@ void RayCaster::cast_sample(const GpuScene& scene, const CastSample& sample, con
   if (longest_ > 0) finish_long_lists(longest_, scene, sample, parameters);
 }
 
-void RayCaster::start(const Program& program, const GpuScene& scene, const CastSample& sample,
+void RayCaster::start(const Program& program, const GpuPack& scene, const CastSample& sample,
                       const Parameters& parameters) {
   row_texels_.bind(1);
   scene.colors.bind(0);
@@ -304,7 +304,7 @@ void RayCaster::start(const Program& program, const GpuScene& scene, const CastS
 
 // Lists of thousands of primitives, as for large molecules in small pictures, are too long for a single dispatch of
 // software GL's kernels.
-void RayCaster::finish_long_lists(std::uint32_t longest, const GpuScene& scene, const CastSample& sample,
+void RayCaster::finish_long_lists(std::uint32_t longest, const GpuPack& scene, const CastSample& sample,
                                   Parameters parameters) {
   constexpr std::uint32_t kFirstPart = 256, kSmallestPart = 4;
   states_.resize(unfinished_.byte_count() * 16);  // four vectors of four words for each word there

@@ -14,10 +14,10 @@
 #include "core/gpu/kernel_lists.h"
 #include "core/gpu/kernel_records.h"
 #include "core/gpu/program.h"
-#include "core/render/gpu_scene.h"
+#include "core/render/gpu_pack.h"
 #include "core/render/look.h"
 #include "core/render/picture_block.h"
-#include "core/render/ray_cast_scene.h"
+#include "core/render/ray_cast_pack.h"
 
 namespace meniscus {
 
@@ -35,7 +35,7 @@ class LookPass {
   explicit LookPass(ProgramCache& programs) : programs_(programs) {}
 
   /// Adds the sample's colours, changed by the look's effects, to `picture`; the first sample replaces its content.
-  void add(const CastSample& sample, const Look& look, const GpuScene& scene, const PictureFrame& frame,
+  void add(const CastSample& sample, const Look& look, const GpuPack& scene, const PictureFrame& frame,
            const PictureBlock& block, const Buffer& picture);
 
   /// Returns the depths along the view axis of the first sample's hits in a block; kernel::kNothing where nothing is
@@ -89,7 +89,7 @@ class TileLists {
 
   /// Builds the lists. Throws CapacityError if they are larger than a kernel can address; smaller blocks help. With
   /// Counting::later they get the memory that they needed last time and some more.
-  void build(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block,
+  void build(const GpuPack& scene, const PictureFrame& frame, const PictureBlock& block,
              Counting counting = Counting::now);
   /// For Counting::later, ask() queues the reading of the counts that the host needs. Once they have been read,
   /// settle() returns whether the memory was sufficient.
@@ -100,7 +100,7 @@ class TileLists {
   /// Returns one uint32 for each slice of spheres and of tori of each tile, row by row: the end of its primitives in
   /// entries(). They begin at the end of the slice before.
   const Buffer& slot_ends() const { return counts_; }
-  const Buffer& entries() const { return entries_; }  ///< uint32 each: places in GpuScene::primitives
+  const Buffer& entries() const { return entries_; }  ///< uint32 each: places in GpuPack::primitives
 
   /// Binds the buffers that gpu_shaders/ray_cast/ray_cast.comp reads and dispatches it, one group for each tile with a
   /// list that is not empty.
@@ -110,7 +110,7 @@ class TileLists {
 
  private:
   void split_tiles();
-  void run(int pass, const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block);
+  void run(int pass, const GpuPack& scene, const PictureFrame& frame, const PictureBlock& block);
   std::uint32_t slot_count() const;
 
   ProgramCache& programs_;
@@ -124,7 +124,7 @@ class TileLists {
 };
 
 /// Returns the borders of the scene's slices of depth.
-kernel::DepthSlices depth_slices(const GpuScene& scene);
+kernel::DepthSlices depth_slices(const GpuPack& scene);
 
 /// Settings for casting a block.
 struct CastSettings {
@@ -141,12 +141,12 @@ class RayCaster {
   /// Casts a block of a picture and leaves the result on the GPU, in picture() and hits(). frame.size is the size of
   /// the whole picture. Returns false if casting was stopped; then there is no picture. Throws GpuError; CapacityError
   /// if the block is too large for this GPU.
-  bool cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block,
+  bool cast(const GpuPack& scene, const PictureFrame& frame, const PictureBlock& block,
             const CastSettings& settings = {});
 
   /// Returns the depths of a block of shade_map_frame(), row by row. picture() and hits() then belong to the map.
   /// Throws as cast().
-  std::vector<float> cast_depths(const GpuScene& scene, const PictureFrame& map, const PictureBlock& block) {
+  std::vector<float> cast_depths(const GpuPack& scene, const PictureFrame& map, const PictureBlock& block) {
     cast(scene, map, block);
     return look_pass_.depths(hits_, map, block);
   }
@@ -169,10 +169,10 @@ class RayCaster {
  private:
   struct Parameters;
 
-  void cast_sample(const GpuScene& scene, const CastSample& sample, const Parameters& parameters, Counting counting);
-  void start(const Program& program, const GpuScene& scene, const CastSample& sample, const Parameters& parameters);
-  void finish_long_lists(std::uint32_t longest, const GpuScene& scene, const CastSample& sample, Parameters parameters);
-  const Program& program(const GpuScene& scene, bool resumed);
+  void cast_sample(const GpuPack& scene, const CastSample& sample, const Parameters& parameters, Counting counting);
+  void start(const Program& program, const GpuPack& scene, const CastSample& sample, const Parameters& parameters);
+  void finish_long_lists(std::uint32_t longest, const GpuPack& scene, const CastSample& sample, Parameters parameters);
+  const Program& program(const GpuPack& scene, bool resumed);
 
   ProgramCache programs_;
   TileLists lists_{programs_};

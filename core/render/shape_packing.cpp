@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Packs a bound and rows for each shape; every number is computed in double and rounded once.
-#include "core/render/ray_cast_scene.h"
+#include "core/render/ray_cast_pack.h"
 
 #include <algorithm>
 #include <bit>
@@ -19,7 +19,7 @@ using ray_cast::Primitive;
 
 class ShapePacker {
  public:
-  ShapePacker(const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene)
+  ShapePacker(const Coloring& coloring, const PictureFrame& frame, RayCastPack& scene)
       : coloring_(coloring), frame_(frame), scene_(scene) {}
 
   void pack(const SphereShape& sphere) {
@@ -80,13 +80,13 @@ class ShapePacker {
 
   const Coloring& coloring_;
   const PictureFrame& frame_;
-  RayCastScene& scene_;
+  RayCastPack& scene_;
 };
 
 }  // namespace
 
 void pack_shapes(const Shapes& shapes, const Coloring& coloring, const PictureFrame& frame, float slack,
-                 RayCastScene& scene) {
+                 RayCastPack& scene) {
   scene.slack = slack;
   scene.primitives.clear();
   scene.rows.clear();

@@ -19,7 +19,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kProbeWord = 3 * kWord;  // in GpuScene::counters (append_primitive.glsl)
+constexpr std::size_t kProbeWord = 3 * kWord;  // in GpuPack::counters (append_primitive.glsl)
 
 }  // namespace
 
@@ -47,7 +47,7 @@ void ViewPipeline::set_surface(double probe_radius, Extent extent) {
   extent_ = extent;
 }
 
-const GpuScene& ViewPipeline::prepare(const PictureFrame& frame, StageClock& clock) {
+const GpuPack& ViewPipeline::prepare(const PictureFrame& frame, StageClock& clock) {
   assert(scene_.atom_count == atoms_.size());
   for (int attempt = 1;; ++attempt) {
     try {
@@ -232,7 +232,7 @@ void ViewPipeline::make_primitives(const PictureFrame& frame, StageClock& clock)
   const GpuStage stage(clock, "primitives");
   list_arcs_by_atom();
   if (!whole_spheres_) find_clips();
-  static_cast<ScenePlacement&>(scene_) = place_atoms(atoms_, probe_radius_, frame);
+  static_cast<PackPlacement&>(scene_) = place_atoms(atoms_, probe_radius_, frame);
   scene_.counters.resize(kProbeWord + kWord);
   scene_.counters.copy(probe_counters_, 0, kProbeWord, kWord);
   const auto run = [&] { append_primitives(frame); };

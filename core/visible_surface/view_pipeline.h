@@ -16,9 +16,9 @@
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/render/gl_renderer.h"
-#include "core/render/gpu_scene.h"
+#include "core/render/gpu_pack.h"
 #include "core/render/picture.h"
-#include "core/render/ray_cast_scene.h"
+#include "core/render/ray_cast_pack.h"
 #include "core/surface/primitives.h"
 #include "core/visible_surface/visible_atoms.h"
 
@@ -62,7 +62,7 @@ class ViewPipeline final : public Drawable {
 
   /// Grows the radii slightly where ties keep the arcs around the view from closing (compute_surface.h). Throws
   /// OpenSurfaceError if that does not help, GpuError, CapacityError.
-  const GpuScene& prepare(const PictureFrame& frame, StageClock& clock) override;
+  const GpuPack& prepare(const PictureFrame& frame, StageClock& clock) override;
   void ask(Readback& readback) override;
   bool settle() override;
 
@@ -99,7 +99,7 @@ class ViewPipeline final : public Drawable {
   VisibleAtoms visible_{programs_};
   PaperSelection paper_{programs_};
   ViewStats stats_;
-  GpuScene scene_;
+  GpuPack scene_;
 
   // The state of the current frame.
   std::vector<Ball> atoms_;

@@ -14,7 +14,7 @@
 #include "core/gpu/kernel_lists.h"
 #include "core/gpu/kernel_records.h"
 #include "core/gpu/program.h"
-#include "core/render/ray_cast_scene.h"
+#include "core/render/ray_cast_pack.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -40,7 +40,7 @@ class VisibleAtoms {
   bool keeps_all() const { return view_.keep_all != 0; }
 
   /// Draws the vdW spheres. balls: vec4 per atom, centre from the middle and SAS radius. Writes tile_depths in the form
-  /// of GpuScene; that buffer must stay valid.
+  /// of GpuPack; that buffer must stay valid.
   void draw_occluders(const Buffer& balls, std::uint32_t atom_count, Buffer& tile_depths);
 
   /// Lists the atoms to keep and returns their number; with Counting::later, an upper limit based on the last number.

@@ -21,7 +21,7 @@
 #include "core/image/color_space.h"
 #include "core/math/ball.h"
 #include "core/render/picture.h"
-#include "core/render/ray_cast_scene.h"
+#include "core/render/ray_cast_pack.h"
 
 namespace meniscus::page {
 namespace {
@@ -216,7 +216,7 @@ void Tables::add_surface(const SurfaceObject& object, bool whole, std::uint32_t 
 }
 
 void Tables::add_shapes(const ColoredShapes& shapes) {
-  RayCastScene beside;
+  RayCastPack beside;
   pack_shapes(shapes.shapes, shapes.coloring, frame_, placement_.slack, beside);
   // A sphere of its own is told from the patch of an atom by its index.
   add_records(std::move(beside), kShapeIndex);
@@ -226,7 +226,7 @@ void Tables::add_shapes(const ColoredShapes& shapes) {
 }
 
 /// Behind those that are there.
-void Tables::add_records(RayCastScene more, std::uint32_t place) {
+void Tables::add_records(RayCastPack more, std::uint32_t place) {
   const auto first_row = static_cast<std::uint32_t>(scene_.rows.size());
   const std::uint32_t first_atom = atom_count();
   const auto rename = [&](std::uint32_t row) {

@@ -14,7 +14,7 @@
 #include <glm/vec4.hpp>
 #include <nlohmann/json_fwd.hpp>
 
-#include "core/render/ray_cast_scene.h"
+#include "core/render/ray_cast_pack.h"
 #include "exporters/page/page_data.h"
 #include "exporters/page/page_figure.h"
 
@@ -30,7 +30,7 @@ class Tables {
   explicit Tables(const PageFigure& figure);
 
   const glm::dvec3& origin() const { return frame_.pivot; }  ///< from where the records count, Å
-  const ScenePlacement& placement() const { return placement_; }
+  const PackPlacement& placement() const { return placement_; }
   std::uint32_t atom_count() const { return static_cast<std::uint32_t>(shown_.size()); }
   bool color_by_kind() const { return kind_.has_value(); }
   bool some_hidden() const { return some_hidden_; }
@@ -44,15 +44,15 @@ class Tables {
   void check_size(std::size_t texels, const char* what) const;
   void add_surface(const SurfaceObject& object, bool whole, std::uint32_t place);
   void add_shapes(const ColoredShapes& shapes);
-  void add_records(RayCastScene more, std::uint32_t place);
+  void add_records(RayCastPack more, std::uint32_t place);
   void add_atoms(const Coloring& coloring, std::span<const std::uint32_t> shown);
   void round_tables();
   void add_map();
 
   const PageFigure& figure_;
   PictureFrame frame_;
-  ScenePlacement placement_;
-  RayCastScene scene_;
+  PackPlacement placement_;
+  RayCastPack scene_;
   std::vector<glm::vec4> colors_, balls_;
   std::vector<std::uint32_t> marks_, shown_;
   std::vector<std::uint32_t> map_;  ///< painted.glsl's, floats as bits

@@ -207,13 +207,13 @@ TEST(Copies, BehindOthersAreLeftWhereTheyAre) {
   camera.height = 4.0;  // nothing but the middle of the molecule
   for (int n = 1; n < 50; ++n) objects[0].copies.push_back({glm::dmat3(1.0), 60.0 * n * basis.forward});
   const PictureFrame frame = make_picture_frame(placed_balls(objects), camera, {64, 64});
-  const ScenePlacement placement = place_atoms(placed_balls(objects), kWater, frame);
+  const PackPlacement placement = place_atoms(placed_balls(objects), kWater, frame);
   VisibleCopies copies(objects, frame, placement, {}, widest_kernels(16), 1);
   const std::function<bool()> never;
   Interruption interruption(never);
   StageClock clock;
   copies.begin_block({frame, {{0, 0}, frame.size}, 4}, interruption, clock);
-  const HostScene& scene = copies.scene();
+  const HostPack& scene = copies.scene();
   EXPECT_EQ(copies.moved(), 1u);
   EXPECT_GT(scene.packed.primitives.size(), 0u);
   EXPECT_LT(scene.packed.primitives.size(), 100u);  // of some 4,000

@@ -139,7 +139,7 @@ TEST_F(Views, ManyPartnersAreNoMoreThanOneInvocationCanGoThrough) {
   load(atoms);
   EXPECT_EQ(differing_from_host(surface, false), 0);
   StageClock clock;
-  const GpuScene& scene = view_.prepare(make_picture_frame(atoms, frame_camera(atoms, 4.0 / 3.0), kSize), clock);
+  const GpuPack& scene = view_.prepare(make_picture_frame(atoms, frame_camera(atoms, 4.0 / 3.0), kSize), clock);
   std::size_t of_the_large_one = 0;
   for (const ray_cast::Primitive& primitive :
        scene.primitives.buffer.download<ray_cast::Primitive>(scene.primitives.count()))

@@ -16,7 +16,7 @@
 #include "core/image/color_space.h"
 #include "core/queries/copies.h"
 #include "core/render/cpu/interruption.h"
-#include "core/render/cpu/layered_scene.h"
+#include "core/render/cpu/layer_stack.h"
 
 namespace meniscus {
 namespace {
@@ -74,7 +74,7 @@ void CpuRenderer::place(std::span<const PictureObject> objects, const Camera& ca
   const std::vector<Ball> kept = kept_balls(objects);
   if (kept.empty() || kept.size() == balls.size()) return;
   // The depth cue of a picture with cuts begins at the part that is kept.
-  const ScenePlacement seen = place_atoms(kept, probe_radius, frame_);
+  const PackPlacement seen = place_atoms(kept, probe_radius, frame_);
   placement_.first_depth = seen.first_depth;
   placement_.last_depth = seen.last_depth;
 }
@@ -88,8 +88,8 @@ void CpuRenderer::trace_light(std::span<const Object> objects, const RenderSetti
   occluders_->aim(settings.look, frame_.basis, settings.samples);
 }
 
-std::shared_ptr<PictureScene> CpuRenderer::pack(std::span<const PictureObject> objects, const Camera& camera,
-                                                const RenderSettings& settings) {
+std::shared_ptr<PictureContent> CpuRenderer::pack(std::span<const PictureObject> objects, const Camera& camera,
+                                                  const RenderSettings& settings) {
   assert(!objects.empty());
   begin(camera, settings);
   place(objects, camera, settings.size);
@@ -97,13 +97,13 @@ std::shared_ptr<PictureScene> CpuRenderer::pack(std::span<const PictureObject> o
   const auto stage = clock_.stage("pack");
   const PictureObject& first = objects.front();
   if (objects.size() > 1 || needs_layers(first))
-    return std::make_shared<LayeredScene>(objects, frame_, placement_, settings.look);
+    return std::make_shared<LayerStack>(objects, frame_, placement_, settings.look);
   surface_->pack(first, frame_, placement_, settings.look);
   return surface_;
 }
 
-std::shared_ptr<PictureScene> CpuRenderer::pack_copies(std::span<const SurfaceObject> objects, const Camera& camera,
-                                                       const RenderSettings& settings) {
+std::shared_ptr<PictureContent> CpuRenderer::pack_copies(std::span<const SurfaceObject> objects, const Camera& camera,
+                                                         const RenderSettings& settings) {
   assert(!objects.empty());
   begin(camera, settings);
   {
@@ -116,7 +116,7 @@ std::shared_ptr<PictureScene> CpuRenderer::pack_copies(std::span<const SurfaceOb
   return std::make_shared<VisibleCopies>(objects, frame_, placement_, settings.look, kernels_, patches_together_);
 }
 
-Framebuffer CpuRenderer::render(PictureScene& scene, const RenderSettings& settings) {
+Framebuffer CpuRenderer::render(PictureContent& scene, const RenderSettings& settings) {
   PictureCollector collector(
       frame_, settings, [&](const ray_cast::Hit& hit, const glm::dvec3& point) { return scene.names_of(hit, point); },
       scene.content().several_objects, [&](const ray_cast::Hit& hit) { return scene.atom_of(hit); });
@@ -140,7 +140,7 @@ Framebuffer CpuRenderer::render(PictureScene& scene, const RenderSettings& setti
   return collector.take();
 }
 
-bool CpuRenderer::draw(std::shared_ptr<PictureScene> scene, const RenderSettings& settings,
+bool CpuRenderer::draw(std::shared_ptr<PictureContent> scene, const RenderSettings& settings,
                        const std::function<bool()>& stop) {
   Interruption interruption(stop);
   const PictureBlock whole{{0, 0}, settings.size};
@@ -187,7 +187,7 @@ void CpuRenderer::resize_samples(const BlockTask& task) {
 }
 
 /// Depths do not depend on light.
-void CpuRenderer::cast_shade_map(PictureScene& scene, const RenderSettings& settings, Interruption& interruption) {
+void CpuRenderer::cast_shade_map(PictureContent& scene, const RenderSettings& settings, Interruption& interruption) {
   const PictureFrame map = shade_map_frame(frame_);
   const BlockTask task{scene, {map, {{0, 0}, map.size}}, settings};
   scene.begin_block(task.at, interruption, clock_);

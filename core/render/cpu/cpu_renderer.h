@@ -17,7 +17,7 @@
 #include "core/base/progress.h"
 #include "core/render/cpu/lane_kernels.h"
 #include "core/render/cpu/occluders.h"
-#include "core/render/cpu/picture_scene.h"
+#include "core/render/cpu/picture_content.h"
 #include "core/render/cpu/visible_copies.h"
 #include "core/render/picture.h"
 #include "core/render/picture_block.h"
@@ -83,7 +83,7 @@ class CpuRenderer {
 
   /// The requested results of a block.
   struct BlockTask {
-    PictureScene& scene;
+    PictureContent& scene;
     SceneBlock at;
     const RenderSettings& settings;
     bool hits = false;  ///< true: hits are requested, too
@@ -93,19 +93,19 @@ class CpuRenderer {
     std::size_t pixel_count() const { return static_cast<std::size_t>(at.block.size.x) * at.block.size.y; }
   };
 
-  std::shared_ptr<PictureScene> pack(std::span<const PictureObject> objects, const Camera& camera,
-                                     const RenderSettings& settings);
-  std::shared_ptr<PictureScene> pack_copies(std::span<const SurfaceObject> objects, const Camera& camera,
-                                            const RenderSettings& settings);
+  std::shared_ptr<PictureContent> pack(std::span<const PictureObject> objects, const Camera& camera,
+                                       const RenderSettings& settings);
+  std::shared_ptr<PictureContent> pack_copies(std::span<const SurfaceObject> objects, const Camera& camera,
+                                              const RenderSettings& settings);
   void begin(const Camera& camera, const RenderSettings& settings);
   void place(std::span<const PictureObject> objects, const Camera& camera, glm::ivec2 size);
   template <typename Object>
   void trace_light(std::span<const Object> objects, const RenderSettings& settings);
   const LaneLight* light() const { return occluders_ ? occluders_->light() : nullptr; }
 
-  Framebuffer render(PictureScene& scene, const RenderSettings& settings);
-  bool draw(std::shared_ptr<PictureScene> scene, const RenderSettings& settings, const std::function<bool()>& stop);
-  void cast_shade_map(PictureScene& scene, const RenderSettings& settings, Interruption& interruption);
+  Framebuffer render(PictureContent& scene, const RenderSettings& settings);
+  bool draw(std::shared_ptr<PictureContent> scene, const RenderSettings& settings, const std::function<bool()>& stop);
+  void cast_shade_map(PictureContent& scene, const RenderSettings& settings, Interruption& interruption);
   void cast(const BlockTask& task, Interruption& interruption);
   void resize_samples(const BlockTask& task);
   void cast_samples(int first, int count, const BlockTask& task, Interruption& interruption);
@@ -118,9 +118,9 @@ class CpuRenderer {
   const std::size_t patches_together_;
   StageClock clock_;
   PictureFrame frame_;                  // frame of the current or last drawn picture
-  ScenePlacement placement_;            // placement of the current picture
+  PackPlacement placement_;             // placement of the current picture
   std::optional<Occluders> occluders_;  // occluders of the current picture, if its light is traced
-  const std::shared_ptr<SurfaceScene> surface_ = std::make_shared<SurfaceScene>();  // for pictures of one surface
+  const std::shared_ptr<SurfaceContent> surface_ = std::make_shared<SurfaceContent>();  // for pictures of one surface
   std::vector<glm::vec4> sums_;
   std::vector<ray_cast::Hit> hits_;
   BlockSamples samples_, front_;                    // front_: for pictures with transparent parts
@@ -128,8 +128,9 @@ class CpuRenderer {
   std::vector<float> front_ink_;                    // share of front_ that lines cover
   std::vector<float> shade_map_, front_shade_map_;  // depths of the whole picture; the last is the depth of nothing
   std::vector<std::uint8_t> rgba_;
-  glm::ivec2 size_{0};                         // size of rgba_
-  std::shared_ptr<const PictureScene> drawn_;  // the scene of rgba_, which hits_ belong to; nullptr: hits_ are invalid
+  glm::ivec2 size_{0};  // size of rgba_
+  std::shared_ptr<const PictureContent>
+      drawn_;  // the scene of rgba_, which hits_ belong to; nullptr: hits_ are invalid
 };
 
 }  // namespace meniscus

@@ -16,7 +16,7 @@
 #endif
 
 #include "core/gpu/kernel_records.h"
-#include "core/render/gpu_scene.h"
+#include "core/render/gpu_pack.h"
 
 namespace meniscus {
 
@@ -60,7 +60,7 @@ struct LaneLight {
 };
 
 /// The scene that a tile's rays are traced through; see gpu_shaders/ray_cast/records.glsl.
-struct LaneScene {
+struct LanePack {
   const ray_cast::Primitive* primitives = nullptr;
   const glm::vec4* rows = nullptr;
   const glm::vec4* colors = nullptr;  ///< linear, alpha: opacity, 0 if hidden; one for each atom, then for each kind
@@ -74,7 +74,7 @@ struct LaneScene {
 
 /// The opaque parts of one object, which block light. The scene of an occluder is not visible.
 struct LaneOccluder {
-  LaneScene scene;
+  LanePack scene;
   const OccluderBox* boxes = nullptr;    ///< the first contains all others; nullptr: there are no primitives
   const std::uint32_t* order = nullptr;  ///< indices of its primitives
   const glm::vec4* planes = nullptr;     ///< as LayerTask::planes
@@ -104,7 +104,7 @@ struct LaneSamples {
   float* depth = nullptr;       ///< along the view axis, Å; kernel::kNothing where nothing is hit
   float* normal[3] = {};        ///< towards the solvent, in the molecule's axes
   float* visibility = nullptr;  ///< the share of the sky that it sees, from rays; nullptr: LaneLight::sky_rays is 0
-  float* mark = nullptr;        ///< LaneScene::marks of what is hit, otherwise 0; nullptr if there are none
+  float* mark = nullptr;        ///< LanePack::marks of what is hit, otherwise 0; nullptr if there are none
   glm::vec4* over = nullptr;    ///< transparent parts before all of this, premultiplied; nullptr: none
 };
 
@@ -187,11 +187,11 @@ struct LaneLook {
 /// The kernels for one width.
 struct LaneKernels {
   int lanes;
-  void (*cast_tile)(const LaneScene& scene, const LaneTile& tile);
+  void (*cast_tile)(const LanePack& scene, const LaneTile& tile);
   /// Appends what the tile's rays hit to `hits`, in any order. The tile's own arrays do not change.
-  void (*cast_layer)(const LaneScene& scene, const LaneTile& tile, const LayerTask& task, LayerHits& hits);
+  void (*cast_layer)(const LanePack& scene, const LaneTile& tile, const LayerTask& task, LayerHits& hits);
   /// Lights points on planes, with t, ray, normal and colour given, and sets their depths.
-  void (*light_points)(const LaneScene& scene, const LaneTile& tile, LayerHit* points, std::uint32_t count);
+  void (*light_points)(const LanePack& scene, const LaneTile& tile, LayerHit* points, std::uint32_t count);
   /// Computes the visible share of all of light.sky for points relative to the pivot; normals are towards the solvent.
   void (*see_sky)(const LaneLight& light, const glm::vec3* points, const glm::vec3* normals, float* seen,
                   std::uint32_t count);

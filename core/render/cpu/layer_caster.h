@@ -10,7 +10,7 @@ namespace meniscus::MENISCUS_LANE_NAMESPACE {
 /// A bundle that collects points instead of colours.
 class LayerBundle : Bundle {
  public:
-  LayerBundle(const LaneScene& scene, const LaneTile& tile, glm::ivec2 origin, const LayerTask& task, LayerHits& hits)
+  LayerBundle(const LanePack& scene, const LaneTile& tile, glm::ivec2 origin, const LayerTask& task, LayerHits& hits)
       : Bundle(scene, tile, origin), task_(task), hits_(hits) {
     for (int n = 0; n < packet_count_; ++n) bound(n);
   }
@@ -166,15 +166,15 @@ class LayerBundle : Bundle {
   LayerHits& hits_;
 };
 
-inline void cast_layer(const LaneScene& scene, const LaneTile& tile, const LayerTask& task, LayerHits& hits) {
+inline void cast_layer(const LanePack& scene, const LaneTile& tile, const LayerTask& task, LayerHits& hits) {
   for_each_bundle(scene, tile, [&](glm::ivec2 origin) { LayerBundle(scene, tile, origin, task, hits).cast(); });
 }
 
 /// Lights points of a tile's rays, a packet of points at a time.
-class PointLighter : LightedScene {
+class PointLighter : LightedPack {
  public:
-  PointLighter(const LaneScene& scene, const LaneTile& tile)
-      : LightedScene(scene), tile_(tile), first_offset_(scene.view.first_offset) {
+  PointLighter(const LanePack& scene, const LaneTile& tile)
+      : LightedPack(scene), tile_(tile), first_offset_(scene.view.first_offset) {
     // The places contain both offsets: integers are added first, so that there is a single rounding, as for rays.
     view.first_offset = view.sample_offset = vec2(0.0f);
   }
@@ -214,7 +214,7 @@ class PointLighter : LightedScene {
   const vec2 first_offset_;
 };
 
-inline void light_points(const LaneScene& scene, const LaneTile& tile, LayerHit* points, std::uint32_t count) {
+inline void light_points(const LanePack& scene, const LaneTile& tile, LayerHit* points, std::uint32_t count) {
   PointLighter lighter(scene, tile);
   for (std::uint32_t first = 0, end = 0; first < count; first = end) {
     const std::uint32_t sample = PointLighter::sample_of(points[first]);

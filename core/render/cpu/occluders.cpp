@@ -113,7 +113,7 @@ LaneOccluder Occluders::pack(const PictureObject& object) {
   const Coloring& coloring = *object.coloring;
   const bool cut = !object.clip.empty();
   Packed& packed = packed_.emplace_back();
-  HostScene& scene = packed.scene;
+  HostPack& scene = packed.scene;
   scene.placement.slack = slack_;
   scene.pack(object, seen_from_afar(pivot_), Look{});
   scene.lanes.view.orthographic = 1;

@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "core/render/cpu/picture_scene.h"
+#include "core/render/cpu/picture_content.h"
 #include "core/render/picture.h"
 
 namespace meniscus {
@@ -23,7 +23,7 @@ struct SurfaceObject;
 /// do not block light.
 class Occluders {
  public:
-  /// Makes an empty set of occluders for a picture with this pivot. slack: ScenePlacement::slack of all its objects.
+  /// Makes an empty set of occluders for a picture with this pivot. slack: PackPlacement::slack of all its objects.
   Occluders(const glm::dvec3& pivot, float slack) : pivot_(pivot), slack_(slack) {}
 
   /// Adds an object. The data that it points to must exist until the last picture is finished.
@@ -38,13 +38,13 @@ class Occluders {
   /// outlive the result.
   LaneLight towards(std::span<const glm::vec3> sky) const;
 
-  /// Returns the light for LaneScene::light; valid until something is added.
+  /// Returns the light for LanePack::light; valid until something is added.
   const LaneLight* light() const { return &light_; }
 
  private:
   /// A packed object.
   struct Packed {
-    HostScene scene;
+    HostPack scene;
     std::vector<OccluderBox> boxes;
     std::vector<std::uint32_t> order;
     std::vector<glm::vec4> planes;

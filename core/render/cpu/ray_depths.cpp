@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
-#include "core/render/cpu/picture_scene.h"
+#include "core/render/cpu/picture_content.h"
 
 namespace meniscus {
 namespace {

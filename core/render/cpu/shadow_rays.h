@@ -5,7 +5,7 @@
 // depends on the point alone, and is constant in a film. Rays traverse a tree of boxes (Rubin & Whitted 1980).
 #pragma once
 
-#include "core/render/cpu/traced_scene.h"
+#include "core/render/cpu/pack_reader.h"
 
 namespace meniscus::MENISCUS_LANE_NAMESPACE {
 
@@ -143,7 +143,7 @@ struct SeenPoints {
 };
 
 /// A scene in the light that its occluders let pass.
-class LightedScene : protected RayMeeter {
+class LightedPack : protected RayMeeter {
  protected:
   using RayMeeter::RayMeeter;
 
@@ -215,9 +215,9 @@ class LightedScene : protected RayMeeter {
 };
 
 /// Computes the visibility of the sky for points that are not in a picture.
-class SkyWatcher : LightedScene {
+class SkyWatcher : LightedPack {
  public:
-  explicit SkyWatcher(const LaneScene& scene) : LightedScene(scene) {}
+  explicit SkyWatcher(const LanePack& scene) : LightedPack(scene) {}
 
   void watch(const vec3* points, const vec3* normals, float* seen, int count) const {
     Floats lanes[6];
@@ -234,7 +234,7 @@ class SkyWatcher : LightedScene {
 
 inline void see_sky(const LaneLight& light, const glm::vec3* points, const glm::vec3* normals, float* seen,
                     std::uint32_t count) {
-  LaneScene scene;
+  LanePack scene;
   scene.light = &light;
   const SkyWatcher watcher(scene);
   for (std::uint32_t first = 0; first < count; first += kLanes)

@@ -20,10 +20,10 @@ inline constexpr int kPixelX[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2,
 inline constexpr int kPixelY[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
 /// The rays of a bundle and their nearest hits so far.
-class Bundle : protected LightedScene {
+class Bundle : protected LightedPack {
  public:
-  Bundle(const LaneScene& scene, const LaneTile& tile, glm::ivec2 origin)
-      : LightedScene(scene), tile_(tile), origin_(origin), packet_count_(kPixelPackets * tile.sample_count) {
+  Bundle(const LanePack& scene, const LaneTile& tile, glm::ivec2 origin)
+      : LightedPack(scene), tile_(tile), origin_(origin), packet_count_(kPixelPackets * tile.sample_count) {
     aim();
   }
 
@@ -250,7 +250,7 @@ class Bundle : protected LightedScene {
 
 /// Calls work(origin) for each bundle of a tile.
 template <typename Work>
-void for_each_bundle(const LaneScene& scene, const LaneTile& tile, const Work& work) {
+void for_each_bundle(const LanePack& scene, const LaneTile& tile, const Work& work) {
   const glm::ivec2 end = {
       scene.view.size.x < tile.origin.x + kernel::kTileEdge ? scene.view.size.x : tile.origin.x + kernel::kTileEdge,
       scene.view.size.y < tile.origin.y + kernel::kTileEdge ? scene.view.size.y : tile.origin.y + kernel::kTileEdge};
@@ -258,7 +258,7 @@ void for_each_bundle(const LaneScene& scene, const LaneTile& tile, const Work& w
     for (int x = tile.origin.x; x < end.x; x += kBundleEdge) work(glm::ivec2(x, y));
 }
 
-inline void cast_tile(const LaneScene& scene, const LaneTile& tile) {
+inline void cast_tile(const LanePack& scene, const LaneTile& tile) {
   for_each_bundle(scene, tile, [&](glm::ivec2 origin) {
     Bundle bundle(scene, tile, origin);
     bundle.trace();

@@ -45,7 +45,7 @@ geometry::PatchBound bound_of(const Surface& surface) {
 
 /// Appends the primitives for which keep(index) is true, with their rows.
 template <typename Keep>
-void append_kept(const RayCastScene& from, const Keep& keep, RayCastScene& to) {
+void append_kept(const RayCastPack& from, const Keep& keep, RayCastPack& to) {
   for (std::size_t n = 0; n < from.primitives.size(); ++n) {
     if (!keep(n)) continue;
     Primitive primitive = from.primitives[n];
@@ -57,7 +57,7 @@ void append_kept(const RayCastScene& from, const Keep& keep, RayCastScene& to) {
 }
 
 /// Increases indices of atoms by an offset.
-void shift_atoms(RayCastScene& scene, std::uint32_t by) {
+void shift_atoms(RayCastPack& scene, std::uint32_t by) {
   for (Primitive& primitive : scene.primitives) {
     if (primitive.kind == ray_cast::kConcave) {
       const std::uint32_t end = primitive.first_row + row_count(primitive);
@@ -88,7 +88,7 @@ std::vector<BallGroup> ball_groups(std::span<const SurfaceObject> objects) {
 }
 
 VisibleCopies::VisibleCopies(std::span<const SurfaceObject> objects, const PictureFrame& frame,
-                             const ScenePlacement& placement, const Look& look, const LaneKernels& kernels,
+                             const PackPlacement& placement, const Look& look, const LaneKernels& kernels,
                              std::size_t patches_together)
     : objects_(objects),
       placement_(placement),
@@ -206,7 +206,7 @@ std::vector<const VisibleCopies::Copy*> VisibleCopies::next_batch(std::size_t& n
   return batch;
 }
 
-RayCastScene VisibleCopies::seen_part(const Copy& copy) const {
+RayCastPack VisibleCopies::seen_part(const Copy& copy) const {
   const SurfaceObject& object = objects_[copy.object];
   const Home& home = homes_[copy.object];
   std::vector<BoundedPatch> seen;
@@ -219,7 +219,7 @@ RayCastScene VisibleCopies::seen_part(const Copy& copy) const {
                       seen, frame_);
 }
 
-void VisibleCopies::add(const Copy& copy, RayCastScene part) {
+void VisibleCopies::add(const Copy& copy, RayCastPack part) {
   if (part.primitives.empty()) return;
   const Coloring& coloring = objects_[copy.object].coloring;
   const std::vector<glm::vec4>& colors = colors_[copy.object];
@@ -267,7 +267,7 @@ void VisibleCopies::find(Interruption& interruption) {
   std::size_t first_new = 0;
   for (std::size_t next = 0; next < copies_.size();) {
     const std::vector<const Copy*> batch = next_batch(next);
-    std::vector<RayCastScene> parts(batch.size());
+    std::vector<RayCastPack> parts(batch.size());
     tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t n) {
       if (!interruption.came()) parts[n] = seen_part(*batch[n]);
     });
@@ -318,7 +318,7 @@ void VisibleCopies::cast_from(std::size_t first_new) {
     }
   });
   depths_.gather();
-  RayCastScene kept;
+  RayCastPack kept;
   kept.slack = scene_.packed.slack;
   append_kept(
       scene_.packed, [&](std::size_t n) { return shown_[n].load(std::memory_order_relaxed) != 0; }, kept);

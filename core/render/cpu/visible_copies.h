@@ -17,7 +17,7 @@
 
 #include "core/math/double_geometry.h"
 #include "core/queries/surface_object.h"
-#include "core/render/cpu/picture_scene.h"
+#include "core/render/cpu/picture_content.h"
 #include "core/render/cpu/ray_depths.h"
 
 namespace meniscus {
@@ -44,7 +44,7 @@ class VisibleCopies final : public OpaqueScene {
 
   /// Sorts the copies from front to back. objects: all have the same probe radius, and either all are coloured by kind
   /// in the same way or none is. They must exist while the scene is cast. placement: of all copies.
-  VisibleCopies(std::span<const SurfaceObject> objects, const PictureFrame& frame, const ScenePlacement& placement,
+  VisibleCopies(std::span<const SurfaceObject> objects, const PictureFrame& frame, const PackPlacement& placement,
                 const Look& look, const LaneKernels& kernels, std::size_t patches_together = kPatchesTogether);
 
   void begin_block(const SceneBlock& block, Interruption& interruption, StageClock& clock) override;
@@ -87,8 +87,8 @@ class VisibleCopies final : public OpaqueScene {
   void add_copies(std::uint32_t object, Copy& next);
   std::size_t patch_count(const Copy& copy) const;
   std::vector<const Copy*> next_batch(std::size_t& next) const;
-  RayCastScene seen_part(const Copy& copy) const;
-  void add(const Copy& copy, RayCastScene part);
+  RayCastPack seen_part(const Copy& copy) const;
+  void add(const Copy& copy, RayCastPack part);
   void find(Interruption& interruption);
   void connect();
   void cast_from(std::size_t first_new);
@@ -96,7 +96,7 @@ class VisibleCopies final : public OpaqueScene {
   void note_hits(const LaneTile& tile, const kernel::BlockView& view, std::span<double> farthest);
 
   std::span<const SurfaceObject> objects_;
-  const ScenePlacement placement_;
+  const PackPlacement placement_;
   const Look look_;
   const LaneKernels& kernels_;
   const std::size_t patches_together_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures of scenes on the GPU are the same to the bit in any order and with any company; no tile misses a primitive.
-#include "core/render/gpu_scene.h"
+#include "core/render/gpu_pack.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,8 +77,8 @@ struct Shown {
 
 class GpuScenes : public ::testing::Test {
  protected:
-  Shown cast(const View& view, RayCastScene packed, const std::vector<float>& tile_depths = {}) {
-    GpuScene scene;
+  Shown cast(const View& view, RayCastPack packed, const std::vector<float>& tile_depths = {}) {
+    GpuPack scene;
     upload_scene(packed, view.surface, view.frame, scene);
     upload_coloring(view.coloring, scene);
     scene.tile_depths.upload(tile_depths);
@@ -101,7 +101,7 @@ class GpuScenes : public ::testing::Test {
 
 TEST_F(GpuScenes, OrderDoesNotShow) {
   for (const View& view : views()) {
-    RayCastScene packed = pack_scene(view.surface, view.coloring, view.frame);
+    RayCastPack packed = pack_scene(view.surface, view.coloring, view.frame);
     const Shown expected = cast(view, packed);
     EXPECT_GT(std::ranges::count_if(expected.picture, [](const glm::vec4& c) { return c.w > 0.0f; }), 2000)
         << view.name;
@@ -132,12 +132,12 @@ TEST_F(GpuScenes, NothingStaysOfThePictureBefore) {
 
 TEST_F(GpuScenes, HiddenCompanyDoesNotShow) {
   for (const View& view : views()) {
-    const RayCastScene packed = pack_scene(view.surface, view.coloring, view.frame);
+    const RayCastPack packed = pack_scene(view.surface, view.coloring, view.frame);
     const Shown expected = cast(view, packed);
     std::set<std::uint32_t> shown;
     for (const Hit& hit : expected.hits) shown.insert(hit.primitive);
     for (const double kept : {0.0, 0.3, 0.8}) {
-      RayCastScene fewer = packed;
+      RayCastPack fewer = packed;
       std::erase_if(fewer.primitives, [&](const Primitive& p) {
         return !shown.contains(4 * p.patch_index + p.kind) && std::bernoulli_distribution(1.0 - kept)(random_);
       });
@@ -150,7 +150,7 @@ TEST_F(GpuScenes, HiddenCompanyDoesNotShow) {
 
 TEST_F(GpuScenes, TwinsAreToldApartByTheirKeys) {
   for (const View& view : views()) {
-    RayCastScene packed = pack_scene(view.surface, view.coloring, view.frame);
+    RayCastPack packed = pack_scene(view.surface, view.coloring, view.frame);
     std::ranges::for_each(packed.primitives, [](Primitive& p) { p.tie_key = p.tie_key / 2 + 1; });
     const Shown expected = cast(view, packed);
     std::vector<Primitive> twins = packed.primitives;
@@ -169,7 +169,7 @@ TEST_F(GpuScenes, TwinsAreToldApartByTheirKeys) {
 TEST_F(GpuScenes, TieKeysNamePatches) {
   for (const View& view : views()) {
     std::set<std::tuple<std::uint32_t, std::uint32_t>> keys;
-    const RayCastScene packed = pack_scene(view.surface, view.coloring, view.frame);
+    const RayCastPack packed = pack_scene(view.surface, view.coloring, view.frame);
     for (const Primitive& p : packed.primitives) keys.emplace(p.kind, p.tie_key);
     EXPECT_EQ(keys.size(), packed.primitives.size()) << view.name;
   }
@@ -177,7 +177,7 @@ TEST_F(GpuScenes, TieKeysNamePatches) {
 
 TEST_F(GpuScenes, TileDepthsLeaveOutOnlyWhatIsBehind) {
   for (const View& view : views()) {
-    const RayCastScene packed = pack_scene(view.surface, view.coloring, view.frame);
+    const RayCastPack packed = pack_scene(view.surface, view.coloring, view.frame);
     const Shown expected = cast(view, packed);
     const glm::ivec2 tiles = (kSize + kTileEdge - 1) / kTileEdge;
     std::vector<float> depths(static_cast<std::size_t>(tiles.x) * tiles.y, 0.0f);
@@ -236,7 +236,7 @@ TEST_F(GpuScenes, NoTileMissesABound) {
       p.kind = static_cast<std::uint32_t>(where);
       p.nearest = static_cast<float>(glm::length(center - frame.camera.position) - radius);
     }
-    GpuScene scene;
+    GpuPack scene;
     scene.primitives.upload(primitives);
     scene.counters.upload(std::vector<std::uint32_t>{scene.primitives.count()});
     scene.last_depth = 80.0f;
@@ -283,7 +283,7 @@ TEST_F(GpuScenes, ListsTooLongForAKernelAreMadeOfSmallerBlocks) {
   EXPECT_EQ(whole.color[0].w, 1.0f);
   settings.block_edge = 128;
   EXPECT_TRUE(whole.color == renderer_.render(surface, coloring, camera, settings).color);
-  GpuScene scene;
+  GpuPack scene;
   PictureFrame frame = make_picture_frame(surface.atoms, camera, settings.size);
   upload_scene(pack_scene(surface, coloring, frame), surface, frame, scene);
   upload_coloring(coloring, scene);

@@ -17,17 +17,17 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include "core/math/ball.h"
-#include "core/render/cpu/picture_scene.h"
+#include "core/render/cpu/picture_content.h"
 #include "core/render/picture.h"
 
 namespace meniscus {
 
 /// The packed objects of one picture.
-class LayeredScene final : public PictureScene {
+class LayerStack final : public PictureContent {
  public:
   /// Packs the objects. placement: of all objects together. The data that the objects point to must outlive the scene.
-  LayeredScene(std::span<const PictureObject> objects, const PictureFrame& frame, const ScenePlacement& placement,
-               const Look& look);
+  LayerStack(std::span<const PictureObject> objects, const PictureFrame& frame, const PackPlacement& placement,
+             const Look& look);
 
   void begin_block(const SceneBlock& block, Interruption& interruption, StageClock& clock) override;
   void cast_tile(std::size_t tile, LaneTile task, const LaneKernels& kernels) override;
@@ -42,7 +42,7 @@ class LayeredScene final : public PictureScene {
     const Surface* surface = nullptr;
     std::uint32_t number = 0;  // index of the object
     bool translucent = false;
-    HostScene scene;
+    HostPack scene;
     std::vector<glm::vec4> planes;  // relative to the pivot
     CpuTileLists lists;
     std::optional<BallGrid> atoms;  // for surfaces that planes cut
@@ -78,7 +78,7 @@ class LayeredScene final : public PictureScene {
   };
 
   HitSource source_of(const ray_cast::Hit& hit) const;
-  void pack(Layer& layer, const ScenePlacement& placement, const Look& look) const;
+  void pack(Layer& layer, const PackPlacement& placement, const Look& look) const;
   void cast_layer(std::uint32_t number, std::size_t tile, const TileWork& work);
   void cut(std::uint32_t number, std::size_t first_hit, const TileWork& work) const;
   static bool begins_inside(const Layer& layer, std::span<const LayerHit> hits, std::span<const std::uint32_t> order);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Packs patches and their bounds; every number is computed in double and rounded once.
-#include "core/render/ray_cast_scene.h"
+#include "core/render/ray_cast_pack.h"
 
 #include <algorithm>
 #include <bit>
@@ -54,7 +54,7 @@ class Packer {
  public:
   /// Prepares packing. scene: receives the primitives; its slack must be set. motion: the placement of the surface;
   /// nullptr: as it is.
-  Packer(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene,
+  Packer(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastPack& scene,
          const RigidMotion* motion = nullptr, std::uint32_t first_atom = 0)
       : surface_(surface),
         coloring_(coloring),
@@ -240,7 +240,7 @@ class Packer {
   const PictureFrame& frame_;
   const RigidMotion* const motion_;
   const std::uint32_t first_atom_;
-  RayCastScene& scene_;
+  RayCastPack& scene_;
   std::vector<glm::dvec3> directions_;  // of a probe's contacts; a member for the sake of its memory
 };
 
@@ -249,7 +249,7 @@ struct PartPlace {
   std::size_t primitive = 0, row = 0;
 };
 
-void copy_part(const RayCastScene& part, const PartPlace& place, RayCastScene& scene) {
+void copy_part(const RayCastPack& part, const PartPlace& place, RayCastPack& scene) {
   std::ranges::copy(part.rows, scene.rows.begin() + static_cast<std::ptrdiff_t>(place.row));
   std::ranges::transform(part.primitives, scene.primitives.begin() + static_cast<std::ptrdiff_t>(place.primitive),
                          [&](Primitive primitive) {
@@ -352,13 +352,13 @@ float patch_slack(std::span<const Ball> atoms, double probe_radius, const Pictur
   return slack_of({&all, 1}, probe_radius, frame);
 }
 
-ScenePlacement place_atoms(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame) {
+PackPlacement place_atoms(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame) {
   const BallGroup all{.balls = atoms};
   return place_atoms({&all, 1}, probe_radius, frame);
 }
 
-ScenePlacement place_atoms(std::span<const BallGroup> groups, double probe_radius, const PictureFrame& frame) {
-  ScenePlacement scene;
+PackPlacement place_atoms(std::span<const BallGroup> groups, double probe_radius, const PictureFrame& frame) {
+  PackPlacement scene;
   scene.probe_radius = probe_radius;
   scene.slack = slack_of(groups, probe_radius, frame);
   Range depths;
@@ -377,10 +377,10 @@ ScenePlacement place_atoms(std::span<const BallGroup> groups, double probe_radiu
   return scene;
 }
 
-void pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene) {
+void pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastPack& scene) {
   scene.slack = patch_slack(surface.atoms, surface.probe_radius, frame);
   const std::vector<PatchRange> ranges = ranges_of(surface);
-  std::vector<RayCastScene> parts(ranges.size());
+  std::vector<RayCastPack> parts(ranges.size());
   tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t n) {
     parts[n].slack = scene.slack;
     Packer(surface, coloring, frame, parts[n]).pack(ranges[n]);
@@ -394,8 +394,8 @@ void pack_scene(const Surface& surface, const Coloring& coloring, const PictureF
                     [&](std::size_t n) { copy_part(std::exchange(parts[n], {}), places[n], scene); });
 }
 
-RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame) {
-  RayCastScene scene;
+RayCastPack pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame) {
+  RayCastPack scene;
   pack_scene(surface, coloring, frame, scene);
   return scene;
 }
@@ -405,7 +405,7 @@ std::vector<BoundedPatch> bounded_patches(const Surface& surface, const Coloring
   std::vector<std::vector<BoundedPatch>> parts(ranges.size());
   tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t n) {
     const PictureFrame frame{};  // no picture: bounds do not depend on the frame
-    RayCastScene scene;
+    RayCastPack scene;
     Packer packer(surface, coloring, frame, scene);
     const PatchKind kind = ranges[n].kind;
     for (std::uint32_t i = ranges[n].first; i < ranges[n].end; ++i) {
@@ -419,8 +419,8 @@ std::vector<BoundedPatch> bounded_patches(const Surface& surface, const Coloring
   return patches;
 }
 
-RayCastScene pack_patches(const PackedCopy& copy, std::span<const BoundedPatch> patches, const PictureFrame& frame) {
-  RayCastScene scene;
+RayCastPack pack_patches(const PackedCopy& copy, std::span<const BoundedPatch> patches, const PictureFrame& frame) {
+  RayCastPack scene;
   scene.slack = copy.slack;
   Packer packer(copy.surface, copy.coloring, frame, scene, &copy.motion, copy.first_atom);
   for (const BoundedPatch& patch : patches) packer.pack(patch.kind, patch.index);

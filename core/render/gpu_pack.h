@@ -24,7 +24,7 @@ static_assert(sizeof(Primitive) == 48 && sizeof(Hit) == 32, "std430 has these si
 }  // namespace ray_cast
 
 /// The properties of a scene that depend on atoms, probe and camera alone.
-struct ScenePlacement {
+struct PackPlacement {
   float slack = 0.0f;         ///< overlap of patches, Å: a few times the rounding error of the largest coordinate
   double probe_radius = 0.0;  ///< Å
   /// The range of depths along the view axis that contains the atoms, Å. It contains hidden atoms, too, so depth cues
@@ -35,7 +35,7 @@ struct ScenePlacement {
 /// The scene of one picture. Records and rows are described in gpu_shaders/ray_cast/records.glsl. Positions are
 /// relative to the pivot of the picture (PictureFrame), so a scene belongs to one camera. Primitives are in any order,
 /// and primitives that the picture does not show may be missing; neither changes a bit of the picture.
-struct GpuScene : ScenePlacement {
+struct GpuPack : PackPlacement {
   Buffer counters;  ///< uint32 each; word 0 is the number of primitives, which kernels may know before the host does
   AppendList primitives{sizeof(ray_cast::Primitive), 1 << 15};
   AppendList rows{sizeof(glm::vec4), 1 << 17};
@@ -51,6 +51,6 @@ struct GpuScene : ScenePlacement {
 };
 
 /// Uploads the coloring: sets the last five members.
-void upload_coloring(const Coloring& coloring, GpuScene& scene);
+void upload_coloring(const Coloring& coloring, GpuPack& scene);
 
 }  // namespace meniscus

@@ -16,7 +16,7 @@
 #include "core/color/coloring.h"
 #include "core/render/cpu/lane_kernels.h"
 #include "core/render/picture_block.h"
-#include "core/render/ray_cast_scene.h"
+#include "core/render/ray_cast_pack.h"
 
 namespace meniscus {
 
@@ -24,13 +24,13 @@ struct ClipPlane;
 struct PictureObject;
 
 /// A packed scene on the host.
-struct HostScene {
-  RayCastScene packed;
-  ScenePlacement placement;
+struct HostPack {
+  RayCastPack packed;
+  PackPlacement placement;
   std::vector<glm::vec4> colors;          ///< linear_colors()
   std::vector<float> marks;               ///< Coloring::line_marks(): integers that a float represents exactly
   std::vector<std::uint8_t> keeps_color;  ///< one for each atom, if there is a volume map
-  LaneScene lanes;                        ///< all of this for the kernels, except its view
+  LanePack lanes;                         ///< all of this for the kernels, except its view
 
   /// Packs a surface or shapes, with `placement` except for its probe, and connects them. If planes cut it, all of it
   /// is packed, hidden atoms too.
@@ -130,9 +130,9 @@ struct SceneContent {
 };
 
 /// Everything that the rays of one picture may hit.
-class PictureScene {
+class PictureContent {
  public:
-  virtual ~PictureScene() = default;
+  virtual ~PictureContent() = default;
 
   /// Prepares a block, which is valid until the next call. It must not be cast if the interruption has occurred.
   virtual void begin_block(const SceneBlock& block, Interruption& interruption, StageClock& clock) = 0;
@@ -152,11 +152,11 @@ class PictureScene {
 };
 
 /// A scene in which each ray shows the nearest primitive that it hits.
-class OpaqueScene : public PictureScene {
+class OpaqueScene : public PictureContent {
  public:
   void cast_tile(std::size_t tile, LaneTile task, const LaneKernels& kernels) final;
   SceneContent content() const final { return {.marks = !scene_.marks.empty()}; }
-  const HostScene& scene() const { return scene_; }
+  const HostPack& scene() const { return scene_; }
 
  protected:
   void list_tiles(const PictureFrame& frame, const PictureBlock& block);
@@ -165,7 +165,7 @@ class OpaqueScene : public PictureScene {
     return static_cast<PatchKind>(scene_.packed.primitives[hit.primitive].kind);
   }
 
-  HostScene scene_;
+  HostPack scene_;
   CpuTileLists lists_;
 
  private:
@@ -173,10 +173,10 @@ class OpaqueScene : public PictureScene {
 };
 
 /// A whole surface. Its memory is reused from picture to picture.
-class SurfaceScene final : public OpaqueScene {
+class SurfaceContent final : public OpaqueScene {
  public:
   /// Packs an object. The data that it points to must exist while the scene is cast.
-  void pack(const PictureObject& object, const PictureFrame& frame, const ScenePlacement& placement, const Look& look);
+  void pack(const PictureObject& object, const PictureFrame& frame, const PackPlacement& placement, const Look& look);
 
   void begin_block(const SceneBlock& block, Interruption& interruption, StageClock& clock) override;
   HitNames names_of(const ray_cast::Hit& hit, const glm::dvec3& point) const override;

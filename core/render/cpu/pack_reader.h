@@ -26,8 +26,8 @@ inline uint floatBitsToUint(float a) { return std::bit_cast<uint>(a); }
 #include "gpu_shaders/geometry/ray_torus.glsl"
 
 /// Presents the scene to the shared sources.
-struct TracedScene {
-  explicit TracedScene(const LaneScene& scene)
+struct PackReader {
+  explicit PackReader(const LanePack& scene)
       : scene_(scene), params(scene.params), view(scene.view), some_hidden(scene.some_hidden) {}
 
   const vec4& row(uint index) const { return scene_.rows[index]; }
@@ -41,7 +41,7 @@ struct TracedScene {
     return result;
   }
 
-  const LaneScene& scene_;
+  const LanePack& scene_;
   const kernel::RayCastParameters& params;
   kernel::BlockView view;
   const bool some_hidden;
@@ -69,9 +69,9 @@ struct TracedScene {
 };
 
 /// Rays, and their first hits.
-class RayMeeter : protected TracedScene {
+class RayMeeter : protected PackReader {
  protected:
-  using TracedScene::TracedScene;
+  using PackReader::PackReader;
 
   struct Rays {
     real3 p, d;

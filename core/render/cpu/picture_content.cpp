@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Packs objects for rays on the CPU, lists their primitives by tile, and casts tiles of opaque scenes.
-#include "core/render/cpu/picture_scene.h"
+#include "core/render/cpu/picture_content.h"
 
 #include <algorithm>
 #include <atomic>
@@ -47,7 +47,7 @@ std::uint32_t ordered_bits(float value) {
 
 }  // namespace
 
-void HostScene::pack(const PictureObject& object, const PictureFrame& frame, const Look& look) {
+void HostPack::pack(const PictureObject& object, const PictureFrame& frame, const Look& look) {
   const Coloring& coloring = *object.coloring;
   const bool cut = !object.clip.empty();
   const Coloring shows_all;
@@ -151,20 +151,20 @@ void OpaqueScene::cast_tile(std::size_t tile, LaneTile task, const LaneKernels& 
   kernels.cast_tile(scene_.lanes, task);
 }
 
-void SurfaceScene::pack(const PictureObject& object, const PictureFrame& frame, const ScenePlacement& placement,
-                        const Look& look) {
+void SurfaceContent::pack(const PictureObject& object, const PictureFrame& frame, const PackPlacement& placement,
+                          const Look& look) {
   surface_ = object.surface;
   scene_.placement = placement;
   scene_.pack(object, frame, look);
 }
 
-void SurfaceScene::begin_block(const SceneBlock& block, Interruption&, StageClock& clock) {
+void SurfaceContent::begin_block(const SceneBlock& block, Interruption&, StageClock& clock) {
   const auto stage = clock.stage("tile lists");
   list_tiles(block.frame, block.block);
   scene_.lanes.light = block.light;
 }
 
-HitNames SurfaceScene::names_of(const ray_cast::Hit& hit, const glm::dvec3& point) const {
+HitNames SurfaceContent::names_of(const ray_cast::Hit& hit, const glm::dvec3& point) const {
   return meniscus::names_of({surface_, scene_.packed.primitives}, hit, point);
 }
 

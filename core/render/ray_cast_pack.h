@@ -13,7 +13,7 @@
 #include <glm/vec4.hpp>
 
 #include "core/camera/camera.h"
-#include "core/render/gpu_scene.h"
+#include "core/render/gpu_pack.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -49,11 +49,11 @@ PictureFrame make_picture_frame(std::span<const BallGroup> groups, const Camera&
 /// Returns the overlap of patches that this picture needs, Å: a few times the rounding error of the largest coordinate.
 float patch_slack(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame);
 
-ScenePlacement place_atoms(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame);
-ScenePlacement place_atoms(std::span<const BallGroup> groups, double probe_radius, const PictureFrame& frame);
+PackPlacement place_atoms(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame);
+PackPlacement place_atoms(std::span<const BallGroup> groups, double probe_radius, const PictureFrame& frame);
 
 /// The data that the kernel reads. Primitives are sorted by kind and index; primitives behind the camera are left out.
-struct RayCastScene {
+struct RayCastPack {
   std::vector<ray_cast::Primitive> primitives;
   std::vector<glm::vec4> rows;
   float slack = 0.0f;  ///< patch_slack()
@@ -61,8 +61,8 @@ struct RayCastScene {
 
 /// Packs a surface. Patches that touch hidden atoms only are left out. scene: the result, whose memory is reused from
 /// picture to picture.
-void pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene);
-RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame);
+void pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastPack& scene);
+RayCastPack pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame);
 
 /// A patch that may be visible, and a ball around it.
 struct BoundedPatch {
@@ -86,14 +86,14 @@ struct PackedCopy {
 
 /// Packs some of the copy's patches as pack_scene() packs the surface at its place, on one thread. Only tie keys count
 /// from first_atom; indices of atoms are those that the surface has.
-RayCastScene pack_patches(const PackedCopy& copy, std::span<const BoundedPatch> patches, const PictureFrame& frame);
+RayCastPack pack_patches(const PackedCopy& copy, std::span<const BoundedPatch> patches, const PictureFrame& frame);
 
 /// Packs spheres as convex patches without planes, and all other shapes. Indices of atoms are the shapes' indices;
 /// hidden atoms are left out. slack: patch_slack() of the picture.
 void pack_shapes(const Shapes& shapes, const Coloring& coloring, const PictureFrame& frame, float slack,
-                 RayCastScene& scene);
+                 RayCastPack& scene);
 
-/// Returns GpuScene::colors: linear light for each atom, alpha: opacity (0: hidden); then, if coloured by kind, for
+/// Returns GpuPack::colors: linear light for each atom, alpha: opacity (0: hidden); then, if coloured by kind, for
 /// three kinds.
 std::vector<glm::vec4> linear_colors(const Coloring& coloring);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Casts opaque layers first, which limit the visible distance in the others. Then sorts and composites all layers.
-#include "core/render/cpu/layered_scene.h"
+#include "core/render/cpu/layer_stack.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,8 +96,8 @@ float hatched(const glm::dvec3& point, const glm::dvec3& normal, double distance
 
 }  // namespace
 
-LayeredScene::LayeredScene(std::span<const PictureObject> objects, const PictureFrame& frame,
-                           const ScenePlacement& placement, const Look& look)
+LayerStack::LayerStack(std::span<const PictureObject> objects, const PictureFrame& frame,
+                       const PackPlacement& placement, const Look& look)
     : frame_(frame) {
   layers_.reserve(objects.size());
   content_.several_objects = objects.size() > 1;
@@ -117,7 +117,7 @@ LayeredScene::LayeredScene(std::span<const PictureObject> objects, const Picture
       }
 }
 
-void LayeredScene::pack(Layer& layer, const ScenePlacement& placement, const Look& look) const {
+void LayerStack::pack(Layer& layer, const PackPlacement& placement, const Look& look) const {
   const PictureObject& object = *layer.object;
   Look own = look;
   own.material = object.material.over(look.material);
@@ -134,16 +134,16 @@ void LayeredScene::pack(Layer& layer, const ScenePlacement& placement, const Loo
   layer.atoms.emplace(object.surface->atoms, layer.farthest_atom);
 }
 
-HitSource LayeredScene::source_of(const ray_cast::Hit& hit) const {
+HitSource LayerStack::source_of(const ray_cast::Hit& hit) const {
   const auto layer = std::ranges::find(layers_, hit.object, &Layer::number);
   return {layer->surface, layer->scene.packed.primitives};
 }
 
-HitNames LayeredScene::names_of(const ray_cast::Hit& hit, const glm::dvec3& point) const {
+HitNames LayerStack::names_of(const ray_cast::Hit& hit, const glm::dvec3& point) const {
   return meniscus::names_of(source_of(hit), hit, point);
 }
 
-PickedPoint LayeredScene::picked(const ray_cast::Hit& hit) const {
+PickedPoint LayerStack::picked(const ray_cast::Hit& hit) const {
   PickedPoint point;
   point.atom = hit.atom;
   point.object = hit.object;
@@ -153,7 +153,7 @@ PickedPoint LayeredScene::picked(const ray_cast::Hit& hit) const {
   return point;
 }
 
-void LayeredScene::begin_block(const SceneBlock& block, Interruption&, StageClock& clock) {
+void LayerStack::begin_block(const SceneBlock& block, Interruption&, StageClock& clock) {
   const auto stage = clock.stage("tile lists");
   frame_ = block.frame;
   block_ = block.block;
@@ -165,7 +165,7 @@ void LayeredScene::begin_block(const SceneBlock& block, Interruption&, StageCloc
   }
 }
 
-void LayeredScene::cast_tile(std::size_t tile, LaneTile task, const LaneKernels& kernels) {
+void LayerStack::cast_tile(std::size_t tile, LaneTile task, const LaneKernels& kernels) {
   // Nothing has changed there since the block began, except for lines of transparent parts.
   const bool is_empty = std::ranges::all_of(layers_, [&](Layer& layer) { return layer.lists.entries(tile).empty(); });
   if (is_empty && !task.front.color) return;
@@ -179,7 +179,7 @@ void LayeredScene::cast_tile(std::size_t tile, LaneTile task, const LaneKernels&
   put_together(work);
 }
 
-void LayeredScene::cast_layer(std::uint32_t number, std::size_t tile, const TileWork& work) {
+void LayerStack::cast_layer(std::uint32_t number, std::size_t tile, const TileWork& work) {
   Layer& layer = layers_[number];
   Workplace& place = work.place;
   const std::span<std::uint32_t> entries = layer.lists.entries(tile);
@@ -221,7 +221,7 @@ void LayeredScene::cast_layer(std::uint32_t number, std::size_t tile, const Tile
   }
 }
 
-void LayeredScene::cut(std::uint32_t number, std::size_t first_hit, const TileWork& work) const {
+void LayerStack::cut(std::uint32_t number, std::size_t first_hit, const TileWork& work) const {
   const Layer& layer = layers_[number];
   std::vector<LayerHit>& hits = work.place.hits;
   order_hits(first_hit, work);
@@ -262,15 +262,15 @@ void LayeredScene::cut(std::uint32_t number, std::size_t first_hit, const TileWo
                             static_cast<std::uint32_t>(caps.size()));
 }
 
-const LayerHit& LayeredScene::leaving_hit(std::span<const LayerHit> hits, std::span<const std::uint32_t> order) {
+const LayerHit& LayerStack::leaving_hit(std::span<const LayerHit> hits, std::span<const std::uint32_t> order) {
   return hits[*std::ranges::find_if(order, [&](std::uint32_t n) { return hits[n].facing > 0.0f; })];
 }
 
 /// True if the ray is inside a solid at the plane. order: all points of the ray beyond the plane. In a surface the
 /// first point decides. Shapes lie within each other, so exits without an entry count; but cylinders are open at their
 /// ends inside spheres.
-bool LayeredScene::begins_inside(const Layer& layer, std::span<const LayerHit> hits,
-                                 std::span<const std::uint32_t> order) {
+bool LayerStack::begins_inside(const Layer& layer, std::span<const LayerHit> hits,
+                               std::span<const std::uint32_t> order) {
   if (hits[order.front()].facing > 0.0f || layer.object->surface) return hits[order.front()].facing > 0.0f;
   int left = 0;
   const LayerHit* before = nullptr;
@@ -283,7 +283,7 @@ bool LayeredScene::begins_inside(const Layer& layer, std::span<const LayerHit> h
   return left > 0;
 }
 
-glm::dvec3 LayeredScene::cap_point(const LaneTile& task, const LayerHit& cap) const {
+glm::dvec3 LayerStack::cap_point(const LaneTile& task, const LayerHit& cap) const {
   const PictureRay ray = picture_ray(
       frame_, glm::dvec2(block_.origin + pixel_of(task, cap.ray)) + 0.5 + glm::dvec2(task.offset[sample_of(cap.ray)]));
   return frame_.pivot + ray.on_pivot_plane + ray.direction * static_cast<double>(cap.t);
@@ -291,7 +291,7 @@ glm::dvec3 LayeredScene::cap_point(const LaneTile& task, const LayerHit& cap) co
 
 /// Colours all caps of a tile, row by row: the atoms near the tile are searched once, and a cap is compared only with
 /// the atoms that are near enough to the middle of its row.
-void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps) const {
+void LayerStack::color_caps(const Layer& layer, std::span<Cap> caps) const {
   if (caps.empty()) return;
   if (layer.object->shapes) {
     for (Cap& cap : caps) paint_cap(layer, cap);
@@ -318,7 +318,7 @@ void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps) const {
   }
 }
 
-LayeredScene::Middle LayeredScene::middle_of(std::span<const Cap> caps) {
+LayerStack::Middle LayerStack::middle_of(std::span<const Cap> caps) {
   Middle result{0.5 * (caps.front().point + caps.back().point)};
   for (const Cap& cap : caps) {
     const glm::dvec3 off = cap.point - result.point;
@@ -328,8 +328,8 @@ LayeredScene::Middle LayeredScene::middle_of(std::span<const Cap> caps) {
   return result;
 }
 
-void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps, double reach,
-                              std::span<const NearAtom> near) const {
+void LayerStack::color_caps(const Layer& layer, std::span<Cap> caps, double reach,
+                            std::span<const NearAtom> near) const {
   const std::vector<Ball>& balls = layer.object->surface->atoms;
   for (Cap& cap : caps) {
     NearAtom first{std::numeric_limits<double>::infinity(), 0};
@@ -342,7 +342,7 @@ void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps, double re
   }
 }
 
-void LayeredScene::paint_cap(const Layer& layer, Cap& cap) {
+void LayerStack::paint_cap(const Layer& layer, Cap& cap) {
   const Coloring& coloring = *layer.object->coloring;
   cap.color = layer.scene.colors[cap.atom];
   cap.normal = glm::vec3(layer.object->clip[cap.plane].normal);
@@ -357,7 +357,7 @@ void LayeredScene::paint_cap(const Layer& layer, Cap& cap) {
         glm::vec3(cap.color) * hatched(cap.point, layer.object->clip[cap.plane].normal, style.hatching), cap.color.w);
 }
 
-void LayeredScene::order_hits(std::size_t first_hit, const TileWork& work) const {
+void LayerStack::order_hits(std::size_t first_hit, const TileWork& work) const {
   Workplace& place = work.place;
   const std::uint32_t rays = ray_count(work.task);
   const auto count = static_cast<std::uint32_t>(place.hits.size());
@@ -377,7 +377,7 @@ void LayeredScene::order_hits(std::size_t first_hit, const TileWork& work) const
   }
 }
 
-void LayeredScene::put_together(const TileWork& work) const {
+void LayerStack::put_together(const TileWork& work) const {
   Workplace& place = work.place;
   const LaneTile& task = work.task;
   const auto width = static_cast<std::size_t>(block_.size.x);
@@ -417,7 +417,7 @@ void LayeredScene::put_together(const TileWork& work) const {
   }
 }
 
-void LayeredScene::write(const LaneSamples& samples, std::size_t at, const LayerHit* hit) const {
+void LayerStack::write(const LaneSamples& samples, std::size_t at, const LayerHit* hit) const {
   samples.depth[at] = hit ? hit->depth : kernel::kNothing;
   if (samples.visibility) samples.visibility[at] = hit ? hit->visibility : 1.0f;
   for (int axis = 0; axis < 3; ++axis) samples.normal[axis][at] = hit ? hit->normal[axis] : 0.0f;
