@@ -48,7 +48,7 @@ std::string altloc_text(const AltlocChoice& choice) {
 }
 
 void read_radii(const Property&, Texts texts, Scene& scene) {
-  if (texts.back().empty()) return;  // info --radii, which prints them
+  if (texts.back().empty()) return;  // `info --radii` prints the sets
   std::vector<std::string> sets{"file"};
   for (const RadiiSet* set : radii_sets()) sets.emplace_back(set->name);
   scene.molecule.reading.radii.set = sets[place_of_word(sets, texts.back())];
