@@ -22,7 +22,7 @@ enum class ValueType {
   camera     ///< a camera as JSON, or the path of a file that has one
 };
 
-/// Where a property may be set other than on the command line, and its meaning there; combined by |.
+/// The places, other than the command line, where a property may be set, and its meaning there; combined by |.
 enum Trait : unsigned {
   in_scene = 1,         ///< scene files have it, under `key`
   in_bundle = 2,        ///< the command of a farm bundle may have it: it writes no file and starts no program

@@ -32,9 +32,8 @@ std::vector<AreaColumn> area_columns(const Structure& structure, const std::vect
 
 /// A derivative by the position of each atom of a structure.
 struct GradientColumn {
-  std::string
-      name;         ///< "ses_area", "ses_volume", "sas_area", "sas_volume", "vdw_area" or "vdw_volume"; a constant text
-  Gradient values;  ///< Å²/Å, or Å³/Å
+  std::string name;  ///< "ses_area", "ses_volume", "sas_area", "sas_volume", "vdw_area", "vdw_volume"; a constant
+  Gradient values;   ///< Å²/Å, or Å³/Å
 };
 
 /// Returns the derivatives of the area and volume of the computed surface, summed over objects; for a solvent-excluded

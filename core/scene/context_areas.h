@@ -13,9 +13,8 @@ namespace meniscus {
 
 /// The atoms in the surroundings of a molecule, and their effect on its areas.
 struct ContextAreas {
-  std::size_t atoms = 0;  ///< number of atoms of the context alone
-  std::vector<AreaColumn>
-      columns;  ///< two for each given column: "<name>_in_context" and "<name>_buried" (the difference)
+  std::size_t atoms = 0;            ///< number of atoms of the context alone
+  std::vector<AreaColumn> columns;  ///< two per given column: "<name>_in_context", "<name>_buried" (the difference)
 };
 
 /// Returns the request extended by the atoms of the context. Throws RequestError without --select (then the file has no

@@ -22,9 +22,8 @@ namespace meniscus {
 /// Some atoms of the file, which need not be atoms of the molecule's surface, and how they are drawn.
 struct FigureObjectRequest {
   Selection atoms;
-  std::optional<RepresentationRequest::Kind>
-      shapes{};  ///< the kind of shapes; nothing: the surface of these atoms, as if they were alone
-  std::optional<ColorScheme> color{};    ///< nothing: the molecule's colours
+  std::optional<RepresentationRequest::Kind> shapes{};  ///< nothing: the surface of these atoms, as if they were alone
+  std::optional<ColorScheme> color{};                   ///< nothing: the molecule's colours
   std::vector<OpacityRule> opacities{};  ///< opacities of this object; the molecule's opacities do not apply to it
   MaterialRequest material{};
   std::optional<double> radius{};  ///< radius of sticks and backbones, Å; nothing: the default radius

@@ -29,13 +29,10 @@ enum class WholeBy {
 
 /// The frames of a trajectory in a run, and their preparation.
 struct RunRequest {
-  std::vector<std::string>
-      trajectories;  ///< joined in this order; empty: the frames are the models of the molecule's file
-  std::optional<Selection>
-      trajectory_atoms;  ///< the atoms of the molecule's file that the trajectories have; nothing: all
-  bool trust_atom_order =
-      false;           ///< true: bonds of the first frame are not compared with the bonds of the molecule's file
-  std::string frames;  ///< a list for parse_frame_list; empty: all
+  std::vector<std::string> trajectories;      ///< joined in this order; empty: the models of the molecule's file
+  std::optional<Selection> trajectory_atoms;  ///< the atoms of the molecule's file that these have; nothing: all
+  bool trust_atom_order = false;  ///< bonds of the first frame are not compared with bonds of the molecule's file
+  std::string frames;             ///< a list for parse_frame_list; empty: all
   std::uint64_t stride = 1;
   std::uint64_t repeat = 1;       ///< how many times in a row each selected frame comes
   std::uint64_t interpolate = 1;  ///< number of frames made from each: itself, and frames on the way to the next
@@ -96,7 +93,7 @@ class FrameRun {
   /// True if the surfaces of two frames may have different atoms.
   bool atoms_change() const { return atoms_change_; }
   /// Return the numbers of the frames of the run, and of the frames that are to be made here. A number is the place in
-  /// the trajectory; with `repeat` or `interpolate` it is that place times their number, plus 0, 1, 2 and so on.
+  /// the trajectory; with `repeat` or `interpolate` it is that place times their value, plus 0, 1, 2 and so on.
   const std::vector<std::uint64_t>& numbers() const { return run_; }
   const std::vector<std::uint64_t>& chunk() const { return chunk_; }
   /// Returns the place in the trajectory of a frame of the run or, for an interpolated frame, of the frame before it.

@@ -195,7 +195,7 @@ Molecule MoleculeBuilder::build(Structure structure) {
     molecule.color.file = measured_accessibility(molecule.structure, request_.surface, computer_);
   if (color_.by == ColorScheme::By::lipophilicity)
     molecule.color.volume = lipophilicity_paint(molecule.structure, molecule.color);
-  // Numbers that the molecule lacks are reported before the surfaces are computed.
+  // Numbers that the colours need and the molecule lacks are reported before the surfaces are computed.
   if (color_.has_scale()) color_scale(molecule.structure, molecule.color);
   for (const ColorRule& rule : color_.rules)
     if (rule.paint.has_scale()) color_scale(molecule.structure, rule.paint);

@@ -80,8 +80,8 @@ void require_colors_shared(const Structure& structure, const ColorScheme& color)
 /// Makes molecules of one structure after another: the frames of a trajectory.
 class MoleculeBuilder {
  public:
-  /// `request` must outlive the builder, and so must `context`, in which surfaces are computed on GL. Throws InputError
-  /// for the numbers of the colours, RequestError.
+  /// `request` must outlive the builder, and so must `context`, if it is given; surfaces on GL are then computed
+  /// in it. Throws InputError for the numbers of the colours, RequestError.
   explicit MoleculeBuilder(const MoleculeRequest& request, const EglContext* context = nullptr);
 
   /// Computes and colours the surfaces of a structure. Throws like surface_objects and color_object; InputError if

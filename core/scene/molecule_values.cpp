@@ -15,7 +15,7 @@
 namespace meniscus::scene_values {
 namespace {
 
-// The molecule.
+// The values of the molecule follow.
 
 ModelChoice model_of(const std::string& text) {
   ModelChoice choice;
@@ -79,7 +79,7 @@ int one_of_numbers(const std::string& text) {
 
 std::string number_text(int number) { return std::to_string(number); }
 
-// Values that depend on each other.
+// The values that depend on each other follow.
 
 void complete_colors(MoleculeRequest& molecule) {
   using By = ColorScheme::By;

@@ -141,7 +141,7 @@ const SceneValue* value_of(std::string_view key) {
   return nullptr;
 }
 
-// Values that depend on each other follow.
+// The values that depend on each other follow.
 
 void complete_lengths(Scene& scene) {
   if (scene.picture.dots_per_inch == 0.0 && std::ranges::any_of(scene.lengths, [](const auto& length) {

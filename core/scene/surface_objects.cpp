@@ -96,7 +96,7 @@ void require_apart(const Structure& structure, std::span<const CopiedBalls> grou
 }
 
 /// Throws InputError if copies do not keep clear of each other. They need not if each has a surface as if it were
-/// alone: with --instances separate, or if chains or residues, of which copies have their own, are separate groups.
+/// alone: with --instances separate, or if groups are chains or residues, because each copy has its own.
 void require_apart(const Structure& structure, const Division& division, std::span<const SurfaceObject> objects) {
   if (division.instances != InstanceMode::exact) return;
   if (division.groups == Grouping::chain || division.groups == Grouping::residue) return;
