@@ -30,8 +30,7 @@ struct PanelArrangement {
   int gap = 0;                       ///< pixels between panels
   std::optional<int> width, height;  ///< pixels of the page; nothing: set by the size and shape of the first panel
   PanelLetters letters = PanelLetters::upper;  ///< letters of panels whose scenes set none
-  bool one_camera =
-      false;  ///< true: all panels have the first panel's camera, which then frames the contents of all of them
+  bool one_camera = false;  ///< true: all have the first panel's camera, which then frames the contents of all
 };
 
 /// A figure, ready to be drawn.

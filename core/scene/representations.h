@@ -28,9 +28,8 @@ constexpr const char* shape_word(RepresentationRequest::Kind kind) { return kSha
 
 /// Radii of shapes, Å; nothing: the default radii.
 struct ShapeRadii {
-  std::optional<double>
-      stick_radius;  ///< radius of sticks and bases; default: kStickRadius, with balls kThinStickRadius
-  std::optional<double> tube_radius;  ///< default: kTubeRadius
+  std::optional<double> stick_radius;  ///< of bases, too; default: kStickRadius, with balls kThinStickRadius
+  std::optional<double> tube_radius;   ///< default: kTubeRadius
 };
 
 /// All requested representations, and their common radii.

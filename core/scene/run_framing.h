@@ -59,8 +59,7 @@ class ShownFrames {
 /// The motion of the camera over a run.
 struct CameraMotionRequest {
   std::string path_file;  ///< empty: one camera, from a file or framing all frames
-  double turns =
-      0.0;  ///< number of turns over the run, about the camera's up axis through the middle of the framed atoms
+  double turns = 0.0;     ///< over the run, about the camera's up axis through the middle of the framed atoms
   std::optional<Selection> follow;
 
   bool moves() const { return !path_file.empty() || turns != 0.0 || follow.has_value(); }

@@ -115,9 +115,8 @@ class SurfaceComputer {
   /// any thread.
   bool is_on_cpu() const { return on_cpu_ && !request_.verify; }
   const std::string& device() const { return device_; }  ///< "cpu (16 threads)", or GL renderer and version
-  const std::vector<StageTime>& stages() const {
-    return clock_.times();
-  }  ///< times of all surfaces since the last restart
+  /// Returns the times of all surfaces since the last restart.
+  const std::vector<StageTime>& stages() const { return clock_.times(); }
   void restart_clock() { clock_.restart(); }
   /// look: called before each stage; an exception that it throws ends the computation.
   void before_stages(std::function<void()> look) { clock_.before_stages(std::move(look)); }
