@@ -16,7 +16,7 @@
 namespace meniscus {
 namespace {
 
-/// Those that the checks of an option name: see one_of() and proposes() in app/options/property_options.h.
+/// Returns the words in the names of an option's checks: see one_of() and proposes() in app/options/property_options.h.
 std::vector<std::string> words_of(const CLI::Option& option) {
   std::vector<std::string> words;
   try {
@@ -25,7 +25,7 @@ std::vector<std::string> words_of(const CLI::Option& option) {
       if (!name.empty()) words = CLI::detail::split(name, '|');
     }
   } catch (const CLI::OptionNotFound&) {
-    return words;  // there are no more checks
+    return words;  // thrown when there are no more checks
   }
 }
 
@@ -42,7 +42,8 @@ OptionEntry entry_of(const CLI::Option& option) {
   return entry;
 }
 
-/// Files that options and arguments outside of the property table name.
+/// True if the name of a value, such as FILE, is that of a path; for options and arguments outside of the property
+/// table.
 bool names_path(std::string_view word) {
   constexpr std::array<std::string_view, 6> kPaths{"FILE", "FOLDER", "BUNDLE", "DIR", "INTO", "FROM"};
   return std::ranges::any_of(kPaths, [&](std::string_view path) { return word.starts_with(path); });
@@ -95,13 +96,13 @@ std::vector<const CommandEntry*> all_commands(const CommandEntry& tree) {
 
 namespace {
 
-/// A word of other programs, and our options for it, the best first.
+/// A word of another program, and the options that it may mean here, the best first.
 struct ForeignWord {
   std::string_view word;
   std::array<std::string_view, 3> options;
 };
 
-// Of PyMOL, ChimeraX, VMD, POV-Ray, Blender, ffmpeg and ImageMagick.
+// The words are from PyMOL, ChimeraX, VMD, POV-Ray, Blender, ffmpeg and ImageMagick.
 constexpr std::array<ForeignWord, 48> kForeignWords{{
     {"--colour", {"--color"}},
     {"--colors", {"--color"}},
@@ -181,7 +182,7 @@ std::string meant_option(const CLI::App& command, std::string_view word) {
   if (foreign != kForeignWords.end())
     for (const std::string_view option : foreign->options)
       if (std::ranges::find(names, option) != names.end()) return fmt::format("; did you mean {}?", option);
-  // The beginning of one option alone, or a few letters off.
+  // The word may be the beginning of exactly one option, or differ from one by a few letters.
   const auto begins = [&](const std::string& name) { return word.size() > 4 && name.starts_with(word); };
   if (std::ranges::count_if(names, begins) == 1)
     return fmt::format("; did you mean {}?", *std::ranges::find_if(names, begins));

@@ -64,15 +64,15 @@ bool is_one(const CLI::Option& option, bool (*such)(const Property& property)) {
   });
 }
 
-/// Where # stands for numbers, whether any frame of one would be the other.
+/// True if both paths are one file, or would be for some number in place of #.
 bool can_be_one_file(const std::string& a, const std::string& b) {
   std::error_code failed, ignored;
-  // Absolute first: a path of which nothing is there yet stays relative.
+  // The path is made absolute first, because weakly_canonical() leaves a path relative if no part of it exists.
   const auto place = [&](const std::string& path) {
     return fs::weakly_canonical(fs::absolute(path, failed), failed).string();
   };
   const auto has_frame_in = [](const std::string& numbered, const std::string& other) {
-    constexpr std::uint64_t kSomeFrame = 987654321;  // of two patterns: it has as many digits as either asks for
+    constexpr std::uint64_t kSomeFrame = 987654321;  // for two patterns: it has as many digits as either requires
     const std::optional<NumberedPath> frames = NumberedPath::parse(numbered), others = NumberedPath::parse(other);
     return frames && frames->names(others ? others->at(kSomeFrame) : other);
   };

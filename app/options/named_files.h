@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that a command line names: numbered outputs, and outputs that would replace inputs.
+// Files on a command line: numbered outputs, and outputs that would replace inputs.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ namespace meniscus {
 
 class NumberedPath {
  public:
-  /// The last run of # in the file's name stands for the number. Nothing if there is none.
+  /// Parses a path in whose file name the last run of # represents the number. Returns nothing if there is no #.
   static std::optional<NumberedPath> parse(const std::string& path);
 
-  /// With zeros before the number, at least as many digits as there are #.
+  /// Returns the path of a number. Leading zeros give it at least as many digits as there are #.
   std::string at(std::uint64_t number) const;
-  /// Whether at() gives this path for some number.
+  /// True if at() returns this path for some number.
   bool names(std::string_view path) const;
 
  private:
@@ -30,28 +30,28 @@ class NumberedPath {
   std::size_t digits_ = 0;
 };
 
-/// The path with "_#####" before its ending, to be proposed.
+/// Returns the path with "_#####" before its suffix, as a proposal for users.
 std::string numbered_name(const std::string& path);
 
-/// Before a command begins whose options are parsed.
+/// The files that a command reads and writes, checked before it begins.
 class NamedFiles {
  public:
-  /// Those of its options.
+  /// Adds the files of the command's options, which must be parsed.
   explicit NamedFiles(const CLI::App& command);
 
-  /// A file, or a bundle with all its files, that no output replaces.
+  /// Adds a file, or a bundle with all its files, that no output may replace.
   void read(const std::string& path);
   void write(const std::string& option, const std::string& path);
 
-  /// Throws OutputError for an output that is read, and UsageError for two outputs that are the same file, or would be
-  /// in some frame of a run.
+  /// Throws OutputError for an output that is also read, and UsageError for two outputs that are the same file or would
+  /// be the same in some frame of a run.
   void check() const;
 
  private:
   void protect(const std::filesystem::path& path);
 
-  std::set<std::pair<std::uint64_t, std::uint64_t>> inputs_;  ///< as system_file::State has them
-  std::vector<std::pair<std::string, std::string>> outputs_;  ///< option, path
+  std::set<std::pair<std::uint64_t, std::uint64_t>> inputs_;  ///< identities of files, as in system_file::State
+  std::vector<std::pair<std::string, std::string>> outputs_;  ///< option and path
 };
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Declares the sets of properties that commands have in common, adds options to CLI11, and writes scenes as options.
+// Declares the sets of properties that commands share, adds options to CLI11, and writes scenes as options.
 #include "app/options/property_options.h"
 
 #include <algorithm>
@@ -151,7 +151,7 @@ CLI::Option* PropertyOptions::finish(const Property& property, CLI::Option* opti
   option->type_name(std::string(property.value));
   if (property.has(repeatable)) option->allow_extra_args(false);
   if (property.has(value_optional)) option->expected(0, 1);
-  // The range of a text is that of a length in pixels, which its own parser checks.
+  // The range of a text is a length in pixels, which its own parser checks.
   if (property.has_range() && (property.type == ValueType::number || property.type == ValueType::count))
     option->check(within(property));
   if (!property.words.empty()) option->check(proposes(words_of(property)));
@@ -190,7 +190,7 @@ std::vector<std::string> scene_words(const Scene& scene,
       const std::string text = named(*property, given);
       if (property->type == ValueType::flag) {
         words.push_back(option);
-      } else if (text.starts_with('-') || text.empty()) {  // which would be taken for an option, or for none
+      } else if (text.starts_with('-') || text.empty()) {  // it would be read as an option, or be lost
         words.push_back(fmt::format("{}={}", option, text));
       } else {
         words.push_back(option);

@@ -22,18 +22,18 @@
 
 namespace meniscus {
 
-/// The scene's properties for which a command has options, and conditions of their effect. Each command declares its
-/// own: those of a common set below, and more or fewer. Options that no scene has are added by the command itself.
+/// The scene's properties for which a command has options, and conditions of their effect. Each command declares them:
+/// a common set below, plus or minus some properties. Options that scenes do not have are added by the command itself.
 class TakenProperties {
  public:
-  /// names: headings of the help, such as "Colour", and keys, such as "molecule.quiet"; one that begins with a minus is
-  /// left out. The last one that names a property decides. Throws std::logic_error for a name that is neither. needs:
-  /// conditions that this command adds to those of all scenes.
+  /// names: headings of the help, such as "Colour", and keys, such as "molecule.quiet"; a name that begins with a minus
+  /// is left out. The last name that refers to a property decides. Throws std::logic_error for a name that is neither.
+  /// needs: conditions that this command adds to the conditions of all scenes.
   TakenProperties(std::initializer_list<std::string_view> names, std::initializer_list<Need> needs = {}) {
     add(names, needs);
   }
 
-  /// Returns a copy with more and fewer properties, and more conditions.
+  /// Returns a copy with properties added or removed, and with further conditions.
   TakenProperties with(std::initializer_list<std::string_view> names, std::initializer_list<Need> needs = {}) const;
 
   bool has(const Property& property) const { return taken_.contains(&property); }
@@ -54,25 +54,26 @@ const TakenProperties& figure_properties();
 /// Returns the properties of `meniscus render`.
 const TakenProperties& render_properties();
 
-/// Returns the condition of options for films: the output is one.
+/// Returns the condition of options for films: the output must be a film.
 Need film_need();
-/// Returns the condition of options that turn and move frames. condition: a table of places or directions is written.
+/// Returns the condition of options that turn and move frames: `condition` is met by commands that write a table of
+/// positions or directions.
 Need superposition_need(Condition condition);
 
-/// Lets any value pass, and proposes these. The name of a check is where command_tree() finds its words.
+/// Returns a check that accepts any value, and proposes these words. command_tree() reads the words from its name.
 CLI::Validator proposes(const std::vector<std::string>& words);
 
-/// Takes one of these words, and nothing else.
+/// Returns a check that accepts only these words.
 CLI::Validator one_of(const std::vector<std::string>& words);
 
-/// Name, heading, help, default, range and words of each option come from property_of(key). Options appear in the help
-/// in the order in which they are added. What a function throws (CLI::ValidationError, SelectionError, RequestError)
-/// passes through.
+/// Adds options to a command. Name, heading, help, default, range and words of each option come from property_of(key).
+/// Options appear in the help in the order in which they are added. Exceptions of functions that are passed
+/// (CLI::ValidationError, SelectionError, RequestError) are not caught.
 class PropertyOptions {
  public:
   explicit PropertyOptions(CLI::App& command) : command_(command) {}
 
-  /// A flag; a number within its range; text, a path, or several of them as they are.
+  /// Adds a flag, a number within its range, a text or path, or several of them, which are stored unchanged.
   template <typename Target>
   CLI::Option* add(std::string_view key, Target& target) {
     const Property& property = property_of(key);
@@ -82,7 +83,7 @@ class PropertyOptions {
       return finish(property, command_.add_option(std::string(property.option), target));
   }
 
-  /// One of the property's words; `meanings` in their order.
+  /// Adds an option whose value is one of the property's words; `meanings` are in the order of the words.
   template <typename Target, typename Meaning>
   CLI::Option* add_word(std::string_view key, Target& target, std::initializer_list<Meaning> meanings) {
     const Property& property = property_of(key);
@@ -94,44 +95,44 @@ class PropertyOptions {
     });
   }
 
-  /// Text that `parse` understands.
+  /// Adds an option whose text `parse` reads.
   CLI::Option* add_parsed(std::string_view key, const std::function<void(const std::string&)>& parse);
-  /// A selection of atoms. Throws SelectionError that names the option.
+  /// Adds an option whose value is a selection of atoms. It throws SelectionError that names the option.
   CLI::Option* add_selection(std::string_view key, std::optional<Selection>& selection);
-  /// A flag that does something.
+  /// Adds a flag that calls a function.
   CLI::Option* add_switch(std::string_view key, const std::function<void()>& turn_on);
 
  private:
-  /// Throws CLI::ValidationError unless text is one of the words.
+  /// Returns the place of the text among the property's words. Throws CLI::ValidationError unless it is one of them.
   static std::size_t place_of_word(const Property& property, const std::string& text);
   CLI::Option* finish(const Property& property, CLI::Option* option) const;
 
   CLI::App& command_;
 };
 
-/// What a word of a property means; `meanings` in the order of its words, the first where the text is empty. Throws
-/// UsageError.
+/// Returns the place of a word among a property's words. Throws UsageError. meaning_of() returns the meaning of a word
+/// instead: `meanings` are in the order of the words, and an empty text has the first.
 std::size_t place_of(const std::string& text, const Property& property);
 template <typename Meaning>
 Meaning meaning_of(const std::string& text, std::string_view key, std::initializer_list<Meaning> meanings) {
   return text.empty() ? *meanings.begin() : *(meanings.begin() + place_of(text, property_of(key)));
 }
 
-/// The heading of the help under which a property's option is; empty: the help does not have it.
+/// Returns the heading of the help with a property's option; empty if the help does not have the option.
 std::string group_of(const Property& property);
 
-/// Understands an expression that is the value of an option. Throws SelectionError, which names the option.
+/// Parses an expression that is the value of an option. Throws SelectionError that names the option.
 Selection parse_selection_option(const std::string& option, const std::string& text);
 
-/// Returns FILE, and an option for each value that differs from Scene{}, but for where its output goes. path: what is
-/// written instead of the path of a file that is read.
+/// Returns FILE, and an option for each value that differs from Scene{} except the output. path: returns the text that
+/// replaces the path of a file to read.
 std::vector<std::string> scene_words(const Scene& scene,
                                      const std::function<std::string(const std::string& path)>& path = {});
 
-/// "meniscus", "render" and the same, with the output.
+/// Returns "meniscus", "render" and scene_words(), with the output.
 std::vector<std::string> render_words(const Scene& scene);
 
-/// As a shell takes them, in one line.
+/// Returns the words as one line for a shell, quoted if necessary.
 std::string shell_line(std::span<const std::string> words);
 
 }  // namespace meniscus

@@ -36,7 +36,8 @@
 namespace meniscus {
 namespace {
 
-/// Which GPUs this process is meant to see, which of several it takes, and where their kernels are kept.
+/// Reads from the environment which GPUs this process may see, which of several it takes, and where their kernels are
+/// kept.
 void read_environment(DeviceChoice& choice) {
   const char* const kept = std::getenv(kKernelVariable);
   if (const std::string cache = cache_folder(); !cache.empty() && !(kept && std::string_view(kept) == "off"))
@@ -50,7 +51,7 @@ void read_environment(DeviceChoice& choice) {
   }
 }
 
-/// Words to propose that other tables know.
+/// Returns words to propose that other tables define.
 std::vector<std::string> proposed_words(std::string_view key) {
   std::vector<std::string> words;
   const auto add = [&](const auto& table, auto name) {
@@ -77,7 +78,7 @@ void add_option(CLI::App& command, const Property& property) {
     command.add_flag(name)->description(help_of(property))->group(group_of(property));
     return;
   }
-  // Values are looked at when all are known.
+  // Values are not parsed here, but when all are known.
   CLI::Option* const option = command.add_option(name)->description(help_of(property))->group(group_of(property));
   option->type_name(std::string(property.value));
   if (property.has(repeatable)) option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->expected(1);
@@ -109,7 +110,7 @@ SceneOptions::SceneOptions(CLI::App& command, TakenProperties taken, SceneComman
   if (taken_.has("frames.frames")) into.scene.frames.index_folder = cache_folder();
 }
 
-/// Those that say how the work is done; and trajectories that are after FILE.
+/// Adds an option that sets how the work is done, or the trajectories after FILE.
 void SceneOptions::add_own_option(const Property& property) {
   PropertyOptions options(command_);
   const std::string_view key = property.key;
@@ -222,7 +223,7 @@ std::vector<SceneSetting> SceneOptions::read_scene_file(const std::vector<std::s
   std::vector<SceneSetting> settings = parse_scene(read_scene_text(file_), file_);
   std::erase_if(settings, [&](const SceneSetting& setting) {
     const Property& property = *setting.property;
-    // The name of a picture does not fit the folder of an export.
+    // The name of a picture is not suitable for the folder of an export.
     if (property.key == "output.file" && !takes_output_of_scene_) return true;
     return is_path(property) && !property.has(repeatable) && typed(property.key);
   });
@@ -236,10 +237,10 @@ std::vector<SceneSetting> SceneOptions::read_scene_file(const std::vector<std::s
   return settings;
 }
 
-/// Before outputs are looked at: throws for a file that is not there what reading it would, and which scene asks for
-/// it.
+/// Throws, before outputs are checked, for a file that does not exist: the error of reading it, or an error that names
+/// the scene and the key that refer to it.
 void SceneOptions::check_inputs() const {
-  if (typed("report.csv_summary")) return;  // a table of many files has a row for each that is missing
+  if (typed("report.csv_summary")) return;  // because a table of many files has a row for each missing one
   for (const Property* property : properties()) {
     if (property->type != ValueType::file || !has_option(*property) || !is_given(property->key)) continue;
     for (const std::string& path : value_texts(into_.scene, *property)) {
@@ -253,7 +254,7 @@ void SceneOptions::check_inputs() const {
   }
 }
 
-/// Throws where an output, of an option or of a setting, would replace what the command reads or another output.
+/// Throws if an output, of an option or of a setting, would replace an input of the command or another output.
 void SceneOptions::guard_files(std::span<const SceneSetting> settings) const {
   NamedFiles files(command_);
   if (!file_.empty()) files.read(file_);
@@ -267,7 +268,7 @@ void SceneOptions::guard_files(std::span<const SceneSetting> settings) const {
   files.check();
 }
 
-/// Of --set, in the form of a scene file's settings.
+/// Returns the values of --set in the form of a scene file's settings.
 std::vector<SceneSetting> SceneOptions::typed_settings() const {
   std::vector<SceneSetting> settings;
   const CLI::Option* const option = command_.get_option_no_throw("--set");
@@ -351,8 +352,8 @@ void SceneOptions::take(const std::vector<std::string>& named) {
     if (!into_.reporting.quiet) std::cerr << "meniscus: " << escaped(sentence) << std::endl;
 }
 
-/// What the scene file says of the picture and this command, which shows the molecule, does not show: a sentence.
-/// Empty: nothing.
+/// Returns a note about values of the scene file that affect the picture but that this command, which shows the
+/// molecule, does not show; empty if there are none.
 std::string SceneOptions::told_left_out() const {
   if (!has_option(property_of("surface.color"))) return "";
   const auto has_any_of = [&](std::string_view section) {
@@ -372,7 +373,7 @@ std::string SceneOptions::told_left_out() const {
                        : fmt::format("note: {} does not show what the scene says of {}", command_path(command_), names);
 }
 
-/// A camera that turns around one molecule makes a film of some seconds, unless it is said how many pictures it has.
+/// Makes a film of some seconds of a camera that turns around one molecule, unless the number of pictures is given.
 void SceneOptions::turn_one_molecule() {
   Scene& scene = into_.scene;
   ModelChoice& model = scene.molecule.reading.model;
@@ -399,7 +400,7 @@ void SceneOptions::check_table() const {
 }
 
 void check_cost(const SceneCommand& command, const Scene& scene, glm::ivec2 size) {
-  constexpr double kRaysPerHour = 6e9;  // of a core, of a molecule that fills the picture
+  constexpr double kRaysPerHour = 6e9;  // per core, of a molecule that fills the picture
   const double rays = static_cast<double>(size.x) * size.y * scene.image.samples * scene.image.motion_blur;
   if (rays <= kMostRays || command.any_cost) return;
   throw UsageError(fmt::format(

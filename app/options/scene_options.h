@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a command line, and the scene file that it names, to one scene.
+// Reads a scene from a command line and the scene file that it names.
 #pragma once
 
 #include <cstddef>
@@ -22,82 +22,86 @@
 
 namespace meniscus {
 
-/// How much is said about unusual things in a file: a line for every atom, a sentence for every kind, nothing.
+/// The number of warnings about unusual things in a file. full: a line for every atom; summary: a sentence for every
+/// kind.
 enum class WarningDetail { full, summary, none };
 
-/// How a run of frames reports how far it is.
+/// The form in which a run of frames reports its progress.
 enum class ProgressStyle {
   automatic,  ///< a bar on a terminal, else plain lines
   bar,
-  plain,   ///< a line at every tenth
-  json,    ///< a JSON object a line on standard error: start, each frame, end
+  plain,   ///< a line at every tenth of the run
+  json,    ///< a JSON object per line on standard error: start, each frame, end
   openjd,  ///< openjd_progress and openjd_status lines on standard output, as OpenJD 2023-09 defines them
   none
 };
 
-/// What is said on standard error.
+/// The messages on standard error.
 struct Reporting {
   WarningDetail warnings = WarningDetail::summary;
   bool quiet = false;
   ProgressStyle progress = ProgressStyle::automatic;
 };
 
-/// What a command makes of a scene, and how. Commands keep one of these alive as long as their CLI::App.
+/// A scene, and how a command carries it out. It must live as long as the command's CLI::App.
 struct SceneCommand {
   Scene scene;
   Reporting reporting;
-  std::size_t jobs = 0;                 ///< frames that are made at once; 0: as cores and memory allow
-  bool force = false;                   ///< outputs replace what is there
-  bool any_cost = false;                ///< pictures may have more rays than kMostRays
-  std::string save_scene, save_camera;  ///< paths; empty: it is not saved
-  /// Files that were added to the molecule when it was read, for scenes that are saved. Copies of the command share it.
+  std::size_t jobs = 0;                 ///< number of frames that are made at once; 0: as cores and memory allow
+  bool force = false;                   ///< true: outputs may replace existing files
+  bool any_cost = false;                ///< true: pictures may have more than kMostRays rays
+  std::string save_scene, save_camera;  ///< paths; empty: not saved
+  /// The files that were added to the molecule when it was read, for scenes that are saved. Copies of the command share
+  /// this list.
   std::shared_ptr<std::vector<AddedFile>> added = std::make_shared<std::vector<AddedFile>>();
 
   Existing existing() const { return force ? Existing::replace : Existing::refuse; }
 };
 
-/// A picture of more rays takes hours and needs --any-cost.
+/// The number of rays above which a picture takes hours and needs --any-cost.
 inline constexpr double kMostRays = 1e10;
 
-/// Before anything is read. Throws UsageError for a picture of this size with more rays, unless any cost is all right.
+/// Checks the number of rays before any file is read. Throws UsageError if a picture of this size has more than
+/// kMostRays, unless --any-cost is set.
 void check_cost(const SceneCommand& command, const Scene& scene, glm::ivec2 size);
 
-/// Must an output be named?
+/// The choice whether an output must be named on the command line.
 enum class OutputName { required, optional };
 
-/// Options for the properties that a command has, in the order of their table, and --scene. Nothing is read before
-/// take().
+/// The options of a command's properties, in the order of their table, and --scene. Nothing is read before take().
 class SceneOptions {
  public:
-  /// The command and `into` must live as long.
+  /// The command and `into` must outlive this object.
   SceneOptions(CLI::App& command, TakenProperties taken, SceneCommand& into);
 
-  /// The option of a property that the command has, for what it says otherwise than the table.
+  /// Returns the option of a property that the command has, in order to change its description.
   CLI::Option* option(std::string_view key) const;
 
-  /// What -o names. Where it is optional, a scene file may name it.
+  /// Sets the description of -o. If it is optional, a scene file may name the output.
   void describe_output(const std::string& what, OutputName name = OutputName::required);
 
-  /// Says nothing of this property where a scene has it: the command shows it without an option.
+  /// Suppresses the note that this property of a scene is not shown: the command shows it without having an option for
+  /// it.
   void show_anyway(std::string_view key) { shown_anyway_ = key; }
-  /// Says nothing of values that may have an effect later, because the scene changes while it is shown.
+  /// Suppresses notes about values that may have an effect later, because the scene changes while it is shown.
   void be_live() { is_live_ = true; }
 
-  /// Has a scene file read as if --scene named it.
+  /// Makes take() read this scene file as if --scene named it.
   void name_file(const std::string& path) { file_ = path; }
 
-  /// Sets the values of the scene: those of the scene file, then those of the command line; and completes it. named:
-  /// words of an earlier command line, whose files the scene may name, too. Throws UsageError, CLI::ParseError,
-  /// SelectionError; InputError for a file that is not a scene or names files that it may not.
+  /// Sets the values of the scene file, then the values of the command line, and completes the scene. named: words of
+  /// an earlier command line; the scene may also name files that are among them. Throws UsageError, CLI::ParseError,
+  /// SelectionError; InputError for a file that is not a scene or names files that it may not name.
   void take(const std::vector<std::string>& named = {});
 
-  /// Whether the command line or the scene file has a value of this property.
+  /// True if the command line or the scene file has a value of this property.
   bool is_given(std::string_view key) const { return typed(key) || places_.contains(std::string(key)); }
-  /// Whether the command line has.
+  /// True if the command line has a value of this property.
   bool typed(std::string_view key) const;
-  /// What the command line says of it: one text, of repeatable ones all, of a flag an empty one.
+  /// Returns the texts of a property on the command line: all texts of a repeatable property, one of others, an empty
+  /// one of a flag.
   std::vector<std::string> typed_texts(const Property& property) const;
-  /// The path of the scene file; empty: there is none.
+  /// Returns the path of the scene file; empty if there is none.
   const std::string& file() const { return file_; }
   const CLI::App& command() const { return command_; }
   const TakenProperties& taken() const { return taken_; }
@@ -123,11 +127,11 @@ class SceneOptions {
   bool takes_output_of_scene_ = false, is_live_ = false;
   std::string_view shown_anyway_;
   std::string file_;
-  std::map<std::string, std::string> places_;  ///< in the scene file, by key
+  std::map<std::string, std::string> places_;  ///< place in the scene file by key
   std::vector<std::string> left_out_;
 };
 
-/// A command and its options; `State` is a SceneCommand with what else the command has.
+/// A command and its options. `State` is a SceneCommand with further members that the command needs.
 template <typename State = SceneCommand>
 struct DeclaredCommand {
   State state;
@@ -141,10 +145,10 @@ struct DeclaredCommand {
 /// The file of --save-scene.
 class SceneOutput {
  public:
-  /// Fails before any work is done if it cannot be written: throws OutputError, UsageError for a molecule from standard
-  /// input.
-  explicit SceneOutput(const SceneCommand& command);  ///< must live as long
-  /// Once the work is done.
+  /// Throws, before any work is done, OutputError if the file cannot be written, and UsageError for a molecule from
+  /// standard input.
+  explicit SceneOutput(const SceneCommand& command);  ///< the command must outlive this object
+  /// Writes the file, after the work is done.
   void commit();
 
  private:
@@ -152,18 +156,21 @@ class SceneOutput {
   std::optional<OutputFile> file_;
 };
 
-/// The scene with paths as seen from the folder of `path`, where it is to be saved. added: as for scene_text().
+/// Returns the text of the scene with paths relative to the folder of `path`, where it is to be saved. added: as for
+/// scene_text().
 std::string scene_text_beside(const Scene& scene, const std::string& path, std::span<const AddedFile> added = {});
 
 /// Returns the JSON of a scene file, or of the picture that carries it. Throws InputError.
 std::string read_scene_text(const std::string& file);
 
-/// Where indices of frames and compiled kernels are kept: beside other caches of the user, or nowhere.
+/// Returns the folder for indices of frames and compiled kernels, among other caches of the user; empty if there is
+/// none.
 std::string cache_folder();
 
-/// What `meniscus work` passes to the programs it starts: their worker's number on this machine, from 0.
+/// The variable that `meniscus work` sets for the programs it starts: the number of their worker on this machine, from
+/// 0.
 inline constexpr const char* kWorkerVariable = "MENISCUS_WORKER";
-/// "off": compiled kernels are not kept beside other caches of the user.
+/// The variable that controls compiled kernels; "off": they are not kept among other caches of the user.
 inline constexpr const char* kKernelVariable = "MENISCUS_KERNEL_CACHE";
 
 }  // namespace meniscus

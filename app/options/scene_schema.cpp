@@ -52,7 +52,7 @@ Json described(const Property& property) {
   return type;
 }
 
-/// The keys of scene files: those of one section, or those of all but one.
+/// Returns the keys of scene files in one section, or in all but one.
 template <typename Chosen>
 std::vector<const Property*> scene_properties(const Chosen& is_chosen) {
   std::vector<const Property*> chosen;

@@ -6,10 +6,11 @@
 
 namespace meniscus {
 
-/// The page `meniscus help scenes`.
+/// Returns the page `meniscus help scenes`.
 std::string scene_help();
 
-/// A JSON schema (draft 2020-12) of scene files; ends with a newline. docs/reference/scene.schema.json is the same.
+/// Returns a JSON schema (draft 2020-12) of scene files, ending with a newline. docs/reference/scene.schema.json has
+/// the same text.
 std::string scene_schema();
 
 }  // namespace meniscus

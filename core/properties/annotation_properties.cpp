@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Properties of the legend and of what is written into a picture.
+// Properties of the legend and of the annotations in a picture.
 #include <array>
 
 #include "core/properties/properties.h"

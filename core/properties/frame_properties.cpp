@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Properties of a run of frames: which frames, how their atoms are moved, and films of them.
+// Properties of a run of frames: the choice of frames, the motion of their atoms, and films of them.
 #include <array>
 
 #include "core/properties/properties.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Properties of the molecule: the file, the atoms that are used, their radii, and assemblies.
+// Properties of the molecule: the file, the atoms in use, their radii, and assemblies.
 #include <array>
 
 #include "core/properties/properties.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Properties of the surface and of what is drawn with it: kind, probe, device, colours, cuts, sticks, pockets.
+// Properties of the surface and of shapes drawn with it: kind, probe, device, colours, cuts, sticks, pockets.
 #include <array>
 
 #include "core/properties/properties.h"
@@ -164,7 +164,7 @@ constexpr auto kTable = std::to_array<Property>({
          "\"surface\", \"selection\": \"chain B\", \"color\": \"red\"}'. Repeatable")
         .in(kBeside, in_bundle | live | repeatable),
 
-    // Beyond the largest probe every atom neighbours every other; large probes in mouths become more with the
+    // Beyond the largest probe every atom neighbours every other. The number of large probes in mouths grows with the
     // inverse of their tolerance.
     number("pockets.large_probe", "--large-probe", "Å",
            "Radius of the probe that rolls over the mouths, in Å. A larger one finds wider, shallower pockets")

@@ -38,7 +38,7 @@ glm::dvec3 middle_of(const Selection& selection, const Structure& structure) {
   return sum / static_cast<double>(count);
 }
 
-/// Columns that `surface --csv-series` names get their unit, others stay as they are.
+/// Returns the title of a column: columns of `surface --csv-series` get their unit, others keep their name.
 std::string title_of(const std::string& column) {
   const auto begins = [&](const char* word) { return column.starts_with(word); };
   std::string title = column;
@@ -66,7 +66,7 @@ LabelRequest parse_label(std::string_view text) {
     return {parted->atoms, std::string(parted->text)};
   const std::size_t sign = text.find('=');
   if (sign != std::string::npos && sign > 0 && sign + 1 < text.size())
-    parse_selection(text.substr(0, sign));  // it says what is wrong
+    parse_selection(text.substr(0, sign));  // throws an error that says what is wrong
   throw RequestError(in_quotes(text) + " is not EXPR=TEXT, such as 'resid 48=Ser 48'");
 }
 

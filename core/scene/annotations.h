@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The annotations that a scene asks for: its legend, a panel's letter, a scale bar, labels, the time.
+// The annotations of a scene: its legend, a panel letter, a scale bar, labels, the time.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +16,15 @@
 
 namespace meniscus {
 
-/// Text beside the middle of some atoms.
+/// A text next to the middle of some atoms.
 struct LabelRequest {
   Selection atoms;
   std::string text;
 };
 
 struct LegendRequest {
-  bool within = false;  ///< the picture
-  std::string file;     ///< alone, there; or empty
+  bool within = false;  ///< true if the legend is drawn within the picture
+  std::string file;     ///< path of a file with the legend alone; empty: none
   LegendStyle style;
 
   bool asked() const { return within || !file.empty(); }
@@ -33,32 +33,33 @@ struct LegendRequest {
 struct AnnotationRequest {
   std::string panel, title;
   bool scale_bar = false, time_stamp = false;
-  std::optional<double> bar_length;  ///< Å
+  std::optional<double> bar_length;  ///< Å; empty: chosen automatically
   std::vector<LabelRequest> labels;
-  std::string curve, curve_column;  ///< the file and a name in it; empty: none, the first
+  std::string curve, curve_column;  ///< path of the file and name of a column; empty: no curve, the first column
   LetterStyle letters;
 };
 
-/// The style of a legend whose picture has these letters.
+/// Returns the style of a legend in a picture whose letters have this style.
 LegendStyle legend_style(const LegendStyle& asked, const LetterStyle& letters);
 
-/// What is above and below the molecule in pictures of a run, or of one molecule.
+/// Returns the contents of the strips above and below the molecule, in pictures of a run or of one molecule.
 StripContents strip_contents(const AnnotationRequest& request, bool is_run);
 
-/// "auto" or a length in Å. Throws RequestError.
+/// Reads "auto" or a length in Å into the request. Throws RequestError.
 void parse_scale_bar(const std::string& text, AnnotationRequest& request);
-/// Reads "EXPR=TEXT", parted where the selection ends (selection_and_text). Throws RequestError, SelectionError.
+/// Reads "EXPR=TEXT", divided where the selection ends (selection_and_text). Throws RequestError, SelectionError.
 LabelRequest parse_label(std::string_view text);
 
-/// The numbers of the curve for the frames of a run, given by their numbers in the trajectory; nothing if there is
-/// none. Throws InputError.
+/// Returns the numbers of the curve for frames of a run, which are given by their numbers in the trajectory. Returns
+/// nothing if there is no curve. Throws InputError.
 std::optional<Curve> curve_of(const AnnotationRequest& request, std::span<const std::uint64_t> frames);
 
-/// What is written into a picture of the structure; no time. Throws InputError for a label of no atoms.
+/// Returns the texts and marks in a picture of the structure, without the time. Throws InputError for a label that
+/// selects no atoms.
 Annotations annotations_of(const AnnotationRequest& request, const Structure& structure);
 
-/// Of a frame: its time, or its number where the trajectory has no times. longest: of the run, ps, which chooses the
-/// unit: ps below 1 ns, ns below 1 µs, else µs.
+/// Returns the time of a frame as text, or its number if the trajectory has no times. longest: the longest time of the
+/// run, ps, which sets the unit: ps below 1 ns, ns below 1 µs, else µs.
 std::string time_text(const std::optional<double>& picoseconds, std::uint64_t frame, double longest);
 
 }  // namespace meniscus

@@ -14,31 +14,31 @@ namespace meniscus {
 
 /// An area of each atom of a structure, Å².
 struct AreaColumn {
-  std::string name;  ///< "ses_area", "sas_area", "vdw_area"; a word of ours
+  std::string name;  ///< "ses_area", "sas_area" or "vdw_area"; a constant text
   std::vector<double> values;
-  double total = 0.0;  ///< of all copies of all atoms
+  double total = 0.0;  ///< Å², over all copies of all atoms
 
-  /// Of one copy of these atoms.
+  /// Returns the sum over one copy of these atoms, Å².
   double total_of(const AtomGroup& group) const;
 };
 
-/// The columns of area_columns without values, their totals alone, which take next to no time.
+/// Returns the columns of area_columns() with their totals but without values, which takes very little time.
 std::vector<AreaColumn> area_totals(const std::vector<SurfaceObject>& objects, SurfaceKind kind);
 
-/// For a solvent-excluded surface "ses_area" and "sas_area", else the area of the surface that was made. An atom in
-/// several objects has the sum, of one copy of each.
+/// Returns the columns "ses_area" and "sas_area" for a solvent-excluded surface, else the area of the computed surface.
+/// An atom in several objects has the sum over one copy of each object.
 std::vector<AreaColumn> area_columns(const Structure& structure, const std::vector<SurfaceObject>& objects,
                                      SurfaceKind kind);
 
 /// A derivative by the position of each atom of a structure.
 struct GradientColumn {
-  std::string name;  ///< "ses_area", "ses_volume", "sas_area", "sas_volume", "vdw_area", "vdw_volume"; a word of ours
+  std::string name;  ///< "ses_area", "ses_volume", "sas_area", "sas_volume", "vdw_area", "vdw_volume"; a constant
   Gradient values;   ///< Å²/Å, or Å³/Å
 };
 
-/// Area and volume of the surface that was made, summed over objects; of a solvent-excluded one those of the
-/// accessible one, too. Objects must be surfaces of whole groups of atoms. Throws InputError, naming the
-/// atoms, where a probe touches more than three.
+/// Returns the derivatives of the area and volume of the computed surface, summed over objects; for a solvent-excluded
+/// surface, the derivatives of the accessible surface too. Objects must be surfaces of whole groups of atoms. Throws
+/// InputError, naming the atoms, where a probe touches more than three.
 std::vector<GradientColumn> gradient_columns(const Structure& structure, const std::vector<SurfaceObject>& objects,
                                              SurfaceKind kind);
 

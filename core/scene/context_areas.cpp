@@ -34,7 +34,7 @@ ContextAreas context_areas(const MoleculeRequest& request, const Structure& stru
       surface_objects(structure, {.groups = {}, .components = false, .cavities = request.division.cavities}, computer);
   const std::vector<AreaColumn> all = area_columns(structure, objects, request.surface.kind);
 
-  std::unordered_map<std::uint32_t, std::size_t> row;  // by place in the file
+  std::unordered_map<std::uint32_t, std::size_t> row;  // row by place in the file
   for (std::size_t a = 0; a < structure.atoms.size(); ++a) row[structure.atoms[a].index] = a;
   ContextAreas result;
   result.atoms = structure.atoms.size() - molecule.structure.atoms.size();

@@ -11,18 +11,19 @@
 
 namespace meniscus {
 
-/// The atoms that are around those of a molecule, and what they do to its areas.
+/// The atoms in the surroundings of a molecule, and their effect on its areas.
 struct ContextAreas {
-  std::size_t atoms = 0;            ///< of the context alone
-  std::vector<AreaColumn> columns;  ///< for each given one: "<name>_in_context", "<name>_buried" (the difference)
+  std::size_t atoms = 0;            ///< number of atoms of the context alone
+  std::vector<AreaColumn> columns;  ///< two per given column: "<name>_in_context", "<name>_buried" (the difference)
 };
 
-/// The request for the context's atoms too. Throws RequestError without --select (then there is nothing else in the
-/// file), for standard input, which can be read only once, and for assemblies.
+/// Returns the request extended by the atoms of the context. Throws RequestError without --select (then the file has no
+/// other atoms), for standard input, which can be read only once, and for assemblies.
 MoleculeRequest with_context(const MoleculeRequest& request, const Selection& context);
 
-/// Computes the surface of all atoms of `together` as one, and finds those of the molecule there. `alone`: columns of
-/// the molecule by itself. `computer`: of request.surface. Throws what computing a surface throws.
+/// Computes the surface of all atoms of `together` as one, and takes the areas of the molecule's atoms from it. alone:
+/// the columns of the molecule without its context. computer: must compute the surfaces of request.surface. Throws like
+/// the computation of a surface.
 ContextAreas context_areas(const MoleculeRequest& request, const Structure& together, const Molecule& molecule,
                            const std::vector<AreaColumn>& alone, SurfaceComputer& computer);
 

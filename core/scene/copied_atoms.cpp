@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostListed = 1'000'000;
 
-/// Of those atoms.
+/// Returns the atoms among these whose balls reach farthest in one of 124 directions, ascending.
 std::vector<std::uint32_t> farthest_atoms(std::span<const Ball> balls, std::span<const std::uint32_t> atoms) {
   std::vector<std::uint32_t> farthest;
   constexpr int kSteps = 2;

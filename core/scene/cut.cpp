@@ -48,14 +48,14 @@ std::optional<glm::dvec3> parse_direction(std::string_view text) {
   return direction;
 }
 
-/// The words before an expression, and where they put the plane.
+/// A word before an expression, and the place where it puts the plane.
 struct PlaceWord {
   std::string_view word;
   Cut::Place place;
 };
 constexpr PlaceWord kPlaceWords[] = {{"through", Cut::Place::through}, {"before", Cut::Place::before}};
 
-/// Nothing where the text does not begin with one of the words.
+/// Returns nothing if the text does not begin with one of the words.
 std::optional<Cut> parse_cut_by_atoms(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
   for (const auto& [word, place] : kPlaceWords) {
@@ -149,7 +149,7 @@ bool uses_atoms(std::span<const Cut> cuts) {
 
 namespace {
 
-/// A plane that faces the viewer, before which all is cut away.
+/// Returns a plane that faces the viewer. All that is nearer to the viewer is cut away.
 ClipPlane facing_plane(const Camera& camera, double depth) { return {-view_basis(camera).forward, -depth}; }
 
 double middle_depth(std::span<const Ball> balls, const Camera& camera) {
@@ -218,7 +218,7 @@ std::vector<std::string> idle_cuts(std::span<const Cut> cuts, const CutAtoms& cu
     std::string where = "0 is its nearest point, 1 its farthest";
     if (cut.place == Cut::Place::through) where = "the atoms are beyond it";
     if (cut.direction != glm::dvec3(0.0)) {
-      // The plane's normal has the length 1, and points to what is cut away.
+      // The plane's normal has the length 1, and points to the side that is cut away.
       const double scale = glm::length(cut.direction) * (cut.keeps_less ? 1.0 : -1.0);
       const std::string axis = cut_text(cut);
       where = fmt::format("its {} is {:.1f} to {:.1f}", axis.substr(0, axis.find_first_of("<>")),

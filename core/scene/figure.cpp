@@ -47,8 +47,8 @@ glm::vec2 PointMotion::at(const SeenPoint& point) const {
 
 namespace {
 
-/// Of copies with more atoms than this a picture is made without having all of them in memory: with fewer it would
-/// not pay.
+/// Pictures of copies with more atoms than this are made without all copies in memory. With fewer atoms that is not
+/// worthwhile.
 constexpr std::size_t kMostMergedAtoms = 1'000'000;
 
 constexpr const char* kNothingShown = "the surface is not shown, and there is nothing beside it";
@@ -60,8 +60,8 @@ std::size_t placed_atoms(std::span<const SurfaceObject> objects) {
   return count;
 }
 
-/// From places in the surfaces' tables to those in the structure. surfaces: of the objects in the picture, nullptr for
-/// shapes.
+/// Replaces places in the tables of surfaces by places in the structure. surfaces: one per object in the picture,
+/// nullptr for shapes.
 void name_atoms(std::span<const SurfaceObject* const> surfaces, Framebuffer& picture) {
   for (std::size_t n = 0; n < picture.atom.size(); ++n) {
     if (picture.atom[n] == kNone) continue;
@@ -70,7 +70,7 @@ void name_atoms(std::span<const SurfaceObject* const> surfaces, Framebuffer& pic
   }
 }
 
-/// From places in shown_atoms() to those in the file.
+/// Replaces places in shown_atoms() by places in the file.
 void name_atoms_as_the_file(const Structure& structure, Framebuffer& picture) {
   const std::size_t own = structure.atoms.size();
   for (std::uint32_t& atom : picture.atom)
@@ -133,7 +133,7 @@ std::vector<ClipPlane> surface_planes(const FigureRequest& request, const CutAto
 
 namespace {
 
-/// Whether the planes that cut the surface would cut something of what is beside it.
+/// True if a plane that cuts the surface would also cut something drawn in addition to it.
 bool lies_beyond(const FigureRequest& request, const Figure& figure, const Camera& camera) {
   const std::vector<Ball> beside = figure.beside.balls();
   const auto is_beyond = [&](const ClipPlane& plane) {
@@ -212,7 +212,7 @@ const SurfaceObject* surface_beside(const BesideSurface& beside, const PictureOb
 
 Framebuffer draw(StillRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
                  const RenderSettings& settings, const Survey& survey, const FigureMotion* motion) {
-  // In bands or as a whole, as the renderer gives it.
+  // The picture comes in bands or as a whole, depending on the renderer.
   const auto renamed = [&](const auto& render, const auto& rename, const auto& name_seen) {
     if (survey)
       survey([&](const Camera& seen_from, glm::ivec2 size) {

@@ -25,21 +25,23 @@ struct SurfaceObject;
 
 /// The motion of a figure from one frame to the next.
 struct FigureMotion {
-  std::vector<glm::dvec3> atoms;  ///< of shown_atoms(): to where each is then, Å
-  Camera camera;                  ///< by which that frame is seen
+  std::vector<glm::dvec3> atoms;  ///< displacement of each of shown_atoms() to its place in the next frame, Å
+  Camera camera;                  ///< camera of the next frame
 };
 
-/// The ways of merged(objects).surface.atoms. atoms: those of shown_atoms().
+/// Returns the displacement of each of merged(objects).surface.atoms. atoms: the displacements of shown_atoms().
 std::vector<glm::dvec3> placed_ways(std::span<const SurfaceObject> objects, std::span<const glm::dvec3> atoms);
 
-/// The points of one picture. Points of a surface move as SurfaceVelocity says, those of shapes and caps as their atom.
+/// The motion of points in one picture. Points of a surface move as SurfaceVelocity says, points of shapes and caps
+/// like their atom.
 class PointMotion {
  public:
-  /// motion: must stay.
+  /// The motion must outlive this object.
   PointMotion(const FigureMotion& motion, const Camera& camera, glm::ivec2 size)
       : motion_(motion), camera_(camera), size_(size) {}
 
-  /// The next object of the picture: a surface with the ways of its atoms, or shapes. It must stay.
+  /// Adds the next object of the picture: a surface with the displacements of its atoms, or shapes. The surface must
+  /// outlive this object.
   void add(const Surface& surface, std::span<const glm::dvec3> atoms);
   void add_shapes() { objects_.emplace_back(); }
 
@@ -49,7 +51,7 @@ class PointMotion {
  private:
   struct Object {
     std::vector<glm::dvec3> atoms;
-    std::vector<SurfaceVelocity> surface;  // one, or none
+    std::vector<SurfaceVelocity> surface;  // one element, or none for shapes
   };
 
   const FigureMotion& motion_;
@@ -60,88 +62,90 @@ class PointMotion {
 
 class StillRenderer;
 
-/// What is shown of a molecule, and how.
+/// The parts of a molecule that are shown, and their looks.
 struct FigureRequest {
-  std::vector<Cut> cuts;            ///< of the surface
-  bool cuts_all = false;            ///< they cut what is drawn beside it, too
-  CapStyle cap;                     ///< where they cut
+  std::vector<Cut> cuts;            ///< cuts of the surface
+  bool cuts_all = false;            ///< true: cuts also apply to everything drawn in addition to the surface
+  CapStyle cap;                     ///< the look of cut faces
   bool thickens = false;            ///< PictureObject::thickens
-  bool hides_surface = false;       ///< it is not drawn, only what is drawn beside it
-  Representations representations;  ///< beside the surface
+  bool hides_surface = false;       ///< true: the surface is not drawn, only what is drawn in addition to it
+  Representations representations;  ///< drawn in addition to the surface
   std::vector<FigureObjectRequest> objects;
 
-  /// Makes read_structure mark and keep the atoms of all that is beside the surface.
+  /// Makes read_structure mark and keep the atoms of everything drawn in addition to the surface.
   void ask_for(ReadOptions& reading) const;
 
-  /// Throws RequestError if the surface is hidden and nothing is asked for beside it.
+  /// Throws RequestError if the surface is hidden and nothing else is drawn.
   void check() const;
 
-  /// Whether it is a surface and no more.
+  /// True if the figure is a surface and no more.
   bool plain() const {
     return cuts.empty() && !thickens && !hides_surface && representations.empty() && objects.empty();
   }
 };
 
-/// What is drawn beside the molecule's surface, ready to be drawn, and what its cuts go by. Atoms are places in
-/// shown_atoms().
+/// The shapes and objects that are drawn in addition to the molecule's surface, and the atoms that place its cuts.
+/// Atoms are places in shown_atoms().
 struct BesideSurface {
-  ColoredShapes shapes;               ///< of FigureRequest::representations
-  std::vector<FigureObject> objects;  ///< one for each of FigureRequest::objects
-  CutAtoms cut_atoms;                 ///< of FigureRequest::cuts
+  ColoredShapes shapes;               ///< shapes of FigureRequest::representations
+  std::vector<FigureObject> objects;  ///< one per FigureRequest::objects
+  CutAtoms cut_atoms;                 ///< atoms of FigureRequest::cuts
 
   bool empty() const { return shapes.empty() && objects.empty(); }
-  /// For framing.
+  /// Returns balls around all of it, for framing.
   std::vector<Ball> balls() const;
 };
 
-/// Everything of a figure, ready to be drawn.
+/// Everything in a figure, ready to be drawn.
 struct Figure {
   Molecule molecule;
   BesideSurface beside;
 
-  /// For framing: atoms of the surface at all places, and what is drawn beside it.
+  /// Returns balls for framing: the atoms of the surface at all their places, and balls around everything else that is
+  /// drawn.
   std::vector<Ball> balls() const;
 };
 
-/// What stands beside the surface of a structure that was read with request.ask_for(). scheme: the molecule's colours.
-/// Throws as shown_shapes and make_objects do.
+/// Returns everything that is drawn in addition to the surface of a structure; the structure must have been read with
+/// request.ask_for(). scheme: the molecule's colours. Throws like shown_shapes and make_objects.
 BesideSurface make_beside(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme);
 
-/// The same of the same atoms in other colours, opacities and with other parts shown; surfaces are not computed again.
+/// Updates the colours, opacities and shown parts of `beside`, which must be made from the same atoms. Surfaces are not
+/// computed again.
 void color_beside(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme,
                   BesideSurface& beside);
 
-/// The molecule with what is drawn beside it. Throws as make_beside does.
+/// Returns the molecule with everything that is drawn in addition to its surface. Throws like make_beside.
 Figure make_figure(Molecule molecule, const FigureRequest& request);
 
-/// The planes that cut the surface, seen by this camera. cut_atoms: of request.cuts. objects: of all the surface, with
-/// their copies.
+/// Returns the planes that cut the surface, as seen by this camera. cut_atoms: returned by cut_atoms() for
+/// request.cuts. objects: all objects of the surface, with their copies.
 std::vector<ClipPlane> surface_planes(const FigureRequest& request, const CutAtoms& cut_atoms, const Camera& camera,
                                       std::span<const SurfaceObject> objects);
 
-/// A sentence for each cut of the molecule's surface, and of those beside it, that takes nothing away or leaves
-/// nothing; and one if cuts leave something beside the surface that lies beyond them.
+/// Returns a sentence for each cut, of the molecule's surface or of an additional one, that removes nothing or all.
+/// Adds a sentence if cuts keep a shape or an additional object that lies beyond their planes.
 std::vector<std::string> idle_cuts(const FigureRequest& request, const Figure& figure, const Camera& camera);
 
-/// What a picture shows of one surface: cut and seen through as asked, and what is drawn beside it (nullptr: nothing,
-/// and no cuts by atoms).
-/// atoms: of all that the picture shows, for cuts along the view. All must stay. Throws RequestError if there is
-/// nothing to be shown.
+/// Returns the objects of a picture: one surface, with the requested cuts and opacities, and everything in `beside`
+/// (nullptr: nothing, and no cuts by atoms).
+/// atoms: all atoms in the picture, for cuts along the view. All arguments must outlive the objects. Throws
+/// RequestError if nothing is shown.
 std::vector<PictureObject> picture_objects(const Surface& surface, const Coloring& coloring,
                                            const FigureRequest& request, const BesideSurface* beside,
                                            const Camera& camera, std::span<const Ball> atoms);
 
-/// The surface among those beside the molecule's that an object of a picture shows; nullptr: none of them.
+/// Returns the additional surface in `beside` that an object of a picture shows; nullptr if it shows none of them.
 const SurfaceObject* surface_beside(const BesideSurface& beside, const PictureObject& shown);
 
-/// Casts another picture of the figure that is about to be drawn: one ray a pixel, with its AOVs.
+/// A function that casts a second picture of the figure to be drawn: one ray per pixel, with AOVs.
 using CastSurvey = std::function<Framebuffer(const Camera& camera, glm::ivec2 size)>;
-/// What looks at such pictures first.
+/// A function that looks at such pictures before the figure is drawn.
 using Survey = std::function<void(const CastSurvey& cast)>;
 
-/// Renders the figure. The AOV `atom` is the place in the file (Atom::index), as everywhere; copies share it.
-/// Framebuffer::seen has places in shown_atoms(). motion: for settings.motion, to the next frame. Throws as
-/// StillRenderer::render() does.
+/// Renders the figure. The AOV `atom` is the place in the file (Atom::index), as in all outputs; copies share it.
+/// Framebuffer::seen has places in shown_atoms(). motion: to the next frame; needed if settings.motion is set. Throws
+/// like StillRenderer::render().
 Framebuffer draw(StillRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
                  const RenderSettings& settings, const Survey& survey = {}, const FigureMotion* motion = nullptr);
 

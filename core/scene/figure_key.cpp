@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Marks the atoms that surfaces and shapes draw, and asks what their colours mean.
+// Marks the atoms that surfaces and shapes draw, and finds the meaning of their colours.
 #include "core/scene/figure_key.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ void mark(const ColoredShapes& shapes, std::vector<bool>& atoms) {
   for (const std::uint32_t atom : shapes.shapes.mesh.atoms) one(atom);
 }
 
-/// buried: whether atoms count that have no part of the surface.
+/// Marks the atoms of a surface. buried: true if atoms without a part of the surface count, too.
 void mark(const SurfaceObject& object, bool buried, std::vector<bool>& atoms) {
   const Surface& surface = object.surface;
   std::vector<bool> open(object.atom.size(), buried);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the colours of a figure mean: those of its surface, and of what is drawn beside it.
+// The meaning of the colours of a figure: of its surface, and of everything drawn in addition to it.
 #pragma once
 
 #include "core/color/color_key.h"
@@ -9,17 +9,18 @@
 
 namespace meniscus {
 
-/// Of the atoms in a picture. structure: as read with request.ask_for(), if there is something beside the surface.
-/// drawn: of the surface, one truth value per atom. beside: made by make_beside() of the same. Throws as color_atoms
-/// does.
+/// Returns the key of the colours of the atoms in a picture. structure: read with request.ask_for() if anything is
+/// drawn in addition to the surface. drawn: one truth value per atom of the surface. `beside`: made by make_beside()
+/// from the same structure, request and scheme. Throws like color_atoms.
 ColorKey figure_key(const Structure& structure, const ColorScheme& scheme, DrawnAtoms drawn,
                     const FigureRequest& request, const BesideSurface& beside);
 
-/// Of a molecule that is drawn, and of what is beside it. Where a cut may open its surface all atoms count, else those
-/// that have a part of it.
+/// Returns the key of a molecule that is drawn, and of everything in `beside`. If a cut may open its surface, all atoms
+/// count, else only atoms with a part of it.
 ColorKey key_of(const Molecule& molecule, const FigureRequest& request = {}, const BesideSurface& beside = {});
 
-/// Of all frames of a run; where the scene has no legend without what is beside the surface, if surfaces may be.
+/// Returns the key for all frames of a run. If the scene has no legend but may have additional surfaces, everything in
+/// addition to the molecule's surface is left out.
 ColorKey key_of(const FrameRun& run, const Scene& scene);
 
 }  // namespace meniscus

@@ -15,7 +15,7 @@
 namespace meniscus {
 namespace {
 
-/// The atoms of one object, from all that are shown.
+/// Returns the atoms of one object, taken from all shown atoms, and writes their places to `places`.
 Structure structure_of(const Structure& all, const std::vector<bool>& selected, std::vector<std::uint32_t>& places) {
   Structure own;
   own.file = all.file;
@@ -30,7 +30,7 @@ Structure structure_of(const Structure& all, const std::vector<bool>& selected, 
   return own;
 }
 
-/// Without colours.
+/// Returns the surface of an object, without colours.
 SurfaceObject surface_of(const FigureObjectRequest& request, const Structure& all, const std::vector<bool>& selected) {
   std::vector<std::uint32_t> places;
   const Structure own = structure_of(all, selected, places);

@@ -23,49 +23,51 @@ namespace meniscus {
 struct FigureObjectRequest {
   Selection atoms;
   std::optional<RepresentationRequest::Kind> shapes{};  ///< nothing: the surface of these atoms, as if they were alone
-  std::optional<ColorScheme> color{};                   ///< nothing: the molecule's
-  std::vector<OpacityRule> opacities{};                 ///< the object's own; those of the molecule do not count here
+  std::optional<ColorScheme> color{};                   ///< nothing: the molecule's colours
+  std::vector<OpacityRule> opacities{};  ///< opacities of this object; the molecule's opacities do not apply to it
   MaterialRequest material{};
-  std::optional<double> radius{};  ///< Å, of sticks and backbones; nothing: the usual one
+  std::optional<double> radius{};  ///< radius of sticks and backbones, Å; nothing: the default radius
 
-  // Of surfaces.
+  // These members apply to surfaces only.
   SurfaceKind kind = SurfaceKind::ses;
   double probe_radius = kUsualProbe;  ///< Å
-  std::optional<Selection> show{};    ///< of the atoms, those whose part of the surface is drawn
+  std::optional<Selection> show{};    ///< the atoms, of the object's, whose part of the surface is drawn; nothing: all
   std::vector<Cut> cuts{};
   CapStyle cap{};
   bool thickens = false;  ///< PictureObject::thickens
 };
 
-/// What is drawn of them: a surface, or shapes. Atoms are places in shown_atoms().
+/// A drawn object: a surface, or shapes. Atoms are places in shown_atoms().
 struct FigureObject {
   std::optional<SurfaceObject> surface;
   ColoredShapes shapes;
-  CutAtoms cut_atoms;  ///< of FigureObjectRequest::cuts
+  CutAtoms cut_atoms;  ///< atoms of FigureObjectRequest::cuts
 };
 
-/// Makes read_structure mark the atoms of the objects, behind those it marks already. Throws RequestError for more than
-/// it can mark, or for copies as instances.
+/// Makes read_structure mark the atoms of the objects, after the sets that it already marks. Throws RequestError for
+/// more sets than it can mark, and for copies as instances.
 void ask_for(std::span<const FigureObjectRequest> objects, ReadOptions& reading);
 
-/// The objects, one each. structure: as read with ask_for(). first_mark: how many sets of atoms are marked for others.
-/// scheme: the molecule's colours. Surfaces are computed on the CPU. Throws what surface_objects and color_object
-/// throw; InputError for a surface without atoms.
+/// Returns one object per request. structure: read with ask_for(). first_mark: number of sets of atoms that are marked
+/// for other purposes. scheme: the molecule's colours. Surfaces are computed on the CPU. Throws like surface_objects
+/// and color_object; InputError for a surface without atoms.
 std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> objects, const Structure& structure,
                                        std::size_t first_mark, const ColorScheme& scheme);
 
-/// Colours, opacities and shown parts of objects as make_objects makes them; their atoms, surfaces and shapes stay.
+/// Updates the colours, opacities and shown parts of objects made by make_objects(). Their atoms, surfaces and shapes
+/// stay.
 void color_objects(std::span<const FigureObjectRequest> requests, const Structure& structure, const ColorScheme& scheme,
                    std::vector<FigureObject>& objects);
 
-/// The colours of one object. shown: the number of all atoms.
+/// Returns the colours of one object. shown: number of all shown atoms.
 ColorScheme scheme_of(const FigureObjectRequest& request, const Structure& structure, std::size_t shown,
                       const ColorScheme& scheme);
 
-/// What encloses it, for framing.
+/// Returns balls that enclose the object, for framing.
 std::vector<Ball> balls_of(const FigureObject& object);
 
-/// The object in a picture; `balls` as for clip_plane. Both must stay until the picture is made.
+/// Returns the object for a picture. balls: as for clip_plane(). `object` and `request` must stay until the picture is
+/// made.
 PictureObject picture_object(const FigureObject& object, const FigureObjectRequest& request, const Camera& camera,
                              std::span<const Ball> balls);
 

@@ -42,7 +42,7 @@ void check_options(const MoleculeRequest& molecule, const RunRequest& request) {
         message("@select-once@ and @add@: frames have the atoms of the first file only; leave one of them out"));
 }
 
-/// A bound in ps, if the text is one: a number and "ps", "ns" or "fs".
+/// Returns a time in ps if the text is a number with a unit: "fs", "ps", "ns" or "us"; else nothing.
 std::optional<double> time_of(std::string_view text) {
   constexpr std::pair<std::string_view, double> kUnits[] = {{"fs", 1e-3}, {"ps", 1.0}, {"ns", 1e3}, {"us", 1e6}};
   for (const auto& [unit, ps] : kUnits) {
@@ -55,7 +55,7 @@ std::optional<double> time_of(std::string_view text) {
   return {};
 }
 
-/// Is a frame inside a bound of a run in frames or time?
+/// A bound of a run, given as a frame or as a time.
 class Bound {
  public:
   Bound(const std::string& option, const std::string& text, Trajectory& trajectory)
@@ -64,7 +64,7 @@ class Bound {
       if (trajectory.frame_count() > 1) tolerance_ = kPartOfStep * std::abs(time_at(1) - time_at(0));
       return;
     }
-    // A number may lie after the end: then nothing is left, or all.
+    // A number may lie after the last frame; then no frame is left, or all are.
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), frame_);
     if (error == std::errc() && end == text.data() + text.size()) return;
     try {
@@ -77,7 +77,7 @@ class Bound {
     }
   }
 
-  /// Less than 0: before it; 0: at it; more: behind.
+  /// Returns less than 0 if the frame is before the bound, 0 if it is at the bound, more if it is after it.
   double compare(std::uint64_t number) const {
     if (!time_) return static_cast<double>(number) - static_cast<double>(frame_);
     const double difference = time_at(number) - *time_;
@@ -85,7 +85,8 @@ class Bound {
   }
 
  private:
-  /// Nobody means a part of the step so small: times in files are rounded.
+  /// The tolerance of times as a part of the step between frames: times in files are rounded, and no user gives a time
+  /// this close to another frame.
   static constexpr double kPartOfStep = 1e-3;
 
   double time_at(std::uint64_t number) const {
@@ -105,7 +106,7 @@ class Bound {
   std::uint64_t frame_ = 0;
 };
 
-/// Does it depend on where atoms are which of them a frame has, or how they are drawn beside the surface?
+/// True if the positions of atoms decide which atoms a frame has, or how atoms are drawn in addition to the surface.
 bool chooses_by_positions(const MoleculeRequest& molecule, const RunRequest& request) {
   const auto asks = [](const std::optional<Selection>& selection) { return selection && selection->uses_positions(); };
   const ReadOptions& reading = molecule.reading;
@@ -115,7 +116,7 @@ bool chooses_by_positions(const MoleculeRequest& molecule, const RunRequest& req
                              [](const RadiusOverride& radius) { return radius.atoms.uses_positions(); });
 }
 
-/// The atoms that frames have: those of added files are not among them.
+/// Returns the atoms that are moved by frames: all but the atoms of added files.
 std::vector<Atom> without_added(const std::vector<Atom>& atoms, const Topology& topology) {
   std::vector<Atom> own;
   std::ranges::copy_if(atoms, std::back_inserter(own),
@@ -123,7 +124,7 @@ std::vector<Atom> without_added(const std::vector<Atom>& atoms, const Topology& 
   return own;
 }
 
-/// Adds those from which selections measure distances.
+/// Adds the atoms from which selections measure distances.
 void add_measured(const Selection& selection, const std::vector<Atom>& atoms, std::vector<std::uint32_t>& places) {
   if (!selection.uses_positions()) return;
   const std::vector<bool> measured = selection.possible(atoms).measured;
@@ -183,8 +184,8 @@ FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, V
 
 FrameRun::~FrameRun() = default;
 
-/// With the coordinates of their file, or of the first frame where it has none; all that may be chosen, if that is done
-/// again in each frame.
+/// Reads the atoms with the coordinates of their file, or of the first frame if the file has none. If atoms are
+/// selected again in each frame, reads all that may be selected.
 void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& request) {
   MoleculeRequest reading = molecule;
   reading.reading.keep_topology = true;
@@ -245,7 +246,7 @@ void FrameRun::choose_frames(const RunRequest& request) {
     if (!members.contains(number)) throw RequestError(message("@only@: frame {} is not in the run", number));
 }
 
-/// Each frame becomes as many; with others in between the last one stays alone.
+/// Replaces each frame by `copies_` frames. If frames are interpolated, the last frame is not multiplied.
 void FrameRun::multiply() {
   if (copies_ == 1) return;
   if (run_.size() > kMostListedFrames / copies_)
@@ -262,7 +263,7 @@ void FrameRun::multiply() {
   run_ = std::move(multiplied);
 }
 
-/// A frame of the run, which may lie between two of the trajectory.
+/// Reads a frame of the run, which may lie between two frames of the trajectory.
 void FrameRun::read(std::uint64_t number, Frame& frame) {
   const std::uint64_t step = number % copies_;
   if (!interpolates_ || step == 0) return frames_->read(source(number), frame);
@@ -284,7 +285,7 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
   preparation.smooth_half = request.smooth / 2;
   if (request.superpose) preparation.superposed = chosen(*request.superpose, topology.atoms, "superpose", 3);
   if (request.center) preparation.centered = chosen(*request.center, topology.atoms, "center", 1);
-  std::vector<std::uint32_t> own;  // atoms that surfaces are made of, or that are shown beside them
+  std::vector<std::uint32_t> own;  // atoms with a part in surfaces, and atoms drawn in addition to surfaces
   const auto add_own = [&](const std::vector<Atom>& atoms) {
     for (const Atom& atom : without_added(atoms, topology)) own.push_back(atom.index);
   };
@@ -309,8 +310,8 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
   frames_ = std::make_unique<PreparedFrames>(*trajectory_, std::move(preparation));
 }
 
-/// Those of the file, and those of standard residues or, if they are to be guessed, of atoms that are near each other
-/// in the first frame of the run.
+/// Returns the bonds of the file together with the bonds of standard residues or, if bonds are guessed, of atoms that
+/// are near each other in the first frame of the run.
 std::vector<Bond> FrameRun::known_bonds(WholeBy by) const {
   const Topology& topology = *structure_.topology;
   Frame frame;
@@ -322,7 +323,7 @@ std::vector<Bond> FrameRun::known_bonds(WholeBy by) const {
   return bonds;
 }
 
-/// Where an atom is, which may be one of a copy.
+/// Returns the position of an atom, which may be an atom of a copy.
 glm::dvec3 FrameRun::position_of(const Atom& atom, const std::vector<glm::dvec3>& positions) const {
   const glm::dvec3& position = positions[atom.index];
   return assembly_ ? copy_motion(*assembly_, atom)(position) : position;
@@ -365,7 +366,7 @@ std::optional<double> FrameRun::last_time() {
   try {
     trajectory_->read(source(run_.back()), frame);
   } catch (const InputError&) {
-    return std::nullopt;  // the code that makes this frame reports the fault
+    return std::nullopt;  // the code that makes this frame reports the error
   }
   return frame.time;
 }
@@ -387,20 +388,21 @@ void FrameRun::survey(const std::function<void(std::uint64_t, const Structure&)>
       else
         place(frame.positions, structure);
     } catch (const InputError&) {
-      continue;  // the code that makes this frame reports the fault
+      continue;  // the code that makes this frame reports the error
     }
     look(number, structure);
   }
 }
 
-/// Takes the differences that Velocities names, Å per frame of the run. A frame that cannot be read counts as missing.
+/// Computes the differences that Velocities names, Å per frame of the run. A frame that cannot be read counts as
+/// missing.
 void FrameRun::read_velocities(ReadFrame& into) {
   const std::uint64_t place = place_.at(into.number);
   double steps = 0.0;
   // A damaged neighbour is an error of its own frame, not of this one.
   const auto read_neighbor = [&](std::uint64_t neighbor, Frame& frame) {
     try {
-      if (neighbor >= run_.size()) return read(into.number, frame);  // before the first one, too
+      if (neighbor >= run_.size()) return read(into.number, frame);  // also for the frame before the first
       read(run_[neighbor], frame);
       steps += 1.0;
     } catch (const InputError&) {
@@ -445,7 +447,7 @@ std::optional<RunFrame> FrameRun::next() {
   }
   if (velocities_ == Velocities::none) return frame;
   for (const Atom& atom : shown_atoms(frame.structure)) {
-    const bool moves = atom.index < read->velocities.size();  // atoms of added files do not
+    const bool moves = atom.index < read->velocities.size();  // atoms of added files do not move
     const glm::dvec3 velocity = moves ? read->velocities[atom.index] : glm::dvec3(0.0);
     frame.velocities.push_back(assembly_ ? copy_motion(*assembly_, atom).rotation * velocity : velocity);
   }
@@ -459,7 +461,7 @@ std::vector<double> fluctuations(FrameRun& run) {
                 "@select-once@ to keep those of the first"));
   const std::size_t count = run.structure().atoms.size();
   std::vector<glm::dvec3> mean(count, glm::dvec3(0.0));
-  std::vector<double> squares(count, 0.0);  // of distances from the mean so far (Welford 1962)
+  std::vector<double> squares(count, 0.0);  // sums of squared distances from the mean so far (Welford 1962)
   double frames = 0.0;
   run.survey([&](std::uint64_t, const Structure& structure) {
     frames += 1.0;

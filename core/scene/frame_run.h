@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run of frames of one molecule: atoms are chosen once, or anew in each frame where a selection depends on positions.
+// A run of frames of one molecule. Atoms are selected once, or again in each frame if a selection depends on positions.
 #pragma once
 
 #include <cstdint>
@@ -20,99 +20,103 @@
 
 namespace meniscus {
 
-/// Where the bonds come from along which molecules are made whole.
+/// The source of the bonds along which molecules are made whole.
 enum class WholeBy {
   nothing,  ///< molecules stay as they are
-  bonds,    ///< those the file lists and those of standard residues
-  guess     ///< those the file lists and all that distances suggest
+  bonds,    ///< bonds that the file lists, and bonds of standard residues
+  guess     ///< bonds that the file lists, and all bonds that distances suggest
 };
 
-/// Which frames of which trajectory, and how they are prepared.
+/// The frames of a trajectory in a run, and their preparation.
 struct RunRequest {
-  std::vector<std::string> trajectories;      ///< in a row; none: the models of the molecule's file are the frames
-  std::optional<Selection> trajectory_atoms;  ///< of the molecule's file, those that they have; nothing: all
-  bool trust_atom_order = false;  ///< bonds of the first frame are not compared with those of the molecule's file
-  std::string frames;             ///< as parse_frame_list reads it; empty: all
+  std::vector<std::string> trajectories;      ///< joined in this order; empty: the models of the molecule's file
+  std::optional<Selection> trajectory_atoms;  ///< the atoms of the molecule's file that these have; nothing: all
+  bool trust_atom_order = false;  ///< bonds of the first frame are not compared with bonds of the molecule's file
+  std::string frames;             ///< a list for parse_frame_list; empty: all
   std::uint64_t stride = 1;
-  std::uint64_t repeat = 1;       ///< each frame chosen by these this often in a row
-  std::uint64_t interpolate = 1;  ///< each as many: itself, and others on the way to the next
+  std::uint64_t repeat = 1;       ///< how many times in a row each selected frame comes
+  std::uint64_t interpolate = 1;  ///< number of frames made from each: itself, and frames on the way to the next
   std::string begin, end;         ///< a frame ("100", "-10", "last") or a time ("2.5ns", "300ps"); empty: no bound
-  std::string only;               ///< the chunk of the run that is made; empty: all of it
+  std::string only;               ///< the chunk of the run that is made, as a list of frames; empty: all of it
   WholeBy whole = WholeBy::nothing;
   std::optional<Selection> superpose, center;
   std::string reference;     ///< a frame; empty: the first of the trajectory
-  std::uint64_t smooth = 1;  ///< frames that a mean is taken over; odd
+  std::uint64_t smooth = 1;  ///< number of frames in a running mean; odd
 
-  bool select_once = false;  ///< selections that ask for positions mean what they do in the first frame of the run
+  bool select_once = false;  ///< true: selections by position are evaluated once, in the first frame of the run
 
-  /// Atoms that are around the molecule's, which are those of its selection: RunFrame::together has both.
+  /// Further atoms around the selected ones. RunFrame::together has both.
   std::optional<Selection> context;
 
-  std::string index_folder;  ///< where indices of frames are kept; empty: nowhere
+  std::string index_folder;  ///< folder for indices of frames; empty: none are kept
 
-  /// Whether a run is requested.
+  /// True if a run is requested.
   bool asked() const;
 };
 
 /// The molecule at one frame.
 struct RunFrame {
-  std::uint64_t number = 0;    ///< in the run (FrameRun::numbers), by which files are named
-  std::uint64_t source = 0;    ///< in the trajectory, from 0
-  std::uint64_t place = 0;     ///< in the run, from 0
+  std::uint64_t number = 0;    ///< number in the run (FrameRun::numbers), by which files are named
+  std::uint64_t source = 0;    ///< number in the trajectory, from 0
+  std::uint64_t place = 0;     ///< place in the run, from 0
   std::optional<double> time;  ///< ps
   Structure structure;
-  Structure together;  ///< the same atoms and those of RunRequest::context, if it is asked for
+  Structure together;  ///< the same atoms with the atoms of RunRequest::context; empty without a context
   std::vector<glm::dvec3>
-      velocities;  ///< per shown_atoms() of the structure, Å per frame of the run; only if asked for
+      velocities;  ///< Å per frame of the run, per shown_atoms() of the structure; empty for Velocities::none
 };
 
-/// What RunFrame::velocities are.
+/// The kind of RunFrame::velocities.
 enum class Velocities {
   none,
-  central,  ///< half of the difference between the frames before and after; at an end, the difference to the other
-  forward   ///< the difference to the next frame; 0 at the end
+  central,  ///< half of the difference between the frames before and after; at an end, the difference between the end
+            ///< and its neighbour
+  forward   ///< the difference between the next frame and this one; 0 at the end
 };
 
 class FrameRun {
  public:
-  /// Opens and chooses the atoms. Selections are as they are: settle_selections comes before. Throws InputError,
-  /// RequestError for what makes no sense together; texts name the options of the program.
+  /// Opens the trajectory and selects the atoms. Selections are used as they are, so settle_selections() must be called
+  /// before. Throws InputError; RequestError for requests that exclude each other, whose texts name options of the
+  /// program.
   FrameRun(const MoleculeRequest& molecule, const RunRequest& request, Velocities velocities = Velocities::none);
   ~FrameRun();
 
-  /// At the first frame of the run.
+  /// Returns the structure at the first frame of the run.
   const Structure& structure() const { return structure_; }
-  /// The same with all atoms that any frame may have.
+  /// Returns the structure with all atoms that any frame may have.
   const Structure& reach() const { return file_ ? file_->possible_structure() : structure_; }
-  /// All atoms of the file, as they are there.
+  /// Returns all atoms of the file, with the file's positions.
   std::vector<Atom> all_atoms();
-  /// Whether the structures of two frames may have different atoms, or different ones beside them.
+  /// True if the structures of two frames may have different atoms, drawn by the surface or in addition to it.
   bool chooses_anew() const { return file_ != nullptr; }
-  /// Whether their surfaces may be of different atoms.
+  /// True if the surfaces of two frames may have different atoms.
   bool atoms_change() const { return atoms_change_; }
-  /// The frames of the run, and those of them that are to be made here, by their numbers: those in the trajectory. If
-  /// each comes `repeat` times, `repeat` times that, and one more each time; likewise if there are others between them.
+  /// Return the numbers of the frames of the run, and of the frames that are to be made here. A number is the place in
+  /// the trajectory; with `repeat` or `interpolate` it is that place times their value, plus 0, 1, 2 and so on.
   const std::vector<std::uint64_t>& numbers() const { return run_; }
   const std::vector<std::uint64_t>& chunk() const { return chunk_; }
-  /// The number in the trajectory of one of them, or of the frame before it.
+  /// Returns the place in the trajectory of a frame of the run or, for an interpolated frame, of the frame before it.
   std::uint64_t source(std::uint64_t number) const { return number / copies_; }
   const Trajectory& trajectory() const { return *trajectory_; }
-  /// Of the last frame of the run, ps; nothing if it has none or cannot be read. Not together with next().
+  /// Returns the time of the last frame of the run, ps; nothing if it has none or cannot be read. Must not run at the
+  /// same time as next().
   std::optional<double> last_time();
 
-  /// Reads every frame of the run, without its surface, before any is made: place in the run, and the structure. What a
-  /// camera for all of them needs. A frame that cannot be read is passed over here.
+  /// Reads every frame of the run without making its surface, before any frame is made, and passes the place in the run
+  /// and the structure to `look`. A camera for all frames needs this. Frames that cannot be read are skipped here.
   void survey(const std::function<void(std::uint64_t place, const Structure& structure)>& look);
 
-  /// Where the atoms of the structure are at a frame of the run, if they do not change; not together with next().
-  /// Throws InputError.
+  /// Returns the positions of the structure's atoms at a frame of the run, provided that atoms do not change. Must not
+  /// run at the same time as next(). Throws InputError.
   std::vector<glm::dvec3> positions(std::uint64_t number);
 
-  /// The structure there, with what is shown beside the surface. Likewise.
+  /// Returns the structure at a frame of the run, with the atoms that are drawn in addition to the surface. Must not
+  /// run at the same time as next(). Throws InputError.
   Structure at(std::uint64_t number);
 
-  /// The next frame of the chunk; nothing after the last. Throws what reading it threw: then next() can be called
-  /// again for the one behind it.
+  /// Returns the next frame of the chunk; nothing after the last. Throws the error of reading the frame; then next()
+  /// can be called again for the frame after it.
   std::optional<RunFrame> next();
 
  private:
@@ -130,22 +134,22 @@ class FrameRun {
   std::unique_ptr<Trajectory> trajectory_;
   std::unique_ptr<PreparedFrames> frames_;
   std::unique_ptr<ReadAhead> ahead_;
-  std::unique_ptr<StructureFile> file_, file_together_;  ///< if atoms are chosen again in each frame
+  std::unique_ptr<StructureFile> file_, file_together_;  ///< set if atoms are selected again in each frame
   Structure structure_;
   std::optional<Structure> together_;
-  std::optional<Assembly> assembly_;  ///< that the atoms are copied by
+  std::optional<Assembly> assembly_;  ///< the assembly by which atoms are copied
   std::vector<std::uint64_t> run_, chunk_;
-  std::unordered_map<std::uint64_t, std::uint64_t> place_;  ///< in the run, by number
+  std::unordered_map<std::uint64_t, std::uint64_t> place_;  ///< place in the run by number
   std::size_t taken_ = 0;
-  std::uint64_t copies_;  ///< RunRequest::repeat or interpolate, which is larger than 1
+  std::uint64_t copies_;  ///< the larger of RunRequest::repeat and interpolate
   bool interpolates_;
   Velocities velocities_;
   bool atoms_change_ = false;
 };
 
-/// Of each atom of the structure the root mean square distance from its mean place over the frames of the run, Å; they
-/// are as --superpose and the like leave them. Throws InputError if no frame can be read, RequestError if the atoms
-/// change.
+/// Returns the root mean square distance of each atom of the structure from its mean place over the frames of the run,
+/// Å. Positions are used after --superpose and other preparations. Throws InputError if no frame can be read,
+/// RequestError if the atoms change.
 std::vector<double> fluctuations(FrameRun& run);
 
 }  // namespace meniscus

@@ -56,8 +56,8 @@ class GlPreviewRenderer final : public PreviewRenderer {
   ViewPipeline visible_;
   GlRenderer renderer_;
   const std::unique_ptr<PreviewRenderer> by_cpu_ = make_cpu_preview_renderer();
-  bool layered_ = false, translucent_ = false;  // the figure and the colouring need layers
-  bool shows_cpu_ = false;                      // the last picture is by_cpu_'s
+  bool layered_ = false, translucent_ = false;  // true if the figure, or the colouring, needs layers
+  bool shows_cpu_ = false;                      // true if the last picture is by_cpu_'s
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ class GlStillRenderer final : public StillRenderer {
  private:
   const EglContext& context_;
   GlRenderer renderer_;
-  bool on_gl_ = true;  // the last picture
+  bool on_gl_ = true;  // true if the last picture was made on GL
 };
 
 }  // namespace

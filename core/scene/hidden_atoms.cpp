@@ -13,7 +13,8 @@
 namespace meniscus {
 
 std::vector<bool> hidden_atoms(const Selection& shown, const Structure& structure) {
-  // What is near a ligand can be asked for where the ligand is drawn beside the surface alone.
+  // A selection such as the surroundings of a ligand is valid even if the ligand is only drawn in addition to the
+  // surface.
   std::vector<bool> visible =
       structure.extra_atoms.empty() ? shown.evaluate(structure.atoms) : shown.evaluate(shown_atoms(structure));
   visible.resize(structure.atoms.size());

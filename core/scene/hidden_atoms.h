@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// --show: the surface of all atoms is computed, and only a part of it is shown.
+// Implements --show: the surface of all atoms is computed, and only a part of it is shown.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace meniscus {
 
-/// Per atom of the structure, whether it is not selected; the expression may speak of atoms beside it. Throws
-/// InputError if nothing would be seen.
+/// Returns, per atom of the structure, true if it is not selected. The expression may refer to atoms that are drawn in
+/// addition to the surface. Throws InputError if nothing would be visible.
 std::vector<bool> hidden_atoms(const Selection& shown, const Structure& structure);
 
 /// Hides the points of these atoms in every object. hidden: per atom of the structure.

@@ -106,7 +106,7 @@ std::string text_of(const GivenScene& given, std::string_view key) {
   return texts.empty() ? "" : texts.back();
 }
 
-/// Returns the option of a property as this door spells it.
+/// Returns the option of a property in the spelling of the running program.
 std::string name_of(std::string_view key) { return option_name(property_of(key).long_option().substr(2)); }
 
 void add_unlikely_values(const GivenScene& given, std::vector<SceneNote>& notes) {

@@ -15,18 +15,19 @@
 namespace meniscus {
 namespace {
 
-/// Points of one patch.
+/// The number of sampled points of a patch, and the number of them beyond the map.
 struct Tally {
   std::size_t points = 0, beyond = 0;
 };
 
-/// Of one copy of an object.
+/// The measurement of one copy of an object.
 class Reach {
  public:
   Reach(const VolumePaint& map, const SurfaceObject& object, const RigidMotion& motion)
       : map_(map), object_(object), surface_(object.surface), motion_(motion) {}
 
-  /// A closing of balls lies in their convex hull, and a map's grid is convex.
+  /// True if the whole surface lies in the map, because a closing of balls lies in their convex hull, and a map's grid
+  /// is convex.
   bool holds_all() const {
     Box box;
     for (const Ball& ball : surface_.atoms) {
@@ -42,7 +43,7 @@ class Reach {
     return true;
   }
 
-  /// Area that shows the map's colours, and that of it where the map has no values, Å².
+  /// The area with the map's colours, and the part of it where the map has no values, Å².
   struct Areas {
     double shown = 0.0, beyond = 0.0;
   };
@@ -81,7 +82,7 @@ class Reach {
     return area;
   }
 
-  /// Of a patch too small for the points of its sphere, on its borders.
+  /// Counts points on the sphere of a patch; for a patch too small to contain any, points on its borders.
   Tally on_sphere(const ConvexPatch& patch) const {
     constexpr std::size_t kPoints = 100;
     const Ball& ball = surface_.atoms[patch.atom];
@@ -96,7 +97,7 @@ class Reach {
   }
 
   Tally on_borders(const auto& patch) const {
-    constexpr double kTurn = std::numbers::pi / 8.0;  // between points of a border
+    constexpr double kTurn = std::numbers::pi / 8.0;  // radians between points of a border
     Tally tally;
     for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
       for (std::uint32_t l = 0; l < surface_.faces[f].loop_count; ++l) {

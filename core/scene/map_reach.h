@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much of a surface a volume map covers.
+// The share of a surface that a volume map covers.
 #pragma once
 
 #include <span>
@@ -9,8 +9,9 @@
 
 namespace meniscus {
 
-/// The share in [0, 1] of the area that shows a volume map's colours and lies where the map has no values, measured
-/// at points of all patches: 0 exactly where atoms lie deep enough in the map; 0 if nothing shows its colours.
+/// Returns the share in [0, 1] of the area with a volume map's colours that lies where the map has no values, measured
+/// at points of all patches. It is exactly 0 if the atoms lie deep enough in the map, and 0 if nothing shows its
+/// colours.
 double share_beyond(const VolumePaint& map, std::span<const SurfaceObject> objects);
 
 }  // namespace meniscus

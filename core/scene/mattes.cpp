@@ -25,7 +25,7 @@ std::string residue_of(const Atom& atom) {
   return fmt::format("{} {}{}", escaped(atom.residue_name), atom.residue_number, code);
 }
 
-/// Gathers a matte thing by thing.
+/// Collects a matte name by name.
 class Namer {
  public:
   explicit Namer(const char* layer) : matte_{layer, {}, {}} {}
@@ -52,7 +52,7 @@ class Namer {
 
 std::shared_ptr<const std::vector<Matte>> mattes_of(const Structure& structure) {
   Namer chains("CryptoChain"), residues("CryptoResidue"), atoms("CryptoAtom");
-  std::unordered_map<std::string, std::uint32_t> places;  // of atoms in the file, by name
+  std::unordered_map<std::string, std::uint32_t> places;  // places in the file, by name
   for (const Atom& atom : shown_atoms(structure)) {
     const std::string chain = named(atom.chain), residue = chain + "/" + residue_of(atom);
     std::string name = residue + "/" + named(atom.name);

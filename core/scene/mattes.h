@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mattes of what a picture shows: by chain, by residue and by atom.
+// Mattes of the parts of a picture: by chain, by residue and by atom.
 #pragma once
 
 #include <memory>
@@ -11,9 +11,9 @@ namespace meniscus {
 
 struct Structure;
 
-/// CryptoChain, CryptoResidue and CryptoAtom of shown_atoms(): "A", "A/LYS 15", "A/LYS 15/CA", and "-" for what a file
-/// does not say. Atoms of one name are told apart by their place in the file: the second has "#42" behind it. Copies of
-/// one atom (Instances) are one.
+/// Returns CryptoChain, CryptoResidue and CryptoAtom of shown_atoms(): "A", "A/LYS 15", "A/LYS 15/CA", with "-" for a
+/// name that the file does not give. The place in the file distinguishes atoms of one name: the second has "#42"
+/// appended. Copies of one atom (Instances) share a name.
 std::shared_ptr<const std::vector<Matte>> mattes_of(const Structure& structure);
 
 }  // namespace meniscus

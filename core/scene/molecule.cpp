@@ -44,7 +44,8 @@ ReadOptions reading_of(const MoleculeRequest& request) {
   return reading;
 }
 
-/// Potentials inside a molecule are huge, so that no range of the whole map says anything about its surface.
+/// Returns the map with the colours of its values. The user must give their range: potentials inside a molecule are
+/// huge, so that the range of the whole map does not suit its surface.
 std::shared_ptr<const VolumePaint> volume_paint(const MoleculeRequest& request, const ColorScheme& color) {
   if (!color.range)
     throw RequestError(
@@ -60,7 +61,7 @@ std::shared_ptr<const VolumePaint> volume_paint(const MoleculeRequest& request, 
   return std::make_shared<VolumePaint>(VolumePaint{std::move(grid), std::move(scale), request.volume_offset});
 }
 
-/// A potential shows the charges of all atoms that it was computed with.
+/// Warns of atoms that were left out: a potential has the charges of all atoms with which it was computed.
 void warn_of_unseen_charges(Structure& structure) {
   std::size_t count = 0;
   for (const auto& [reason, atoms] : structure.report.charged) count += atoms;
@@ -74,7 +75,7 @@ void warn_of_unseen_charges(Structure& structure) {
       water ? message(" (@keep-water@)") : ""));
 }
 
-/// "x -27.1 to 26.4, y ..., z ..." of points.
+/// Returns the extent of a box as text: "x -27.1 to 26.4, y ..., z ...".
 std::string extent_text(const Box& box) {
   std::string text;
   for (int axis = 0; axis < 3; ++axis)
@@ -82,7 +83,7 @@ std::string extent_text(const Box& box) {
   return text;
 }
 
-/// Throws InputError if the map reaches none of the surface.
+/// Returns share_beyond(). Throws InputError if the map covers no part of the surface.
 double checked_share_beyond(const VolumePaint& map, const std::string& path, const Molecule& molecule) {
   const double share = share_beyond(map, molecule.objects);
   if (share < 1.0) return share;
@@ -94,7 +95,7 @@ double checked_share_beyond(const VolumePaint& map, const std::string& path, con
                                extent_text(map.grid.frame().extent()), molecule.structure.file, extent_text(atoms)));
 }
 
-/// Numbers for By::accessibility, by the surface of all atoms together.
+/// Returns the numbers for By::accessibility, from the surface of all atoms together.
 NumberFile measured_accessibility(const Structure& structure, const SurfaceRequest& surface,
                                   SurfaceComputer& computer) {
   if (surface.kind == SurfaceKind::vdw || surface.probe_radius != kAccessibilityProbe)
@@ -172,7 +173,7 @@ MoleculeBuilder::MoleculeBuilder(const MoleculeRequest& request, const EglContex
   if (color_.by == ColorScheme::By::component && !division_.groups) division_.components = true;
 }
 
-/// Numbers for By::buried, and both sides of an interface where they can be seen.
+/// Measures the numbers for By::buried, and moves both sides of an interface to where they are visible.
 void MoleculeBuilder::measure_burial(Molecule& molecule) {
   Structure& structure = molecule.structure;
   const Burial burial = burial_of(request_, structure, computer_);
@@ -194,7 +195,7 @@ Molecule MoleculeBuilder::build(Structure structure) {
     molecule.color.file = measured_accessibility(molecule.structure, request_.surface, computer_);
   if (color_.by == ColorScheme::By::lipophilicity)
     molecule.color.volume = lipophilicity_paint(molecule.structure, molecule.color);
-  // What the request ask for that the molecule has not is said before the surfaces are computed.
+  // Numbers that the colours need and the molecule lacks are reported before the surfaces are computed.
   if (color_.has_scale()) color_scale(molecule.structure, molecule.color);
   for (const ColorRule& rule : color_.rules)
     if (rule.paint.has_scale()) color_scale(molecule.structure, rule.paint);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pockets of a molecule, and where in them the ligands lie that were taken out.
+// The pockets of a molecule, and the pockets that contain the ligands which were taken out.
 #pragma once
 
 #include <cstddef>
@@ -15,25 +15,25 @@ namespace meniscus {
 
 /// A residue that was taken out, such as a ligand.
 struct LeftOutResidue {
-  std::uint32_t first_atom = 0;  ///< into Structure::atoms
+  std::uint32_t first_atom = 0;  ///< place in Structure::atoms
   std::size_t atoms = 0;
-  std::vector<std::size_t> in_pocket;  ///< per pocket: how many of its atoms have their centre there
+  std::vector<std::size_t> in_pocket;  ///< per pocket: number of the residue's atoms with their centre in it
 };
 
 struct MoleculePockets {
   Pockets found;  ///< atoms of cavities and surfaces are places in Structure::atoms
   std::vector<LeftOutResidue> left_out;
-  std::size_t atom_count = 0;  ///< those that pockets are between
+  std::size_t atom_count = 0;  ///< number of atoms that the pockets are between
 };
 
 /// Finds the pockets of one structure after another on one device.
 class PocketComputer {
  public:
-  /// computing: where; its kind is that of solvent-excluded surfaces, its probe is the request's.
+  /// computing: the device and threads; the surface is always solvent-excluded, with the probe of `request`.
   PocketComputer(SurfaceRequest computing, const PocketRequest& request);
 
-  /// left_out: one per atom of the structure, or empty. Throws RequestError if nothing else is there, what find_pockets
-  /// throws.
+  /// Returns the pockets of a structure. left_out: one truth value per atom of the structure, or empty. Throws
+  /// RequestError if all atoms are left out, otherwise like find_pockets.
   MoleculePockets compute(const Structure& structure, const std::vector<bool>& left_out);
 
   bool is_on_cpu() const { return small_.is_on_cpu(); }

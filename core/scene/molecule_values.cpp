@@ -15,7 +15,7 @@
 namespace meniscus::scene_values {
 namespace {
 
-// The molecule.
+// The values of the molecule follow.
 
 ModelChoice model_of(const std::string& text) {
   ModelChoice choice;
@@ -48,7 +48,7 @@ std::string altloc_text(const AltlocChoice& choice) {
 }
 
 void read_radii(const Property&, Texts texts, Scene& scene) {
-  if (texts.back().empty()) return;  // info --radii, which prints them
+  if (texts.back().empty()) return;  // `info --radii` prints the sets
   std::vector<std::string> sets{"file"};
   for (const RadiiSet* set : radii_sets()) sets.emplace_back(set->name);
   scene.molecule.reading.radii.set = sets[place_of_word(sets, texts.back())];
@@ -79,7 +79,7 @@ int one_of_numbers(const std::string& text) {
 
 std::string number_text(int number) { return std::to_string(number); }
 
-// Values that depend on each other.
+// The values that depend on each other follow.
 
 void complete_colors(MoleculeRequest& molecule) {
   using By = ColorScheme::By;

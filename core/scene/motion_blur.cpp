@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes and draws a frame at some moments around it, and takes the mean.
+// Computes and draws a frame at several moments around it, and takes the mean.
 #include "core/scene/motion_blur.h"
 
 #include <algorithm>
@@ -14,7 +14,8 @@
 namespace meniscus {
 namespace {
 
-/// Moments lie in the middles of equal parts of the shutter, which is half a step wide: so many grid lines a step.
+/// The number of grid lines per step and moment: moments lie in the middles of equal parts of the shutter, which is
+/// half a step wide.
 constexpr int kGridLines = 4;
 
 RunRequest with_moments(const Scene& scene, int moments) {
@@ -54,7 +55,7 @@ Framebuffer MotionBlur::draw(std::uint64_t place, StillRenderer& renderer, Rende
   const int lines = kGridLines * moments_;
   Framebuffer mean;
   for (int n = 0; n < moments_; ++n) {
-    const int line = 2 * n + 1 - moments_;  // of the grid, from the frame
+    const int line = 2 * n + 1 - moments_;  // number of the grid line, counted from the frame
     const auto at = static_cast<std::int64_t>(place) * lines + line;
     const auto found =
         static_cast<std::size_t>(std::clamp<std::int64_t>(at, 0, static_cast<std::int64_t>(numbers.size()) - 1));

@@ -19,16 +19,18 @@ namespace meniscus {
 
 /// Draws frames of a run blurred. The shutter is open for half the time from a frame to the next (a shutter of 180
 /// degrees), a quarter before the frame and a quarter after it; before the first frame and after the last one nothing
-/// moves. Between frames atoms are where --interpolate has them, and the camera between those of both.
+/// moves. Between frames, atoms are at the positions of --interpolate, and the camera is between the cameras of both
+/// frames.
 class MotionBlur {
  public:
-  /// scene: readied(), with its selections settled, of a run; it must stay. moments: of a picture, at least 2. cameras:
-  /// one for all frames, or one for each. context: in which surfaces are computed; nullptr: on the CPU. Throws
-  /// RequestError where frames have nothing between them: see RunRequest::interpolate; for an interface.
+  /// scene: a run, made by readied(), after settle_selections(); it must outlive this object.
+  /// moments: number of moments in a picture, at least 2. cameras: one for all frames, or one per frame. context:
+  /// computes surfaces on GL; nullptr: on the CPU. Throws RequestError for an interface, and for frames without moments
+  /// between them: see RunRequest::interpolate.
   MotionBlur(const Scene& scene, int moments, std::vector<Camera> cameras, const EglContext* context);
 
-  /// The molecule at this place of the run: the mean of its pictures, in linear light. On any thread, one at a time.
-  /// Throws as reading, computing and drawing do.
+  /// Returns the picture of the molecule at this place of the run: the mean of the pictures of its moments, in linear
+  /// light. May be called on any thread, by one at a time. Throws like reading, computing and drawing.
   Framebuffer draw(std::uint64_t place, StillRenderer& renderer, RenderSettings settings);
 
  private:
@@ -37,7 +39,7 @@ class MotionBlur {
   const Scene& scene_;
   int moments_;
   std::vector<Camera> cameras_;
-  FrameRun run_;  ///< with all moments among its frames
+  FrameRun run_;  ///< the run, with all moments among its frames
   MoleculeBuilder builder_;
   std::mutex mutex_;
 };

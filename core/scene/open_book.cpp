@@ -20,7 +20,7 @@
 namespace meniscus {
 namespace {
 
-constexpr double kLeastBuried = 0.01;  // Å²: less is rounding
+constexpr double kLeastBuried = 0.01;  // Å²; smaller areas are rounding
 constexpr double kGap = 6.0;           // Å between the pages
 
 Selection side_of(std::string_view text) {
@@ -32,13 +32,13 @@ Selection side_of(std::string_view text) {
   return parse_selection(expression);
 }
 
-/// The accessible areas of all atoms in some surfaces.
+/// Returns the accessible area of each atom, summed over the surfaces of the division, Å².
 std::vector<double> areas(const Structure& structure, const Division& division, SurfaceComputer& computer,
                           SurfaceKind kind) {
   return area_columns(structure, surface_objects(structure, division, computer), kind).back().values;
 }
 
-/// The atoms of one group as a structure of its own.
+/// Returns the atoms of one group as a structure of its own.
 Structure part_of(const Structure& structure, const AtomGroup& group) {
   Structure part;
   part.file = structure.file;
@@ -48,7 +48,7 @@ Structure part_of(const Structure& structure, const AtomGroup& group) {
   return part;
 }
 
-/// Rotates so that `normal` points to the viewer and `up` upright; both of length 1, at right angles.
+/// Returns the rotation that turns `normal` to the viewer and `up` upright; both have length 1 and are at right angles.
 glm::dmat3 page_rotation(const glm::dvec3& normal, const glm::dvec3& up) {
   return glm::transpose(glm::dmat3(glm::cross(up, normal), up, normal));
 }
@@ -116,7 +116,7 @@ OpenPages open_pages(const Structure& structure, std::span<const AtomGroup> grou
   for (const Ball& ball : page) pages.middle += ball.center / static_cast<double>(page.size());
   const glm::dvec3 across = glm::dot(middle[1] - middle[0], flat.forward) < 0.0 ? -flat.forward : flat.forward;
   pages.turn = {page_rotation(across, flat.right), page_rotation(-across, flat.right)};
-  // The left page ends where the gap begins, the right one begins where it ends.
+  // The left page ends at the left edge of the gap, the right page begins at its right edge.
   for (std::size_t side = 0; side < 2; ++side) {
     double inner = -std::numeric_limits<double>::infinity();
     const double towards = side == 0 ? 1.0 : -1.0;

@@ -25,29 +25,30 @@ struct InterfaceRequest {
 /// Reads "A:B" or "A,C:B" (chains), or "EXPR:EXPR". Throws RequestError, SelectionError.
 InterfaceRequest parse_interface(std::string_view text);
 
-/// Of each atom of the structure, how much less of its sphere the centre of the probe can reach in the presence of all
-/// than in that of its own group, Å²: the solvent-accessible area that is buried (B. Lee and F. M. Richards, J. Mol.
-/// Biol. 55, 379 (1971)); the area of the surface itself where that is not one of a probe. Groups: every atom in one of
-/// them. Throws what surface_objects throws.
+/// Returns, per atom of the structure, by how much the other groups reduce the area of its sphere that the centre of
+/// the probe can reach, Å². This is the solvent-accessible area that is buried (B. Lee and F. M. Richards, J. Mol.
+/// Biol. 55, 379 (1971)); for a surface without a probe, the area of the surface itself. groups: must have every atom
+/// once. Throws like surface_objects.
 std::vector<double> buried_areas(const Structure& structure, std::span<const AtomGroup> groups,
                                  SurfaceComputer& computer, SurfaceKind kind);
 
-/// The two groups; atoms in neither are in none. Throws InputError for a group without atoms or an atom in both.
+/// Returns the two groups; atoms that neither side selects are left out. Throws InputError for a group without atoms or
+/// an atom in both.
 std::vector<AtomGroup> interface_groups(const Structure& structure, const InterfaceRequest& interface);
 
-/// Where the two groups go: each is turned about one point and moved to its side.
+/// The motions of the two groups: each is turned about one point and then moved to its side.
 struct OpenPages {
-  glm::dvec3 middle{0.0};  ///< Å
+  glm::dvec3 middle{0.0};  ///< the point of both turns, Å
   std::array<glm::dmat3, 2> turn{glm::dmat3(1.0), glm::dmat3(1.0)};
-  std::array<double, 2> step{};  ///< Å along x, behind the turn
+  std::array<double, 2> step{};  ///< Å along x, applied after the turn
 };
 
-/// Seen against +z the buried atoms of either group face the viewer, the plane that fits them best is the page, its
-/// longest axis upright; the left group is at the left, with a gap. buried: of each atom. Throws InputError where
-/// nothing is buried.
+/// Returns the motions after which the buried atoms of both groups, seen against +z, face the viewer. The page is the
+/// plane that fits them best, with its longest axis upright; the left group is on the left, with a gap between. buried:
+/// per atom. Throws InputError if nothing is buried.
 OpenPages open_pages(const Structure& structure, std::span<const AtomGroup> groups, std::span<const double> buried);
 
-/// Moves both groups there.
+/// Applies the motions to both groups.
 void open_book(Structure& structure, std::span<const AtomGroup> groups, const OpenPages& pages);
 
 }  // namespace meniscus

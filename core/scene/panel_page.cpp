@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds what panels share, places them on their page, and draws one row of them after another.
+// Finds what panels share, places them on their page, and draws one row of panels after another.
 #include "core/scene/panel_page.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace meniscus {
 namespace {
 
-/// "A" to "Z", then "AA"; nothing where letters are not asked for.
+/// Returns "A" to "Z", then "AA" and so on; nothing for PanelLetters::none.
 std::string letter_of(std::size_t panel, PanelLetters letters) {
   if (letters == PanelLetters::none) return {};
   const char first = letters == PanelLetters::upper ? 'A' : 'a';
@@ -29,7 +29,7 @@ std::string letter_of(std::size_t panel, PanelLetters letters) {
   return text;
 }
 
-/// What both explain, if no colour means something else in one of them.
+/// Returns a key that explains the colours of both; nothing if a colour has different meanings in them.
 std::optional<ColorKey> joined(ColorKey key, const ColorKey& more) {
   if (key.title != more.title || !is_same_scale(key.scale, more.scale)) return {};
   if (key.scale) key.scale->missing = std::max(key.scale->missing, more.scale->missing);
@@ -93,8 +93,7 @@ void share_range(std::span<Scene> scenes, std::span<const Structure> structures)
   for (Scene& scene : scenes) scene.molecule.color.range = range;
 }
 
-// ---- Where everything is
-// ------------------------------------------------------------------------------------------------
+// The layout of a page.
 
 PanelPage::PanelPage(std::vector<Panel> panels, const PanelArrangement& arrangement) {
   const glm::ivec2 shape = panels.front().scene.picture.size();
@@ -146,7 +145,7 @@ void PanelPage::arrange(const PanelArrangement& arrangement, glm::ivec2 shape, s
   if (given.y > 0) size_.y = given.y;
 }
 
-/// Beside all panels, so it has to be true of each.
+/// Makes the legend of the page if the keys of all panels agree: it is next to all panels, so it must be true of each.
 void PanelPage::find_legend(std::vector<Panel>& panels, std::span<const ColorKey> keys, glm::ivec2 panel_size) {
   std::optional<ColorKey> all;
   for (const ColorKey& key : keys) {
@@ -157,7 +156,7 @@ void PanelPage::find_legend(std::vector<Panel>& panels, std::span<const ColorKey
   const auto first = std::ranges::find_if(panels, [](const Panel& panel) { return panel.scene.legend.within; });
   if (first == panels.end() || !all) return;
   LegendStyle style = legend_style(first->scene.legend.style, first->scene.annotations.letters);
-  // As high as those of a panel's own would be.
+  // Its letters are as high as in a panel's own legend.
   constexpr int kShare = 30, kLeast = 9;
   if (!style.letters) style.letters = std::max(kLeast, std::min(panel_size.x, panel_size.y) / kShare);
   legend_.emplace(*all, size_, style);
@@ -179,10 +178,9 @@ void PanelPage::aim(bool one_camera) {
   for (Placed& placed : panels_) placed.camera = camera;
 }
 
-// ---- Pixels and paths
-// ---------------------------------------------------------------------------------------------------
+// The pixels and paths of a page.
 
-/// Takes rows of panels; of a page their letters as paths.
+/// Writes rows of panels to a picture or to a page; a page gets letters as paths.
 class PanelPage::Output {
  public:
   Output(const std::filesystem::path& path, const PanelPage& page, const ImageSettings& image)
@@ -196,7 +194,7 @@ class PanelPage::Output {
 
   int width() const { return area_.x; }
 
-  /// What is drawn of a panel's molecule, with all that is written into it.
+  /// Returns the picture of a panel's molecule with its annotations; for a page, adds the annotations as paths instead.
   Framebuffer finish(const Placed& placed, const Annotations& annotations, Framebuffer molecule) {
     const PictureLayout& layout = placed.layout;
     if (!paths_) return finished_picture(std::move(molecule), annotations, layout, placed.camera, image_.background);
@@ -226,7 +224,7 @@ class PanelPage::Output {
       if (page_.legend_) append_moved(shapes_, shapes_of(*page_.legend_, image_.background), {});
       return paths_->commit(shapes_);
     }
-    if (row_ < page_.size_.y) {  // a legend below
+    if (row_ < page_.size_.y) {  // the legend is below the panels
       Framebuffer nothing;
       nothing.size = {area_.x, 0};
       pixels_->add(page_.legend_->rows(nothing, row_, page_.size_.y - row_, false, image_.background));
@@ -237,8 +235,8 @@ class PanelPage::Output {
  private:
   const PanelPage& page_;
   const ImageSettings& image_;
-  const glm::ivec2 area_;                // without the legend
-  std::unique_ptr<ImageWriter> pixels_;  // one of the two
+  const glm::ivec2 area_;                // size without the legend
+  std::unique_ptr<ImageWriter> pixels_;  // set unless paths_ is
   std::unique_ptr<PageFile> paths_;
   std::vector<PageShape> shapes_;
   int row_ = 0;

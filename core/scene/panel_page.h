@@ -24,42 +24,43 @@ namespace meniscus {
 
 enum class PanelLetters { upper, lower, none };
 
-/// How panels stand on their page, and whether they share a camera.
+/// The layout of panels on their page, and whether they share a camera.
 struct PanelArrangement {
   int columns = 0;                   ///< 0: one row of up to three panels, else about as many columns as rows
-  int gap = 0;                       ///< between panels, pixels
-  std::optional<int> width, height;  ///< of the page, pixels; nothing: by the size and the shape of the first panel
-  PanelLetters letters = PanelLetters::upper;  ///< of panels whose scenes have none
-  bool one_camera = false;                     ///< that of the first panel, which shows what is in any
+  int gap = 0;                       ///< pixels between panels
+  std::optional<int> width, height;  ///< pixels of the page; nothing: set by the size and shape of the first panel
+  PanelLetters letters = PanelLetters::upper;  ///< letters of panels whose scenes set none
+  bool one_camera = false;  ///< true: all have the first panel's camera, which then frames the contents of all
 };
 
 /// A figure, ready to be drawn.
 struct Panel {
-  Scene scene;  ///< complete; of one molecule
+  Scene scene;  ///< made by complete(), with one molecule
   Figure figure;
   ViewAim aim;
-  std::optional<Camera> given;  ///< instead of one that shows everything
+  std::optional<Camera> given;  ///< replaces the camera that frames everything
 };
 
-/// Gives the colours of all scenes one range, from the least number of any to the greatest. structures: one each.
-/// Throws RequestError for a scene whose colours have no scale, or that of other numbers; InputError for numbers that
-/// come with the surface.
+/// Gives the colours of all scenes one range, from the least number in any scene to the greatest. structures: one per
+/// scene. Throws RequestError for a scene whose colours have no scale, or a scale of another kind of number; InputError
+/// for numbers that are known only with the surface.
 void share_range(std::span<Scene> scenes, std::span<const Structure> structures);
 
 class PanelPage {
  public:
-  /// At least one panel. Throws RequestError when they have no room, and what Legend throws.
+  /// `panels` must not be empty. Throws RequestError if the panels do not fit on the page; otherwise like Legend.
   PanelPage(std::vector<Panel> panels, const PanelArrangement& arrangement);
 
   glm::ivec2 size() const { return size_; }
-  /// That of all panels; nothing: none asks for one, or colours differ, so that those that ask draw their own.
+  /// Returns the legend of all panels. Returns nothing if no panel has a legend, or if colours differ: then each panel
+  /// with a legend draws its own.
   const std::optional<Legend>& legend() const { return legend_; }
-  /// Where panels disagree in what a colour means (color_conflicts).
+  /// Returns the conflicts between the meanings of colours in different panels (color_conflicts).
   const std::string& conflicts() const { return conflicts_; }
   const Camera& camera(std::size_t panel) const { return panels_[panel].camera; }
 
-  /// Draws panel after panel, and writes the page, one row of them after another. image: its background is behind all
-  /// panels. done: called after each. Throws as ImageWriter and annotate() do. Once.
+  /// Draws panel after panel, and writes the page, one row of panels after another. Must be called only once. image:
+  /// its background is used for all panels. done: called after each panel. Throws like ImageWriter and annotate().
   void write(const std::filesystem::path& path, StillRenderer& renderer, const ImageSettings& image,
              const std::function<void()>& done = {});
 
@@ -67,7 +68,7 @@ class PanelPage {
   struct Placed {
     Panel panel;
     PictureLayout layout;
-    glm::ivec2 place;  ///< of its first pixel
+    glm::ivec2 place;  ///< place of its first pixel on the page
     Camera camera;
   };
   class Output;

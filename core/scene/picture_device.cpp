@@ -11,7 +11,8 @@ PictureDevice::PictureDevice(const SurfaceRequest& request) : thread_limit_(requ
   renderer_ = context_ ? make_gl_still_renderer(*context_) : std::make_unique<StillRenderer>();
 }
 
-// Automatic never lands on software GL. A list of devices does not tell: only a context knows its renderer.
+// The automatic choice is never software GL. A list of devices does not show which they are: only a context knows its
+// renderer.
 void PictureDevice::find_gl(DeviceChoice choice) {
   if (choice.kind != DeviceChoice::Kind::automatic) {
     context_.emplace(choice);
@@ -21,7 +22,7 @@ void PictureDevice::find_gl(DeviceChoice choice) {
   try {
     context_.emplace(choice);
   } catch (const GpuError&) {
-    context_.reset();  // no EGL, no GPU, or none with GL 4.5
+    context_.reset();  // EGL or a GPU is missing, or has no GL 4.5
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the renderer for the device that a user asked for.
+// Makes the renderer for the device that a user chose.
 #pragma once
 
 #include <memory>
@@ -11,15 +11,15 @@
 
 namespace meniscus {
 
-/// Makes pictures of computed surfaces: on the CPU or, in a context of its own, on GL.
+/// The device of pictures of computed surfaces: the CPU, or GL in a context of its own.
 class PictureDevice {
  public:
-  /// Automatic takes a hardware GPU if there is one, else the CPU, which is faster than software GL. Throws GpuError
-  /// where GL is asked for by name.
+  /// The automatic choice is a hardware GPU if there is one, else the CPU, which is faster than software GL. Throws
+  /// GpuError if the user chose GL and it is not available.
   explicit PictureDevice(const SurfaceRequest& request);
 
   StillRenderer& renderer() { return *renderer_; }
-  /// Current on this thread; nullptr where the CPU makes the pictures.
+  /// Returns the context, which is current on this thread; nullptr if pictures are made on the CPU.
   const EglContext* context() const { return context_ ? &*context_ : nullptr; }
 
  private:

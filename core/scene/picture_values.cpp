@@ -17,7 +17,7 @@
 namespace meniscus::scene_values {
 namespace {
 
-// Look, camera and picture.
+// The values of look, camera and picture follow.
 
 glm::vec3 direction_of(const std::string& text) {
   std::array<float, 3> parts{};
@@ -65,7 +65,7 @@ Written write_background(const Property&, const Scene& scene) {
   return {hex_color(*scene.image.background)};
 }
 
-// Sizes and letters.
+// The values of sizes and letters follow.
 
 void read_size(const Property&, Texts texts, Scene& scene) {
   const std::string_view text = texts.back();
@@ -102,7 +102,7 @@ std::optional<float>& number_of(const Property& property, LookRequest& look) {
   return *std::ranges::find(look_numbers(), property.key, &LookNumber::key)->asked(look);
 }
 
-/// Widths of lines are lengths.
+/// Reads a number of the look; widths of lines are lengths.
 void read_look_number(const Property& property, Texts texts, Scene& scene) {
   std::optional<float>& number = number_of(property, scene.look);
   if (property.type == ValueType::number) return read(property, texts, number);

@@ -18,8 +18,8 @@
 namespace meniscus {
 namespace {
 
-/// What previews drawn by the CPU have in common: surfaces are computed once for many cameras, and either the
-/// computation or the picture stops when it is no longer wanted.
+/// The common part of previews drawn by the CPU: surfaces are computed once for many cameras, and the computation or
+/// the picture stops when the caller gives it up.
 class CpuPreviewRenderer : public PreviewRenderer {
  public:
   void set_atoms(std::vector<Ball> atoms) final {
@@ -48,18 +48,18 @@ class CpuPreviewRenderer : public PreviewRenderer {
   const CpuRenderer& renderer() const { return renderer_; }
 
  private:
-  /// Ends the computation of a surface that is no longer wanted.
+  /// Ends the computation of a surface that the caller gives up.
   struct GivenUp {};
 
-  /// Lets go of what was computed of other atoms than atoms().
+  /// Discards surfaces of other atoms than atoms().
   virtual void forget() = 0;
   virtual bool is_computed(double probe_radius) const = 0;
-  /// Keeps nothing if it throws, as the clock does where the picture is given up.
+  /// Computes the surface. Keeps nothing if it throws; the clock throws GivenUp if the picture is given up.
   virtual void compute(double probe_radius, StageClock& clock) = 0;
-  /// Draws what was computed; returns false if it was given up.
+  /// Draws the computed surface; returns false if the picture was given up.
   virtual bool paint(const Camera& camera, const RenderSettings& settings, const std::function<bool()>& stop) = 0;
 
-  /// Returns false if it was given up.
+  /// Computes the surface; returns false if the computation was given up.
   bool compute_unless(const std::function<bool()>& stop, double probe_radius) {
     forget();
     StageClock clock;
@@ -130,7 +130,7 @@ class CpuSurfaceRenderer final : public CpuPreviewRenderer {
     }
   }
 
-  /// What the last picture was made of, which pick() needs.
+  /// The contents of the last picture, which pick() needs.
   struct Drawn {
     std::shared_ptr<const Surface> surface;
     std::shared_ptr<const Coloring> coloring;
@@ -142,7 +142,7 @@ class CpuSurfaceRenderer final : public CpuPreviewRenderer {
   FigureRequest request_;
   std::shared_ptr<const BesideSurface> beside_;
   Drawn drawn_;
-  std::shared_ptr<const Surface> surface_;  // of atoms(); none: not yet, or given up
+  std::shared_ptr<const Surface> surface_;  // surface of atoms(); nullptr: not computed yet, or given up
 };
 
 /// Draws copies of one computed surface for each group of atoms.
@@ -199,7 +199,7 @@ class CpuCopiesRenderer final : public CpuPreviewRenderer {
 
   const std::vector<Instances> copies_;
   Coloring coloring_;
-  std::vector<SurfaceObject> objects_;  // of copies_ and atoms(); none: not yet, or given up
+  std::vector<SurfaceObject> objects_;  // surfaces of copies_ and atoms(); empty: not computed yet, or given up
 };
 
 /// Draws all copies by a renderer of atoms.
@@ -241,7 +241,7 @@ class PlacedAtomsRenderer final : public PreviewRenderer {
   const std::vector<StageTime>& times() const override { return renderer_->times(); }
 
  private:
-  /// Those of copies and groups, which merged() keeps apart, too.
+  /// Renumbers parts so that copies and groups have different ones, as in merged().
   void keep_parts_apart(Coloring& all) const {
     if (all.part.empty()) return;
     std::size_t place = 0;

@@ -29,14 +29,15 @@ void Representations::ask_for(ReadOptions& reading) const {
         message("@instances@: copies of one surface cannot be drawn with sticks, balls or spheres; leave it out"));
   for (const RepresentationRequest& request : requests) {
     reading.shown.push_back({shape_word(request.kind), request.atoms});
-    // Of all atoms of the file, for hydrogen bonds lead to residues that are not shown.
+    // It is found for all atoms of the file, because hydrogen bonds lead to residues that are not shown.
     if (request.kind == Kind::backbone) reading.secondary_structure = true;
   }
 }
 
 namespace {
 
-/// Of residues that are known by whole rings: those that are selected may have none.
+/// Returns the shapes. They are found by whole rings, so throws InputError if atoms are selected but none belongs to
+/// such a ring.
 Shapes found(const Structure& all, Shapes shapes, const std::vector<bool>& selected, Kind kind, const char* what) {
   if (shapes.empty() && std::ranges::find(selected, true) != selected.end())
     throw InputError(
@@ -76,7 +77,8 @@ ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorSc
         message("@map categorical@: atoms beside the surface may have numbers that it has no colour for; choose "
                 "another @map@"));
   scheme.range = scale.range;
-  std::vector<double>& numbers = scheme.file.numbers;  // either of each atom of the file, or of each of the surface
+  std::vector<double>& numbers =
+      scheme.file.numbers;  // one number per atom of the file, or one per atom of the surface
   const bool of_atoms = scheme.takes_file() || scheme.is_measured();
   if (of_atoms && numbers.size() == structure.atoms.size())
     numbers.resize(shown, std::numeric_limits<double>::quiet_NaN());
@@ -85,7 +87,7 @@ ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorSc
 
 ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorScheme scheme) {
   if (scheme.by == By::kind || scheme.by == By::component || scheme.of_points()) scheme.by = By::element;
-  scheme.opacities.clear();  // those of the surface, which is seen through to show what is in it
+  scheme.opacities.clear();  // opacities apply to the surface only, which is transparent to show what is in it
   return with_scale_of(structure, shown, std::move(scheme));
 }
 

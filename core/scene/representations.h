@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes beside a surface: the atoms drawn as sticks, balls, spheres, a backbone, bases or sugars, and their colours.
+// Shapes in addition to a surface: atoms drawn as sticks, balls, spheres, a backbone, bases or sugars, and their
+// colours.
 #pragma once
 
 #include <optional>
@@ -21,49 +22,50 @@ struct RepresentationRequest {
   Selection atoms;
 };
 
-/// The words of kinds in scene files, each the name of the property that asks for it.
+/// The words of kinds in scene files; each is the name of the property that requests it.
 inline constexpr const char* kShapeWords[] = {"sticks", "balls", "spheres", "tube", "bases", "glycans"};
 constexpr const char* shape_word(RepresentationRequest::Kind kind) { return kShapeWords[static_cast<int>(kind)]; }
 
-/// Å; nothing: the usual ones.
+/// Radii of shapes, Å; nothing: the default radii.
 struct ShapeRadii {
-  std::optional<double> stick_radius;  ///< of bases, too; kStickRadius, kThinStickRadius with balls
-  std::optional<double> tube_radius;   ///< kTubeRadius
+  std::optional<double> stick_radius;  ///< of bases, too; default: kStickRadius, with balls kThinStickRadius
+  std::optional<double> tube_radius;   ///< default: kTubeRadius
 };
 
-/// All that are asked for, and what they have in common.
+/// All requested representations, and their common radii.
 struct Representations : ShapeRadii {
   std::vector<RepresentationRequest> requests;
 
   bool empty() const { return requests.empty(); }
-  /// Makes read_structure mark the atoms, keep those that the surface leaves out, and find their bonds: once, at the
-  /// positions that it reads, so that they are the same in all frames of a run.
+  /// Makes read_structure mark the atoms, keep atoms that the surface leaves out, and find their bonds. Bonds are found
+  /// once, at the positions that are read, so that they are the same in all frames of a run.
   void ask_for(ReadOptions& reading) const;
 };
 
-/// The structure's atoms, and after them those beside the surface: what `atom` of shapes is a place in.
+/// Returns the structure's atoms, followed by the atoms drawn in addition to the surface. The `atom` of a shape is a
+/// place in this list.
 std::vector<Atom> shown_atoms(const Structure& structure);
-/// The same as a structure of its own.
+/// Returns shown_atoms() as a structure of their own.
 Structure structure_of_shown(const Structure& structure);
-/// Of its atoms, those that the n-th of ReadOptions::shown selects.
+/// Returns, per atom of structure_of_shown(), true if the selection in ReadOptions::shown with this index selects it.
 std::vector<bool> marked_atoms(const Structure& all, std::size_t mark);
 
-/// Some atoms of structure_of_shown(). bonds: Structure::shown_bonds. Throws InputError where bases or sugars are asked
-/// for and there are none.
+/// Returns the shapes of some atoms of structure_of_shown(). bonds: Structure::shown_bonds. Throws InputError if bases
+/// or sugars are requested and there are none.
 Shapes shapes_of_atoms(const Structure& all, RepresentationRequest::Kind kind, const std::vector<bool>& selected,
                        const std::vector<Bond>& bonds, const ShapeRadii& radii);
 
-/// The scheme with the ranges that it has for the surface's atoms, for all shown atoms, so many: a number has one
-/// colour, whatever it is drawn on; what is known of the surface's atoms alone is missing of others. Throws
-/// RequestError where each number has a colour of its own.
+/// Returns the scheme for all shown atoms with the ranges that it has for the surface's atoms, so that a number has one
+/// colour on everything that is drawn. shown: number of shown atoms. Numbers that are known for the surface's atoms
+/// only are missing for others. Throws RequestError for a map that gives each number its own colour.
 ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorScheme scheme);
 
-/// The same for shapes: opaque, and by element where colours are of surfaces alone.
+/// Returns with_scale_of() for shapes: opaque, and by element if the scheme applies to surfaces only.
 ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorScheme scheme);
 
-/// The shapes of shown_atoms(), where the atoms of the structure are, coloured as the surface is: chains have the
-/// colours they have there, numbers the same scale; where the scheme is of surfaces only (patch kinds, components), by
-/// element. Structure: as read with ask_for(). Throws as color_object does; RequestError for an assembly of instances.
+/// Returns the shapes of shown_atoms() at the positions of the structure, with the colours of the surface: chains have
+/// the same colours, numbers the same scale. A scheme for surfaces only (patch kinds, components) is replaced by
+/// elements. structure: as read with ask_for(). Throws like color_object; RequestError for an assembly of instances.
 ColoredShapes shown_shapes(const Structure& structure, const Representations& representations,
                            const ColorScheme& scheme);
 

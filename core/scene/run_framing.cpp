@@ -22,7 +22,7 @@
 namespace meniscus {
 namespace {
 
-/// Does `work`, unless the frame is at fault; the code that makes the frame reports that.
+/// Does `work`, and returns its exception if the frame has an error. The code that makes the frame reports that error.
 template <typename Work>
 std::exception_ptr fault_of_frame(const Work& work) {
   try {
@@ -108,10 +108,10 @@ glm::dvec3 mean_center(std::span<const Ball> balls) {
   return sum / static_cast<double>(balls.size());
 }
 
-/// How the camera of each frame differs from the one it starts with.
+/// The differences between the camera of each frame and the camera that the run starts with.
 class CameraCourse {
  public:
-  /// pivot: what the camera turns about, Å.
+  /// pivot: the point that the camera turns about, Å.
   CameraCourse(const CameraMotionRequest& motion, ShownFrames& frames, const glm::dvec3& pivot)
       : motion_(motion), pivot_(pivot) {
     const FrameRun& run = frames.run();
@@ -147,17 +147,17 @@ class CameraCourse {
   }
 
   const CameraMotionRequest& motion_;
-  std::vector<bool> followed_;   // per atom; empty: the camera follows none
-  bool follows_others_ = false;  // from frame to frame
+  std::vector<bool> followed_;   // per atom; empty: the camera follows no atoms
+  bool follows_others_ = false;  // true if the followed atoms differ between frames
   glm::dvec3 pivot_{0.0}, start_{0.0};
   double count_ = 1.0;
 };
 
-/// The balls as they are before the camera that moves with them.
+/// Returns the balls in the coordinates of the camera that moves with them.
 std::vector<Ball> before_camera(std::span<const Ball> balls, const glm::dvec3& shift, const glm::dvec3& pivot,
                                 const glm::dvec3& axis, double angle) {
   std::vector<Ball> seen(balls.begin(), balls.end());
-  Camera carrier;  // its position is carried as a point
+  Camera carrier;  // its position carries the point
   for (Ball& ball : seen) {
     carrier.position = ball.center - shift;
     ball.center = turned(carrier, pivot, axis, -angle).position;
@@ -165,7 +165,8 @@ std::vector<Ball> before_camera(std::span<const Ball> balls, const glm::dvec3& s
   return seen;
 }
 
-/// Of a frame the balls that fill the picture, which may be others than in the first; none where nothing is shown.
+/// Returns the balls that must fill the picture of a frame, which may differ from the first frame's; none if nothing is
+/// shown.
 std::vector<Ball> framed_there(const ViewRequest& view, const std::optional<Selection>& show, const Structure& read,
                                const Structure& shown) {
   try {
@@ -239,7 +240,7 @@ glm::dvec3 RunFraming::origin() const { return glm::round((extent.surface.low + 
 
 namespace {
 
-/// Of By::radial in all frames that can be read.
+/// Returns the range of the numbers of By::radial over all frames that can be read.
 std::optional<std::array<double, 2>> radial_range(ShownFrames& frames) {
   std::optional<std::array<double, 2>> range;
   frames.survey([&range](std::uint64_t, const Structure&, const Structure& shown) {
@@ -252,8 +253,8 @@ std::optional<std::array<double, 2>> radial_range(ShownFrames& frames) {
   return range;
 }
 
-/// What a scheme says of all atoms that any frame may have, and so of each frame alike: the range of numbers that atoms
-/// have by themselves.
+/// Sets the range of numbers that atoms have by themselves, over all atoms that any frame may have, so that it is the
+/// same in each frame.
 void share_colors(ColorScheme& color, const FrameRun& frames) {
   const bool is_categorical = color.map == ColorMap::categorical && !color.own_map;
   if ((color.by == ColorScheme::By::buried || color.by == ColorScheme::By::accessibility) && is_categorical)
@@ -272,7 +273,7 @@ void share_colors(ColorScheme& color, const FrameRun& frames) {
   color.frames_range = color_scale(frames.reach(), color).range;
 }
 
-/// Of a scheme without its rules, but for what is buried.
+/// Measures a scheme without its rules and without buried areas.
 void measure_scheme(ColorScheme& color, ShownFrames& frames) {
   FrameRun& run = frames.run();
   share_colors(color, run);
@@ -294,7 +295,7 @@ void measure_colors(ColorScheme& color, ShownFrames& frames) {
   measure_scheme(color, frames);
   for (ColorRule& rule : color.rules) measure_scheme(rule.paint, frames);
   if (color.by != ColorScheme::By::buried && color.by != ColorScheme::By::accessibility) return;
-  // The numbers come with each frame.
+  // The numbers are set with each frame.
   const Structure& reach = frames.run().reach();
   color.file = {.path = reach.file, .numbers = std::vector<double>(reach.atoms.size(), 0.0)};
   if (color.by == ColorScheme::By::accessibility) return;
@@ -312,7 +313,7 @@ std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme&
   const auto add = [&](const glm::vec3& color) {
     if (std::ranges::find(colors, color) == colors.end()) colors.push_back(color);
   };
-  for (const ColorRule& rule : scheme.rules)  // whatever atoms each means in other frames
+  for (const ColorRule& rule : scheme.rules)  // with any atoms that rules may select in other frames
     for (const glm::vec3& color : run_colors(structure, rule.paint)) add(color);
   if (scheme.by == ColorScheme::By::component) {
     for (std::size_t n = 0; n < kCategoricalCount; ++n) add(categorical_color(n));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames of a run as they are shown: their atoms, their cameras, and the range of their colours.
+// The frames of a run as they are shown: their atoms, their cameras, and the range of their colours.
 #pragma once
 
 #include <cstddef>
@@ -23,25 +23,26 @@
 
 namespace meniscus {
 
-/// An interface is measured when its frame is first asked for; where its pages go is kept.
+/// The shown frames of a run. The interface of a frame is measured when the frame is first needed; the motions of its
+/// pages are kept.
 class ShownFrames {
  public:
-  /// Both must live as long. molecule: as the frames were opened with it.
+  /// Both must outlive this object. molecule: the request with which `frames` was opened.
   ShownFrames(const MoleculeRequest& molecule, FrameRun& frames) : molecule_(molecule), frames_(frames) {}
 
   const MoleculeRequest& molecule() const { return molecule_; }
   FrameRun& run() { return frames_; }
 
-  /// The first frame of the run that can be shown: as it is read, and as it is shown, with the same atoms. Throws why
-  /// the first frame cannot, if none can.
+  /// Return the first frame of the run that can be shown: as it is read, and as it is shown, with the same atoms. Throw
+  /// the error of the first frame if none can be shown.
   const Structure& first();
   const Structure& first_shown();
 
-  /// FrameRun::survey(); a frame that cannot be shown is passed over.
+  /// Calls FrameRun::survey(), and skips frames that cannot be shown.
   using Look = std::function<void(std::uint64_t place, const Structure& read, const Structure& shown)>;
   void survey(const Look& look);
 
-  /// The most that is buried of an atom of any frame, Å².
+  /// Returns the largest buried area of an atom in any frame, Å².
   double most_buried();
 
  private:
@@ -50,21 +51,21 @@ class ShownFrames {
 
   const MoleculeRequest& molecule_;
   FrameRun& frames_;
-  std::vector<std::optional<OpenPages>> pages_;   ///< by place
-  std::optional<Structure> first_, first_shown_;  ///< of an interface
+  std::vector<std::optional<OpenPages>> pages_;   ///< by place in the run
+  std::optional<Structure> first_, first_shown_;  ///< set for an interface only
   double most_buried_ = 0.0;
 };
 
-/// How the camera moves over a run.
+/// The motion of the camera over a run.
 struct CameraMotionRequest {
-  std::string path_file;  ///< empty: one camera, of a file or framing all frames
-  double turns = 0.0;     ///< about the camera's up axis through the middle of what is framed, over the run
+  std::string path_file;  ///< empty: one camera, from a file or framing all frames
+  double turns = 0.0;     ///< over the run, about the camera's up axis through the middle of the framed atoms
   std::optional<Selection> follow;
 
   bool moves() const { return !path_file.empty() || turns != 0.0 || follow.has_value(); }
 };
 
-/// The cameras that files give to a run.
+/// The cameras of a run that are read from files.
 struct GivenCameras {
   std::optional<Camera> still;
   std::optional<CameraPath> path;
@@ -74,40 +75,40 @@ struct GivenCameras {
 
 /// Boxes around all atoms at all frames, Å.
 struct RunExtent {
-  Box surface;  ///< those of the surface
-  Box shown;    ///< and those beside it
+  Box surface;  ///< around the atoms of the surface
+  Box shown;    ///< around these and the atoms drawn in addition
 };
 
-/// Those of the files that are named. Ask for them before anything is read or computed. Throws InputError.
+/// Reads the cameras of the named files. Should be called before anything else is read or computed. Throws InputError.
 GivenCameras given_cameras(const ViewRequest& view, const CameraMotionRequest& motion);
 
-/// A camera for each frame of the run, by its place. Without a camera from a file, and where it is asked to fill the
-/// picture with some atoms, all frames are read once, so that these are seen in every frame. extent: is found in the
-/// same pass; nullptr: not asked for. Throws InputError, RequestError, and what opening an interface throws.
+/// Returns a camera for each frame of the run, by its place. All frames are read once if no file gives a camera, or if
+/// the camera must fill the picture with some atoms, so that these are visible in every frame. extent: found in the
+/// same pass; nullptr: not needed. Throws InputError, RequestError, and the errors of opening an interface.
 std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
                                 ShownFrames& frames, RunExtent* extent = nullptr);
 
 struct RunFraming {
-  std::vector<Camera> cameras;  ///< one, or one a frame if it moves
+  std::vector<Camera> cameras;  ///< one, or one per frame if the camera moves
   RunExtent extent;
 
-  /// Where coordinates of scenes begin, Å, to three decimals.
+  /// Returns the origin of the coordinates of scenes, Å, rounded to three decimals.
   glm::dvec3 origin() const;
 };
 
-/// Reads all frames of the run once. Throws what run_cameras throws.
+/// Returns the cameras and the extent of the run. Reads all its frames once. Throws like run_cameras.
 RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
                        ShownFrames& frames);
 
-/// Takes from all frames of the run what its colours mean in each of them: fluctuations, and one range of numbers that
-/// change with the places of atoms. Reads the run again for each scheme that needs it. Throws what fluctuations throws.
+/// Completes the scheme by numbers that depend on all frames of the run: fluctuations, and one range for numbers that
+/// change with the positions of atoms. Reads the run again for each scheme that needs it. Throws like fluctuations.
 void measure_colors(ColorScheme& color, ShownFrames& frames);
 
-/// FrameRun::reach() with the number of the first frame, of which a file may have numbers.
+/// Returns FrameRun::reach() with the number of the first frame, because a file may have numbers for that frame.
 Structure numbered_reach(const FrameRun& frames);
 
-/// All colours that a frame of the run may have, in the order of the atoms; of components all there are. Of schemes
-/// that do not change with the frames.
+/// Returns all colours that a frame of the run may have, in the order of the atoms; for components, all their colours.
+/// scheme: must not change with the frames. `beside`: the colours of everything drawn in addition to the surface.
 std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme, const Coloring& beside = {});
 
 }  // namespace meniscus

@@ -16,9 +16,9 @@
 
 namespace meniscus {
 
-/// Complete: with the files that it names, nothing else is needed to make the same picture, film or export again. Each
-/// member is that of a property (core/properties); scene_values.h sets and reads them by key, scene_json.h as JSON.
-/// Scene{} is what every command makes of a molecule if nothing else is asked for.
+/// A complete scene: together with the files that it names, it suffices to make the same picture, film or export again.
+/// Each member belongs to a property (core/properties); scene_values.h sets and reads members by key, scene_json.h as
+/// JSON. Scene{} has the defaults of every command.
 struct Scene {
   MoleculeRequest molecule;
   RunRequest frames;
@@ -32,14 +32,14 @@ struct Scene {
   FilmFormat film;
   MeshOutput mesh;
   RendererOutput renderer;
-  std::string output;  ///< path of what is made; empty: not said
+  std::string output;  ///< path of the output; empty: not given
 
-  /// Lengths on paper as they were given ("85mm", "0.5pt"), by the key of their property. The members themselves have
+  /// Lengths on paper as they were given ("85mm", "0.5pt"), by the key of their property. The members themselves are in
   /// pixels.
   std::map<std::string, std::string, std::less<>> lengths;
 };
 
-/// Whether both have the same values of all properties that scene files hold.
+/// True if both have the same values of all properties that scene files hold.
 bool operator==(const Scene& one, const Scene& other);
 
 }  // namespace meniscus

@@ -37,7 +37,7 @@ std::string path_of(const Json& value) {
   return value.get<std::string>();
 }
 
-/// As a number if it is written as JSON writes numbers.
+/// Returns a JSON number if the text is written as JSON writes numbers, else a JSON text.
 Json number_or_text(const std::string& text) {
   const Json number = Json::parse(text, nullptr, false);
   return number.is_number() && number.dump() == text ? number : Json(text);
@@ -48,8 +48,8 @@ std::string seen_from(const std::string& folder, const std::string& path) {
   if (folder.empty()) return text_of_path(given.filename());
   const fs::path whole = fs::absolute(given), base = fs::absolute(path_of_text(folder));
   std::error_code failed;
-  // A link within the folder keeps its name: a scene may read no file outside of it. By names alone "link/.." would be
-  // the folder of the link, so the file itself is asked.
+  // A link within the folder keeps its name, because a scene may read no file outside of its folder. By names alone
+  // "link/.." would be the folder of the link, so that equivalent() compares the files themselves.
   if (const fs::path within = whole.lexically_normal().lexically_relative(base.lexically_normal());
       !within.empty() && *within.begin() != ".." && fs::equivalent(base / within, whole, failed))
     return text_of_path(within);
@@ -116,10 +116,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Kind = RepresentationRequest::Kind;
 
-/// Of sticks and of tubes.
+/// The radius of sticks, and of tubes.
 constexpr std::string_view kRadius = "radius", kRadiusProperty = "shapes.stick_radius";
 
-/// `read()`, with what it throws said of this key.
+/// Calls `read()`, and adds this key to the message of its exceptions.
 template <typename Read>
 auto naming(std::string_view key, const Read& read) {
   try {
@@ -131,7 +131,7 @@ auto naming(std::string_view key, const Read& read) {
   }
 }
 
-/// The text of a key that no property has.
+/// Returns the text of a key that no property has.
 std::string own_text(const Json& json, std::string_view key, const char* otherwise) {
   const auto found = json.find(key);
   if (found == json.end()) return otherwise;
@@ -169,7 +169,7 @@ std::vector<std::string> texts_of(const Property& property, const std::string& k
   }
 }
 
-/// The object's own values.
+/// Returns a scene with the object's own values.
 Scene values_of(const Json& json, const std::string& representation) {
   Scene own;
   for (const auto& [key, value] : json.items()) {
@@ -181,7 +181,7 @@ Scene values_of(const Json& json, const std::string& representation) {
   return own;
 }
 
-/// Nothing: the molecule's.
+/// Returns the object's own colours; nothing if it has the molecule's.
 std::optional<ColorScheme> color_of(const Scene& own) {
   ColorScheme color = own.molecule.color;
   if ((color.map || color.range || color.missing) && !color.uses_scale())
@@ -194,7 +194,7 @@ std::optional<ColorScheme> color_of(const Scene& own) {
   return color;
 }
 
-/// What figure_object_json() writes as values.
+/// Returns a scene with the object's values, for figure_object_json().
 Scene values_of(const FigureObjectRequest& object) {
   Scene own;
   if (object.color) {
@@ -273,10 +273,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kVersionKey = "meniscus_scene";
-constexpr const char* kSuperposedKey = "superposed";  // for readers: it sets nothing
+constexpr const char* kSuperposedKey = "superposed";  // information for readers; it sets nothing
 constexpr int kVersion = 1;
 
-/// The settings of one file.
+/// Parses the settings of one file.
 class SceneParser {
  public:
   explicit SceneParser(const std::string& file) : file_(file) {}
@@ -308,7 +308,7 @@ class SceneParser {
   Json json_of(std::string_view text) const {
     if (is_nested_too_deep(text)) throw InputError(file_, 0, "scene: the JSON is nested too deep");
     Json scene;
-    std::vector<std::set<std::string>> keys;  // of the objects that are open
+    std::vector<std::set<std::string>> keys;  // keys of the objects that are open
     try {
       using Event = Json::parse_event_t;
       scene = Json::parse(text, [&](int, Event event, const Json& parsed) {
@@ -444,7 +444,7 @@ std::string scene_text(const Scene& scene, const std::string& folder, std::span<
   for (const std::string& json : value_texts(scene, property_of("figure.object")))
     objects.push_back(Json::parse(json, nullptr, false));
   Json ordered{{kVersionKey, kVersion}};
-  for (const char* section : {"molecule", "frames"})  // what is drawn, before how
+  for (const char* section : {"molecule", "frames"})  // what is drawn comes before how it is drawn
     if (sections.contains(section)) ordered[section] = sections[section];
   ordered["objects"] = std::move(objects);
   for (const auto& [section, keys] : sections.items())

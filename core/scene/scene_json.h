@@ -16,45 +16,47 @@
 
 namespace meniscus {
 
-/// The value as set_value() takes it; empty: it says nothing. Throws RequestError that says what the JSON is not.
+/// Returns the value in the form of set_value(); empty if the JSON gives no value. Throws RequestError that says what
+/// is wrong with the JSON.
 std::vector<std::string> texts_of_json(const Property& property, const nlohmann::ordered_json& value);
 
-/// JSON that texts_of_json() reads as these texts. Paths are as seen from the folder; of an empty one they are names.
+/// Returns JSON from which texts_of_json() reads these texts. Paths are relative to the folder; if it is empty, only
+/// the names of files are written.
 nlohmann::ordered_json json_of_texts(const Property& property, const std::vector<std::string>& texts,
                                      const std::string& folder);
 
-/// A key of such an object, besides "representation" and "selection".
+/// A key of an object of a scene, in addition to "representation" and "selection".
 struct ObjectKey {
   std::string_view name;
-  const Property* property;  ///< that says what it means and which values it takes
+  const Property* property;  ///< defines its meaning and its values
   bool of_surfaces, of_shapes;
 };
 
-/// In the order of their table.
+/// Returns the keys in the order of their table.
 const std::vector<ObjectKey>& object_keys();
 
 /// Reads {"representation": "surface" | "sticks" | "balls" | "spheres" | "tube", "selection": EXPR, ...};
 /// docs/how-to/scenes.md has all keys. Throws RequestError that names the key, SelectionError.
 FigureObjectRequest parse_figure_object(std::string_view json);
 
-/// What parse_figure_object reads as this object, exactly; what is as usual is left out.
+/// Returns JSON from which parse_figure_object() reads exactly this object. Default values are left out.
 nlohmann::ordered_json figure_object_json(const FigureObjectRequest& object);
 
 /// A value that a scene file sets.
 struct SceneSetting {
   const Property* property = nullptr;
-  std::vector<std::string> texts;  ///< as set_value takes them; paths as the file has them
-  std::string place;               ///< in the file, for messages: "objects[0].clip"
+  std::vector<std::string> texts;  ///< in the form of set_value(); paths as in the file
+  std::string place;               ///< place in the file, for messages: "objects[0].clip"
 };
 
-/// The settings of a scene, in the order of the table of properties. file: its name, for messages. Throws InputError
-/// for what is not a scene, has no such key, or has values of another type; what values mean is looked at when they are
-/// set.
+/// Returns the settings of a scene, in the order of the table of properties. file: name of the file, for messages.
+/// Throws InputError for text that is not a scene, for unknown keys, and for values of another type; the meaning of
+/// values is checked when they are set.
 std::vector<SceneSetting> parse_scene(std::string_view json, const std::string& file);
 
-/// The scene as a file has it, ending with a newline: what differs from Scene{}. folder: from which paths are seen;
-/// empty: files by their names alone, and no output. added: the files that were superposed when the scene was drawn,
-/// with atoms and RMSD as "superposed", which parse_scene passes over.
+/// Returns the text of a scene file with all values that differ from Scene{}, ending with a newline. folder: paths are
+/// relative to it; empty: only the names of files are written, and no output. added: the files that were superposed
+/// when the scene was drawn; they are written with atoms and RMSD as "superposed", which parse_scene() ignores.
 std::string scene_text(const Scene& scene, const std::string& folder, std::span<const AddedFile> added = {});
 
 }  // namespace meniscus

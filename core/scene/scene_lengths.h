@@ -14,29 +14,31 @@
 
 namespace meniscus::scene_values {
 
-inline constexpr int kLargestSide = 65535;  // pixels; PNG and EXR readers of other programs stop here
-/// Dots per inch of lengths on paper where nothing else is said.
+inline constexpr int kLargestSide = 65535;  // pixels; PNG and EXR readers of other programs accept no more
+/// The default resolution of lengths on paper, dots per inch.
 inline constexpr double kUsualResolution = 300.0;
 
 struct Length {
   double value = 0.0;
-  double per_inch = 0.0;  ///< 0: pixels
+  double per_inch = 0.0;  ///< units per inch; 0: pixels
 
   double pixels(double dots_per_inch) const;
 };
 
-/// "85mm", "8.5cm", "3.5in", "8pt", "1000px" or "1000". Throws RequestError.
+/// Parses "85mm", "8.5cm", "3.5in", "8pt", "1000px" or "1000". Throws RequestError.
 Length parse_length(const std::string& text);
 
-/// A side of a picture. Throws RequestError for one of no pixel or too many, once the resolution is known.
+/// Returns a side of a picture in pixels. Throws RequestError if it has no pixel or too many, provided that the
+/// resolution is known.
 int side_in_pixels(const std::string& text, double dots_per_inch);
-/// Of lines and letters, within the range of the property. what: "a line has". Throws RequestError likewise.
+/// Returns a length of lines or letters in pixels. what: the subject of the message, "a line has". Throws RequestError
+/// if it is outside of the property's range, provided that the resolution is known.
 double pixels_in_range(const Property& property, const std::string& text, double dots_per_inch, const char* what);
 
-/// Remembers a length on paper as it was given.
+/// Keeps the text of a length on paper in the scene.
 void keep_length(Scene& scene, std::string_view key, const std::string& text);
 
-/// Pixels as a width of lines has them, or as a height of letters, which is whole.
+/// Converts pixels to the type of a width: widths of lines may be fractions, heights of letters are whole numbers.
 template <typename Number>
 Number as_width(double pixels) {
   return static_cast<Number>(std::is_integral_v<Number> ? std::round(pixels) : pixels);
@@ -48,7 +50,7 @@ void read_length(const Property& property, Texts texts, Scene& scene, std::optio
   keep_length(scene, property.key, texts.back());
 }
 
-/// The text on paper counts as long as it still means that width.
+/// Returns the text of a width. A kept length on paper is used as long as it still equals the width.
 template <typename Number>
 Written written_length(const Property& property, const Scene& scene, const std::optional<Number>& width) {
   const auto length = scene.lengths.find(property.key);
@@ -58,9 +60,10 @@ Written written_length(const Property& property, const Scene& scene, const std::
   return written(width, {});
 }
 
-/// The size that lengths make of sides. One side alone keeps the shape of the usual picture.
+/// Returns the size in pixels that lengths of sides give. If only one side is given, the picture has the default aspect
+/// ratio.
 glm::ivec2 size_by_lengths(const Scene& scene);
-/// Whether the size of the picture is the one that lengths make.
+/// True if the size of the picture is size_by_lengths().
 bool has_lengths_of_sides(const Scene& scene);
 
 }  // namespace meniscus::scene_values

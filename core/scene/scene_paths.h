@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which files a scene may name, because it may come from anyone, and which its text can name.
+// The files that a scene may name, since it may come from anyone, and the files that its text can name.
 #pragma once
 
 #include <string>
@@ -10,27 +10,28 @@
 
 namespace meniscus {
 
-/// What someone who uses a scene has said of files. Unless it is trusted as a whole a scene names no files outside of
-/// its folder and the working folder but those that are typed or named before, and writes to none but a new one beside
-/// it.
+/// The files that the user of a scene allows it to name. Unless the scene is trusted as a whole, it names no files
+/// outside of its folder and the working folder except files that are typed or named before, and it writes only to new
+/// files next to itself.
 struct SceneTrust {
-  std::string file{};                ///< of the scene
+  std::string file{};                ///< the scene's file
   std::vector<std::string> typed{};  ///< words of the command line
-  std::vector<std::string> named{};  ///< of an earlier one
+  std::vector<std::string> named{};  ///< words of an earlier command line
   bool is_whole = false;             ///< --trust-scene
   bool replaces = false;             ///< --force
-  std::string advice{};              ///< how this door lets a scene name a file outside: the end of a sentence
+  std::string advice{};              ///< how the user can allow a file outside of the folder: the end of a sentence
 
-  /// A path of the scene as seen from here: one that is read is looked for in the scene's folder, then in the working
-  /// folder. Throws InputError for one that it may not name. place: in the scene.
+  /// Returns a path of the scene relative to the working folder. A path to read is searched in the scene's folder, then
+  /// in the working folder. place: the place of the path in the scene. Throws InputError for a path that the scene may
+  /// not name.
   std::string path(const Property& property, const std::string& text, const std::string& place) const;
 
  private:
   bool has(const std::string& path) const;
 };
 
-/// A sentence about a value that is not UTF-8, such as the name of a file, which would be another in the text of the
-/// scene; empty: there is none.
+/// Returns a sentence about a value that is not UTF-8, such as a file name, because the text of the scene would change
+/// it; empty if there is none.
 std::string scene_fault(const Scene& scene);
 
 }  // namespace meniscus

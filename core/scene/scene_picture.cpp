@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kFewPixels = 3e5, kMostPixels = 2e6;
 
-/// Atoms of which a picture should show some.
+/// Atoms that a picture should show at least partly.
 struct Sought {
   std::string what;
   std::vector<std::uint32_t> atoms;  ///< places in shown_atoms()
@@ -62,7 +62,7 @@ std::vector<Sought> sought_in(const Scene& scene, const std::vector<Atom>& atoms
   if (!with_colors) return sought;
   if (scene.molecule.patches) add("patches", scene.molecule.patches->text(), *scene.molecule.patches);
   const std::vector<ColorRule>& rules = scene.molecule.color.rules;
-  for (auto rule = rules.rbegin(); rule != rules.rend(); ++rule)  // the last one counts
+  for (auto rule = rules.rbegin(); rule != rules.rend(); ++rule)  // the last rule of an atom counts
     for (const std::uint32_t a : add("color", color_rule_text(*rule), rule->atoms).atoms) taken[a] = true;
   return sought;
 }
@@ -74,7 +74,7 @@ void look_for(std::vector<Sought>& sought, const std::vector<Atom>& atoms, const
         one.is_seen || std::ranges::any_of(one.atoms, [&](std::uint32_t a) { return seen.contains(atoms[a].index); });
 }
 
-/// The end of a sentence: the turns after which some of the atoms are seen.
+/// Returns the end of a sentence: the turns after which some of the atoms are visible.
 std::string advice(const Sought& hidden, const std::vector<Atom>& atoms, const Camera& camera, const CastSurvey& cast,
                    glm::ivec2 size) {
   std::vector<Ball> all, own;
@@ -134,7 +134,7 @@ Strips scene_strips(const Scene& scene, glm::ivec2 size) {
 
 SurfaceRequest picture_request(const Scene& scene) {
   SurfaceRequest request = scene.molecule.surface;
-  // Volume maps are looked up point by point on the CPU.
+  // The CPU looks up values of volume maps point by point.
   request.cpu = request.cpu || scene.molecule.color.of_points();
   return request;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the values of a scene are bound to its members: each row says where a property is held, how it is read from text,
+// How the values of a scene are bound to its members: each row has the member of a property, how it is read from text,
 // and how it is written.
 #pragma once
 
@@ -30,23 +30,23 @@ struct SceneValue {
   Written (*write)(const Property& property, const Scene& scene);
 };
 
-/// The rows, by subject.
+/// Return the rows of one subject.
 std::span<const SceneValue> molecule_values();
 std::span<const SceneValue> surface_values();
 std::span<const SceneValue> picture_values();
 
-/// The part of complete() that is about the molecule, its colours and its interface. Throws ValueError.
+/// Completes the molecule, its colours and its interface: a part of complete(). Throws ValueError.
 void complete_molecule(Scene& scene);
 
-/// With all its defaults.
+/// Returns the scene with all defaults.
 const Scene& usual_scene();
 
-/// A number in the range of its property. Throws RequestError.
+/// Parses a number in the range of its property. Throws RequestError.
 double number_in_range(const Property& property, const std::string& text);
-/// Throws RequestError for a text that is not one of the words.
+/// Returns the place of the text among the words. Throws RequestError if it is not one of them.
 std::size_t place_of_word(const std::vector<std::string>& words, const std::string& text);
 
-// Values of common types: read from texts, of which the last counts, and written unless they are the usual ones.
+// Values of common types are read from texts, of which the last counts, and written unless they have their defaults.
 
 template <typename Number>
 requires std::is_arithmetic_v<Number>
@@ -91,15 +91,16 @@ Written written(const std::optional<Value>& value, const std::optional<Value>&) 
     return {*value};
 }
 
-/// A value whose type says how it is read. Member: a function without state from a scene to the address of it.
+/// Returns the row of a value that is read by its type. Member: a stateless function that returns the address of the
+/// value in a scene.
 template <typename Member>
 constexpr SceneValue plain(std::string_view key, Member) {
   return {key, [](const Property& property, Texts texts, Scene& scene) { read(property, texts, *Member{}(scene)); },
           [](const Property&, const Scene& scene) { return written(*Member{}(scene), *Member{}(usual_scene())); }};
 }
 
-/// One of the property's words. meanings: of them, in their order. Scene files of version 0.1.0 have the number of the
-/// enumerator instead.
+/// Returns the row of a value that is one of the property's words. meanings: one per word, in the same order. Scene
+/// files of version 0.1.0 have the number of the enumerator instead of the word.
 template <auto... meanings, typename Member>
 constexpr SceneValue worded(std::string_view key, Member) {
   using Value = std::common_type_t<decltype(meanings)...>;
@@ -119,7 +120,7 @@ constexpr SceneValue worded(std::string_view key, Member) {
   return {key, read_word, write_word};
 }
 
-/// A value of which parse() reads one text, or one of each text where it is a list, and text() writes it.
+/// Returns the row of a value that parse() reads and text() writes. parse() reads one text, or each text of a list.
 template <auto parse, auto text, typename Member>
 constexpr SceneValue coded(std::string_view key, Member) {
   constexpr auto read_text = [](const Property&, Texts texts, Scene& scene) {
@@ -143,7 +144,7 @@ constexpr SceneValue coded(std::string_view key, Member) {
   return {key, read_text, write_text};
 }
 
-/// A colour, or nothing for the word that stands for none. Throws RequestError.
+/// Parses a colour. Returns nothing for the word `none`. Throws RequestError.
 std::optional<glm::vec3> parse_color_or(std::string_view none, const std::string& text);
 inline std::optional<glm::vec3> parse_any_color(const std::string& text) { return parse_color_or("", text); }
 

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kMillimetersPerInch = 25.4, kPointsPerInch = 72.0;
 
-/// Whether it is known how many pixels a length is: of one on paper once the resolution is.
+/// True if the length is known in pixels: a length on paper needs the resolution.
 bool is_settled(const Length& length, double dots_per_inch) { return length.per_inch == 0.0 || dots_per_inch > 0.0; }
 
 }  // namespace
@@ -141,7 +141,7 @@ const SceneValue* value_of(std::string_view key) {
   return nullptr;
 }
 
-// Values that depend on each other.
+// The values that depend on each other follow.
 
 void complete_lengths(Scene& scene) {
   if (scene.picture.dots_per_inch == 0.0 && std::ranges::any_of(scene.lengths, [](const auto& length) {

@@ -10,7 +10,8 @@
 namespace meniscus {
 namespace {
 
-/// By what they are evaluated on: all atoms of the file, or those of the surface and beside it.
+/// Selections by the atoms that they are evaluated on: all atoms of the file, or the atoms of the surface and those
+/// drawn in addition.
 struct Expressions {
   std::vector<Selection*> of_file, of_surface;
 

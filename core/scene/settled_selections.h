@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// --select-once: selections that depend on positions keep the atoms of the first frame in all frames of a run.
+// Implements --select-once: selections that depend on positions keep the atoms of the first frame in all frames of a
+// run.
 #pragma once
 
 #include <vector>
@@ -8,9 +9,9 @@
 
 namespace meniscus {
 
-/// If RunRequest::select_once says so, settles all selections of the scene that depend on positions, before anything is
-/// made of them. of_atoms: more of them, of atoms of the surface. Throws RequestError where there are none; else as
-/// FrameRun.
+/// If RunRequest::select_once is set, replaces all selections of the scene that depend on positions by the atoms that
+/// they select in the first frame. Must be called before the scene is used. of_atoms: further selections, of atoms of
+/// the surface. Throws RequestError if no selection depends on positions; otherwise like FrameRun.
 void settle_selections(Scene& scene, const std::vector<Selection*>& of_atoms = {});
 
 }  // namespace meniscus

@@ -57,14 +57,14 @@ void require_probe_of_kind(const SurfaceRequest& request) {
 
 namespace {
 
-/// Any GL will do, but hardware is better.
+/// Returns the device that verifies. Any GL is sufficient, but hardware is faster.
 DeviceChoice gl_for_verifying(const SurfaceRequest& request) {
   DeviceChoice choice = request.gl;
   choice.kind = DeviceChoice::Kind::automatic;
   return choice;
 }
 
-// Names every difference: all of them, for a bug report is useless with the first few.
+// Throws an error that names every difference, because a bug report with only the first few is useless.
 void require_equal(const Surface& a, const std::string& device_a, const Surface& b, const std::string& device_b) {
   const std::vector<std::string> found = differences(a, b);
   if (found.empty()) return;
@@ -84,7 +84,8 @@ SurfaceComputer::SurfaceComputer(const SurfaceRequest& request, const EglContext
   if (!request.cpu && request.gl.kind == DeviceChoice::Kind::automatic) on_cpu_ = !find_hardware();
 }
 
-// Automatic never lands on software GL. A list of devices does not tell: only a context knows its renderer.
+// The automatic choice is never software GL. A list of devices does not show which they are: only a context knows its
+// renderer.
 bool SurfaceComputer::find_hardware() {
   if (context_) return !context_->is_software();
   DeviceChoice hardware = request_.gl;
@@ -93,7 +94,7 @@ bool SurfaceComputer::find_hardware() {
     engine_ = make_gpu_engine(hardware);
     return true;
   } catch (const GpuError&) {
-    return false;  // no EGL, no GPU, or none with GL 4.5
+    return false;  // EGL or a GPU is missing, or has no GL 4.5
   }
 }
 
@@ -122,7 +123,7 @@ Surface SurfaceComputer::compute(std::span<const Ball> balls) {
 
 void SurfaceComputer::verify(const Surface& surface, std::span<const Ball> balls, double probe_radius) {
   if (!verifier_) verifier_ = make_engine(!on_cpu_, gl_for_verifying(request_));
-  StageClock unused;  // the other device's time is not this one's
+  StageClock unused;  // the time of the other device is not reported
   const Surface other = compute_surface(*verifier_, balls, probe_radius, unused);
   require_equal(surface, engine_->device(), other, verifier_->device());
   if (surface.certificate.closed && request_.check) request_.check(surface);

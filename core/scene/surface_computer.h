@@ -21,7 +21,7 @@
 
 namespace meniscus {
 
-/// Holds as long as it lives; 0: all threads.
+/// Limits the number of threads while it exists; 0: all threads.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads) {
@@ -31,8 +31,8 @@ class ThreadLimit {
   }
 
  private:
-  /// Not when an exception passes: oneTBB that got no memory may hold a lock for ever, and would wait for it. The limit
-  /// stays in force then, as all of a program have the same.
+  /// Keeps the limit if an exception passes: oneTBB that got no memory may hold a lock for ever, and ending the limit
+  /// would wait for it. That is harmless because the whole program has one limit.
   struct End {
     void operator()(tbb::global_control* limit) const noexcept {
       if (std::uncaught_exceptions() == 0) delete limit;
@@ -44,76 +44,81 @@ class ThreadLimit {
 
 struct Surface;
 
-/// Which surface of the atoms.
+/// The kind of a surface of atoms.
 enum class SurfaceKind {
-  ses,  ///< solvent-excluded: what the probe cannot reach
-  sas,  ///< solvent-accessible: where the probe's centre can be; the boundary of the balls of radius r + probe radius
+  ses,  ///< solvent-excluded: the boundary of the volume that the probe cannot reach
+  sas,  ///< solvent-accessible: the boundary of the balls of radius r + probe radius, where the probe's centre can be
   vdw   ///< van der Waals: the boundary of the balls themselves; no probe
 };
 
-/// "ses", "sas" or "vdw".
+/// Returns "ses", "sas" or "vdw".
 const char* kind_word(SurfaceKind kind);
 
-/// What is wrong with a probe radius (Å) and what would be right; empty if nothing is.
+/// Returns what is wrong with a probe radius (Å) and what would be right; empty if it is valid.
 std::string probe_fault(double radius);
 
-/// Which surface is computed, and where: on the CPU, or through GL.
+/// The surface to be computed, and its device: the CPU, or a GPU through GL.
 struct SurfaceRequest {
   SurfaceKind kind = SurfaceKind::ses;
   double probe_radius = kUsualProbe;  ///< Å
-  bool probe_named = false;           ///< whether someone asked for it; a van der Waals surface has none
-  bool cpu = false;                   ///< on the CPU; else on GL
+  bool probe_named = false;           ///< true if the user set it; a van der Waals surface has none
+  bool cpu = false;                   ///< true: on the CPU; false: on GL
   DeviceChoice gl;                    ///< automatic: a hardware GPU if there is one, else the CPU
-  bool verify = false;                ///< compute on the other device too and compare
-  /// With `verify`, a further look at each closed surface, such as by its mesh; throws OpenSurfaceError. May be empty.
+  bool verify = false;                ///< true: compute on the other device too, and compare
+  /// An additional check of each closed surface with `verify`, such as by its mesh; throws OpenSurfaceError. May be
+  /// empty.
   std::function<void(const Surface&)> check;
   bool drawn = true;     ///< false: for numbers only, see ClipPlanes::left_out
-  bool bordered = true;  ///< false: nobody needs tables of vertices, borders and faces; large surfaces may lack them
+  bool bordered = true;  ///< false: tables of vertices, borders and faces are not needed; large surfaces may lack them
   int threads = 0;       ///< CPU threads; 0: all
-  StageTiming timing = StageTiming::rough;  ///< exact: someone looks at the times of stages
+  StageTiming timing = StageTiming::rough;  ///< exact: times of stages are reported
 };
 
-/// What the balls grow by (Å) before a probe rolls over them.
+/// Returns the growth of the balls (Å) before a probe rolls over them.
 double growth_of(SurfaceKind kind, double probe_radius);
-/// The radius (Å) of the probe that rolls over the grown balls; 0: the surface is theirs.
+/// Returns the radius (Å) of the probe that rolls over the grown balls; 0: the surface is the balls' own.
 double rolling_probe(SurfaceKind kind, double probe_radius);
 
-/// The balls with radii larger by `growth` (Å).
+/// Returns the balls with radii larger by `growth` (Å).
 std::vector<Ball> grown(std::span<const Ball> balls, double growth);
 
-/// Throws RequestError where a probe is named for a surface that has none.
+/// Throws RequestError if the user set a probe for a surface that has none.
 void require_probe_of_kind(const SurfaceRequest& request);
 
 class EglContext;
 class ReducedSurfaceEngine;
 
-/// A surface and how it came to be.
+/// A surface, and the device and times of its computation.
 struct ComputedSurface {
   Surface surface;
   std::string device;  ///< "cpu (16 threads)", or GL renderer and version
   std::vector<StageTime> stages;
 };
 
-/// Computes any number of surfaces on the device that was asked for.
+/// Computes any number of surfaces on the requested device.
 class SurfaceComputer {
  public:
-  /// Automatic takes a hardware GPU if there is one, else the CPU, which is faster than software GL. What runs on GL
-  /// runs in `context`, if there is one: it is current and lives longer; else in a context of its own. Throws
-  /// RequestError for a van der Waals surface with a probe.
+  /// The automatic choice is a hardware GPU if there is one, else the CPU, which is faster than software GL. context: a
+  /// current context, which must outlive this object; work on GL is done in it; nullptr: in a context of its own.
+  /// Throws RequestError for a van der Waals surface with a probe.
   explicit SurfaceComputer(const SurfaceRequest& request, const EglContext* context = nullptr);
   ~SurfaceComputer();
 
-  /// balls: van der Waals. Sas and vdw surfaces are made of balls without a probe: of these grown, or of these.
-  /// With `verify` the surface is computed on the other device as well (software GL if need be) and checked further,
-  /// and every difference is an error. Look at its certificate. Throws OpenSurfaceError, CapacityError, GpuError.
+  /// Returns the surface of van der Waals balls. Sas and vdw surfaces are made without a probe: of the grown balls, or
+  /// of the balls themselves.
+  /// With `verify` the surface is computed on the other device as well (software GL if necessary) and checked further,
+  /// and every difference is an error. The caller must look at the surface's certificate. Throws OpenSurfaceError,
+  /// CapacityError, GpuError.
   Surface compute(std::span<const Ball> balls);
 
-  /// Whether surfaces are made on the CPU alone, so not verified by GL; then, and only then, on any thread.
+  /// True if surfaces are computed on the CPU alone, so not verified by GL; then, and only then, compute() may run on
+  /// any thread.
   bool is_on_cpu() const { return on_cpu_ && !request_.verify; }
   const std::string& device() const { return device_; }  ///< "cpu (16 threads)", or GL renderer and version
-  const std::vector<StageTime>& stages() const { return clock_.times(); }  ///< of all surfaces since the last restart
+  /// Returns the times of all surfaces since the last restart.
+  const std::vector<StageTime>& stages() const { return clock_.times(); }
   void restart_clock() { clock_.restart(); }
-  /// look: called before each stage; what it throws ends the computation.
+  /// look: called before each stage; an exception that it throws ends the computation.
   void before_stages(std::function<void()> look) { clock_.before_stages(std::move(look)); }
 
  private:
@@ -125,15 +130,15 @@ class SurfaceComputer {
   const EglContext* context_;
   ThreadLimit thread_limit_;
   bool on_cpu_;
-  std::unique_ptr<ReducedSurfaceEngine> engine_, verifier_;  // verifier_: with --verify, on the other device
+  std::unique_ptr<ReducedSurfaceEngine> engine_, verifier_;  // verifier_: on the other device, with --verify only
   std::string device_;
   StageClock clock_;
 };
 
-/// One closed surface. Throws what SurfaceComputer::compute throws, and OpenSurfaceError if it is not closed.
+/// Returns one closed surface. Throws like SurfaceComputer::compute, and OpenSurfaceError if the surface is not closed.
 ComputedSurface compute_surface(std::span<const Ball> balls, const SurfaceRequest& request);
 
-/// The sum of all stages.
+/// Returns the sum of the times of all stages, ms.
 double total_ms(const std::vector<StageTime>& stages);
 
 }  // namespace meniscus

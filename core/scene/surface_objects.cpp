@@ -41,7 +41,7 @@ void require_closed(const SurfaceObject& object, const Structure& structure) {
                   certificate.open_atoms.size(), atoms));
 }
 
-/// A group of atoms and where it is. Only atoms with the same motions can share a surface.
+/// A group of atoms, and the motions of its copies. Only atoms with the same motions can share a surface.
 struct PlacedGroup {
   AtomGroup group;
   std::vector<RigidMotion> copies{RigidMotion{}};
@@ -81,7 +81,7 @@ SurfaceObject compute(const Structure& structure, PlacedGroup placed, SurfaceCom
   return object;
 }
 
-/// atoms: of each group, those of the structure.
+/// Throws InputError if a probe can touch two copies. atoms: for each group, the places of its balls in the structure.
 void require_apart(const Structure& structure, std::span<const CopiedBalls> groups,
                    std::span<const std::span<const std::uint32_t>> atoms, double probe_radius) {
   const std::optional<CopyContact> contact = closest_contact(groups, probe_radius);
@@ -95,8 +95,8 @@ void require_apart(const Structure& structure, std::span<const CopiedBalls> grou
                            place(contact->ball[0]), place(contact->ball[1]), contact->distance));
 }
 
-/// Copies have to keep clear of each other, unless each is wanted as if it were alone: by --instances separate, or as
-/// copies of chains and residues are chains and residues of their own.
+/// Throws InputError if copies do not keep clear of each other. They need not if each has a surface as if it were
+/// alone: with --instances separate, or if groups are chains or residues, because each copy has its own.
 void require_apart(const Structure& structure, const Division& division, std::span<const SurfaceObject> objects) {
   if (division.instances != InstanceMode::exact) return;
   if (division.groups == Grouping::chain || division.groups == Grouping::residue) return;
@@ -111,7 +111,7 @@ void require_apart(const Structure& structure, const Division& division, std::sp
   }
 }
 
-// The object made of some of another one's components.
+// Returns an object of some components of another one.
 SurfaceObject part_of(const SurfaceObject& whole, const std::vector<bool>& keep, std::string name) {
   SurfacePart part = part_of(whole.surface, keep);
   SurfaceObject object;

@@ -11,40 +11,40 @@
 
 namespace meniscus {
 
-/// Which closed parts of the surface are taken.
+/// The closed parts of the surface that are used.
 enum class Cavities {
-  keep,  ///< all of them
-  drop,  ///< those that the outside reaches: no cavities, and nothing that lies in one
-  only   ///< the others
+  keep,  ///< all parts
+  drop,  ///< the parts that the outside reaches: no cavities, and nothing inside one
+  only   ///< cavities, and what is inside them
 };
 
-/// What becomes of the copies of an assembly.
+/// The treatment of the copies of an assembly.
 enum class InstanceMode {
-  none,     ///< they are atoms like all others, under one surface
-  exact,    ///< one copy is computed; refused unless that gives the surface of the whole
-  separate  ///< one copy is computed as if alone
+  none,     ///< atoms of copies are atoms like all others, under one surface
+  exact,    ///< one copy is computed; an error unless that gives the surface of the whole
+  separate  ///< one copy is computed as if it were alone
 };
 
-/// What the surface is divided into.
+/// The division of the surface into objects.
 struct Division {
-  std::optional<Grouping> groups;  ///< each group of atoms has a surface of its own, as if it were alone
-  bool components = false;         ///< each closed part is an object
+  std::optional<Grouping> groups;  ///< one surface for each group of atoms, as if it were alone
+  bool components = false;         ///< true: each closed part is an object
   Cavities cavities = Cavities::keep;
   InstanceMode instances = InstanceMode::none;
 };
 
-/// Closed surfaces with their names and atoms, not yet coloured. A group of atoms may have none: with --cavities only.
-/// Throws OpenSurfaceError, naming atoms by chain, residue and name; CapacityError, GpuError; Error when no part of the
-/// surface is left.
+/// Returns closed surfaces with their names and atoms, not yet coloured. With --cavities a group of atoms may have
+/// none. Throws OpenSurfaceError, naming atoms by chain, residue and name; CapacityError, GpuError; Error if no part of
+/// the surface is left.
 std::vector<SurfaceObject> surface_objects(const Structure& structure, const Division& division,
                                            SurfaceComputer& computer);
 
-/// Throws InputError, naming two atoms, where one probe can touch two copies of the structure at once: then copies of
-/// one surface are not the surface of the whole.
+/// Throws InputError, naming two atoms, if one probe can touch two copies of the structure at once: then copies of one
+/// surface are not the surface of the whole.
 void require_apart(const Structure& structure, double probe_radius);
 
-/// The largest of all certificates, in Å; 0 as a rule: by how much radii were grown to tell ties apart, and for radii
-/// how near the given ones the surfaces are exact.
+/// The largest values of the certificates of all objects, Å; usually 0. grown_by: the growth of radii by which ties are
+/// decided. exact_within: the surfaces are exact for radii that differ from the given ones by at most this.
 struct RadiiChange {
   double grown_by = 0.0;
   double exact_within = 0.0;

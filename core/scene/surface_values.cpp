@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Binds the values of the surface, its colours and cuts, and the shapes beside it.
+// Binds the values of the surface, its colours and cuts, and the shapes drawn in addition to it.
 #include <array>
 #include <optional>
 #include <utility>
@@ -19,7 +19,7 @@
 namespace meniscus::scene_values {
 namespace {
 
-// The surface.
+// The values of the surface follow.
 
 void read_probe(const Property&, Texts texts, Scene& scene) {
   double radius = 0.0;
@@ -53,7 +53,7 @@ Written write_device(const Property&, const Scene& scene) {
   return written(to_string(scene.molecule.surface.gl), to_string(DeviceChoice{}));
 }
 
-/// "auto" becomes any hardware GPU and nothing else; set behind the device.
+/// Restricts "auto" to hardware GPUs; it is set after the device.
 void read_require_gpu(const Property&, Texts texts, Scene& scene) {
   SurfaceRequest& surface = scene.molecule.surface;
   if (texts.back() == "false") return;
@@ -82,9 +82,9 @@ Written write_division(const Property& property, const Scene& scene) {
 
 std::string interface_text(const InterfaceRequest& sides) { return sides.left.text() + ":" + sides.right.text(); }
 
-// Colours.
+// The values of colours follow.
 
-/// A scheme for all, or a rule for some.
+/// Reads a scheme for all atoms, or a rule for some.
 void read_color(const Property&, Texts texts, Scene& scene) {
   ColorScheme& color = scene.molecule.color;
   for (const std::string& text : texts) {
@@ -128,9 +128,9 @@ std::string opacity_text(const OpacityRule& rule) {
   return (rule.atoms ? rule.atoms->text() + "=" : "") + fmt::format("{}", rule.opacity);
 }
 
-// The figure.
+// The values of the figure follow.
 
-/// Is written as what it stands for.
+/// Sets the three values that this property is short for. They are written instead of it.
 void read_look_into(const Property&, Texts texts, Scene& scene) {
   scene.picture.zoom_to = parse_selection(texts.back());
   scene.picture.direction = parse_view_direction("open");
@@ -160,7 +160,7 @@ constexpr SceneValue shapes(std::string_view key) {
           }};
 }
 
-/// Says of which object a fault is.
+/// Reads objects; messages of errors say which object they refer to.
 void read_objects(const Property&, Texts texts, Scene& scene) {
   const auto named = [&](std::size_t n, std::string_view fault) {
     constexpr std::string_view kPrefix = "object: ";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws both sides of a transition with what they have in common on the way, and blends them.
+// Draws both sides of a transition with their common values on the way, and blends them.
 #include "core/scene/transition.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ glm::vec3 color_between(const glm::vec3& from, const glm::vec3& to, double share
   return srgb_from_linear(between(linear_from_srgb(from), linear_from_srgb(to), share));
 }
 
-/// The camera with another projection: it shows the same of the plane of its target. lens: has that projection.
+/// Returns the camera with another projection and the same view of the plane of its target. lens: has that projection.
 Camera seen_through(const Camera& camera, const Camera& lens) {
   if (camera.projection == lens.projection) return camera;
   const auto half_angle = [](double fov) { return fov * std::numbers::pi / 360.0; };
@@ -52,14 +52,14 @@ Camera seen_through(const Camera& camera, const Camera& lens) {
   return seen;
 }
 
-/// The offset at which a plane with this normal cuts nothing of the balls.
+/// Returns the offset at which a plane with this normal cuts none of the balls.
 double offset_outside(const glm::dvec3& normal, std::span<const Ball> balls) {
   double most = -std::numeric_limits<double>::infinity();
   for (const Ball& ball : balls) most = std::max(most, glm::dot(normal, ball.center) + ball.radius);
   return most;
 }
 
-/// Values that change steadily, and those that say nothing about what is drawn.
+/// True unless the value changes steadily or does not affect what is drawn.
 bool is_drawn_as_it_is(const Property& property) {
   constexpr std::array<std::string_view, 5> kSections{"molecule", "frames", "surface", "shapes", "objects"};
   constexpr std::array<std::string_view, 6> kOthers{"surface.probe",       "surface.clip",       "surface.device",
@@ -69,7 +69,7 @@ bool is_drawn_as_it_is(const Property& property) {
          std::ranges::find(kOthers, property.key) == kOthers.end();
 }
 
-/// Radii in Å that both scenes have.
+/// The radii of a scene, Å.
 struct Radii {
   double probe, stick, tube;
 
@@ -93,13 +93,13 @@ void set_radii(const Radii& radii, Scene& scene) {
   if (shapes.tube_radius) shapes.tube_radius = radii.tube;
 }
 
-/// Blends into the first, pixel by pixel.
+/// Blends the second picture into the first, pixel by pixel.
 void blend(Framebuffer& from, const Framebuffer& to, double share) {
   assert(from.size == to.size);
   for (std::size_t n = 0; n < from.color.size(); ++n) from.color[n] = between(from.color[n], to.color[n], share);
 }
 
-/// Both with alpha multiplied in.
+/// Lays the second picture over the first; both have premultiplied alpha.
 void lay_over(Framebuffer& picture, const Framebuffer& over) {
   assert(picture.size == over.size);
   for (std::size_t n = 0; n < picture.color.size(); ++n)
@@ -166,7 +166,7 @@ Look look_between(const Look& from, const Look& to, double share) {
   Look look = from;
   Look other = to;
   for (const LookNumber& number : look_numbers()) {
-    // Few rays are a noisy picture, and not on the way to many.
+    // The number of rays does not change steadily, because few rays make a noisy picture.
     if (!number.in || &number.in(look) == &look.ambient_occlusion_rays) continue;
     number.in(look) = between(number.in(look), number.in(other), share);
   }
@@ -209,7 +209,7 @@ Transition::Transition(Shot from, Shot to, const EglContext* context)
       balls_.push_back(ball);
     }
   }
-  // Frames of a run have other atoms' places, whatever their scenes say.
+  // Frames of a run have other positions, even if their scenes are equal.
   const bool is_of_run = first.frames.asked() || second.frames.asked();
   is_steady_ = !is_of_run && from_.shot.camera.projection == to_.shot.camera.projection &&
                look_between(from_.look, to_.look, 1.0) == look_between(to_.look, from_.look, 0.0) &&

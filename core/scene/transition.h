@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The way from one figure of a film to the next: what is a number changes steadily, all else dissolves.
+// The transition from one figure of a film to the next: numbers change steadily, all else dissolves.
 #pragma once
 
 #include <cstddef>
@@ -19,71 +19,74 @@
 
 namespace meniscus {
 
-/// A figure as its scene shows it, ready to be drawn.
+/// A figure of a scene, ready to be drawn.
 struct Shot {
-  Scene scene;  ///< readied(), with its selections settled
+  Scene scene;  ///< made by readied(), after settle_selections()
   Figure figure;
   Camera camera;
   std::shared_ptr<const PictureLayout> layout;
   Annotations annotations;
 };
 
-/// What is drawn of the molecule of a scene.
+/// The molecule of a scene, ready to be drawn.
 struct MoleculeShot {
-  Scene scene;  ///< its cuts are planes where there is a transition
+  Scene scene;  ///< in a transition, its cuts are planes
   Figure figure;
   Camera camera;
   RenderSettings settings;
 };
 
-/// The pace of a transition. smooth: it starts and ends slowly.
+/// The pace of a transition. smooth: it starts and ends slowly; even: its speed is constant.
 enum class Pace { smooth, even };
 
-/// The share of the way that is done after a share of the time, both from 0 to 1.
+/// Returns the share of the way that is done after a share of the time, both from 0 to 1.
 double eased(double time, Pace pace);
 
-/// How the molecule of a shot is drawn.
+/// Returns the settings for drawing the molecule of a shot.
 RenderSettings settings_of(const Shot& shot);
 
-/// The whole picture of a shot, without its background. molecule: drawn so.
+/// Returns the whole picture of a shot, without its background. molecule: drawn with settings_of().
 Framebuffer picture_of(const Shot& shot, Framebuffer molecule);
 
-/// The camera, `share` (0 to 1) of the way from one to the other along a CameraPath. It has the projection of the
-/// first; where that of the second differs, it ends with what the second shows in the plane of its target.
+/// Returns the camera after a `share` (0 to 1) of the way from one to the other along a CameraPath. It has the
+/// projection of the first; if the second has another one, the way ends with the second's view of the plane of its
+/// target.
 Camera camera_between(const Camera& from, const Camera& to, double share);
 
-/// Å. `from`, unless both are above 0: no radius grows out of nothing, or out of one that nobody chose.
+/// Returns a radius in Å between two; `from` unless both are above 0, because a radius must not grow from nothing, or
+/// from a default.
 double radius_between(double from, double to, double share);
 
-/// The planes as cuts.
+/// Returns the planes as cuts.
 std::vector<Cut> cuts_at(std::span<const ClipPlane> planes);
 
-/// Planes on the way from some to others. The first goes over into the first, and so on. One that has no partner, or
-/// turns by a right angle or more, leaves the balls along its normal, or comes from outside.
+/// Returns planes on the way from some to others. The first plane becomes the first of the others, and so on. A plane
+/// without a partner leaves the balls along its normal, or comes from outside; so do partners whose normals differ by a
+/// right angle or more.
 std::vector<ClipPlane> planes_between(std::span<const ClipPlane> from, std::span<const ClipPlane> to,
                                       std::span<const Ball> balls, double share);
 
-/// The look whose numbers and colours are on the way from one to the other; the rest is as in the first.
+/// Returns the look with numbers and colours on the way from one to the other; the rest is from the first.
 Look look_between(const Look& from, const Look& to, double share);
 
-/// The probe's radius, radii of sticks and tubes, cut planes, the camera, and the numbers of the look change steadily.
-/// What else differs dissolves: both scenes are drawn with the same camera and the same numbers, and their pictures
-/// are blended in linear light. So an object that only one of them has fades in or out, and what they share stays.
-/// A legend takes its part of the picture from the molecule, or gives it back, steadily.
+/// A transition between two shots. The probe's radius, radii of sticks and tubes, cut planes, the camera, and the
+/// numbers of the look change steadily. All other differences dissolve: both scenes are drawn with the same camera and
+/// the same numbers, and their pictures are blended in linear light. So an object that only one of them has fades in or
+/// out, and common objects stay. The legend's part of the picture grows or shrinks steadily.
 class Transition {
  public:
-  /// Both have pictures of one size. context: in which surfaces are computed again; nullptr: on the CPU.
+  /// Both shots must have pictures of one size. context: computes surfaces on GL again; nullptr: on the CPU.
   Transition(Shot from, Shot to, const EglContext* context);
 
-  /// The whole picture, without its background. share: from 0, the picture of the first shot, to 1. Throws as computing
-  /// and drawing do.
+  /// Returns the whole picture, without its background. share: from 0, the picture of the first shot, to 1. Throws like
+  /// computing and drawing.
   Framebuffer picture(double share, StillRenderer& renderer);
 
-  /// What is drawn of the molecule there: of the first scene and, if something dissolves, of the second. Their pictures
-  /// have the weights 1 - share and share. Throws as computing does.
+  /// Returns the molecule's part of that picture: the shot of the first scene and, if something dissolves, of the
+  /// second. Their pictures have the weights 1 - share and share. Throws like computing.
   std::vector<MoleculeShot> shots(double share) const;
 
-  /// The colour behind that picture, sRGB; nothing: transparent, or a film's own.
+  /// Returns the background of that picture, sRGB; nothing: transparent, or a film's own.
   std::optional<glm::vec3> background(double share) const;
 
  private:
@@ -93,7 +96,7 @@ class Transition {
     Look look;
   };
   static Side side_of(Shot shot);
-  /// Where the molecule is in the picture: below some rows, at the left.
+  /// The molecule's place in the picture: below some rows, at the left.
   struct Place {
     glm::ivec2 size;
     Strips strips;
@@ -104,7 +107,7 @@ class Transition {
   Framebuffer finished(const Framebuffer& drawn, const Side& side, double share) const;
 
   Side from_, to_;
-  std::vector<Ball> balls_;  ///< of both, as far as a surface may reach
+  std::vector<Ball> balls_;  ///< balls of both sides, grown to the farthest extent of a surface
   const EglContext* context_;
   bool is_steady_ = false;
 };

@@ -25,7 +25,7 @@ std::vector<Ball> picked(std::span<const Ball> balls, const std::vector<bool>& o
   return result;
 }
 
-/// Of every copy of every object.
+/// Returns the balls of the picked atoms, for every copy of every object.
 std::vector<Ball> picked(std::span<const SurfaceObject> objects, const std::vector<bool>& of_atom) {
   std::vector<Ball> result;
   for (const SurfaceObject& object : objects)
@@ -36,7 +36,7 @@ std::vector<Ball> picked(std::span<const SurfaceObject> objects, const std::vect
   return result;
 }
 
-/// Where the copies of an assembly are, by what they have in common with the first.
+/// Returns the motions of the copies of an assembly, found from the atoms that they share with the first.
 std::vector<RigidMotion> copy_motions(const Structure& structure) {
   std::vector<RigidMotion> motions;
   for (const Instances& instances : structure.instances)
@@ -117,7 +117,7 @@ ViewedAtoms ViewAim::viewed(std::span<const SurfaceObject> objects) const {
   const std::vector<Ball> all = placed_balls(objects);
   if (shown_.empty() && framed_.empty() && balls_beside_.empty()) return {all, all};
   std::vector<Ball> shown = picked(objects, shown_), framed = picked(objects, framed_);
-  // Atoms may belong to a part of the surface that was dropped (--cavities).
+  // The selected atoms may belong to a part of the surface that was dropped (--cavities).
   if (shown.empty()) shown = all;
   for (std::vector<Ball>* const balls : {&shown, &framed})
     balls->insert(balls->end(), balls_beside_.begin(), balls_beside_.end());

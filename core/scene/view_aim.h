@@ -16,32 +16,33 @@
 
 namespace meniscus {
 
-/// Balls before a camera, and those of them that should fill the picture.
+/// The balls in a view, and the balls that must fill the picture.
 struct ViewedAtoms {
   std::vector<Ball> shown, framed;
 };
 
-/// Of the atoms of a structure those that are shown and those that should fill the picture, and where copies are.
+/// The atoms of a structure that are shown, the atoms that must fill the picture, and the places of copies.
 class ViewAim {
  public:
-  /// show: the atoms whose part of the surface is shown; nothing: all. Atoms beside the surface are shown, too, and can
-  /// be zoomed to. Throws RequestError if request.zoom_to selects none of them all or request.direction is that of an
-  /// axis which is not there, InputError if `show` selects none.
+  /// show: the atoms whose part of the surface is shown; nothing: all. Atoms drawn in addition to the surface are also
+  /// shown, and request.zoom_to may select them. Throws RequestError if request.zoom_to selects no atom at all, or if
+  /// request.direction is along an axis that the structure does not have; InputError if `show` selects none.
   ViewAim(const ViewRequest& request, const std::optional<Selection>& show, const Structure& structure);
 
-  /// What a picture of these objects of the structure shows, with their copies.
+  /// Returns the balls in a picture of these objects of the structure, with their copies.
   ViewedAtoms viewed(std::span<const SurfaceObject> objects) const;
-  /// What a picture of the figure shows: all that is drawn beside its surface fills the picture, too, unless
-  /// request.zoom_to says what does.
+  /// Returns the balls in a picture of the figure. Everything drawn in addition to its surface must fill the picture,
+  /// too, unless request.zoom_to selects other atoms.
   ViewedAtoms viewed(const Figure& figure) const;
 
-  /// The camera of such a picture. layout: the request with the size of the part of the picture that the molecule has.
+  /// Returns the camera of such a picture. layout: the request with the size of the molecule's part of the picture.
   Camera camera(const ViewRequest& layout, const std::optional<Camera>& given, const ViewedAtoms& seen) const;
-  /// Of a picture of the atoms, one ball each.
+  /// Returns the camera of a picture of the atoms, one ball per atom.
   Camera camera(const ViewRequest& layout, const std::optional<Camera>& given, std::span<const Ball> balls) const;
 
-  /// Balls of the atoms that are shown, and that fill the picture, wherever `structure` has the same atoms; those of
-  /// all copies (standing_balls). Atoms beside the surface are among the latter.
+  /// Return the balls of the atoms that are shown, or that must fill the picture, at the positions of `structure`,
+  /// which must have the same atoms; for copies, the balls of all copies (standing_balls). framed() includes atoms
+  /// drawn in addition to the surface.
   std::vector<Ball> shown(const Structure& structure) const;
   std::vector<Ball> framed(const Structure& structure) const;
   const std::optional<glm::dvec3>& symmetry() const { return symmetry_; }
@@ -50,14 +51,14 @@ class ViewAim {
   std::vector<Ball> framed_beside(const Structure& structure) const;
 
   std::vector<bool> shown_, framed_;  ///< per atom of the structure; empty: all
-  std::vector<bool> beside_;          ///< per atom of Structure::beside, whether it fills the picture
-  std::vector<Ball> balls_beside_;    ///< those that do
-  bool frames_all_ = true;            ///< no atoms were chosen to fill the picture
+  std::vector<bool> beside_;          ///< per atom of Structure::extra_atoms, true if it must fill the picture
+  std::vector<Ball> balls_beside_;    ///< the balls of these atoms
+  bool frames_all_ = true;            ///< true if no atoms were selected to fill the picture
   std::optional<glm::dvec3> symmetry_;
 };
 
-/// Is it certain, before any surface is computed, that a picture by this camera shows nothing of the structure? probe:
-/// Å, the farthest that a surface is from its atoms.
+/// True if it is certain, before any surface is computed, that a picture by this camera shows nothing of the structure.
+/// probe: the greatest distance of a surface from its atoms, Å.
 bool sees_nothing(const Camera& camera, double aspect, const Structure& structure, double probe);
 
 }  // namespace meniscus

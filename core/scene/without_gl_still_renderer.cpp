@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replaces the GL renderer in builds without epoxy: without a context it is never called.
+// Replaces the GL renderer in builds without epoxy; it is never called, because there is no context.
 #include "core/scene/renderers.h"
 
 namespace meniscus {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replaces the molecules of scenes in builds without gemmi, nlohmann_json or FreeType: there a scene has its look and
-// its picture only.
+// Replaces the molecules of scenes in builds without gemmi, nlohmann_json or FreeType. There a scene has only its look
+// and its picture.
 #include "core/scene/scene_value.h"
 
 namespace meniscus {
@@ -20,7 +20,7 @@ std::optional<ViewDirection> parse_view_direction(std::string_view) { refuse("si
 std::vector<std::string> view_direction_words() { return {}; }
 std::optional<Turn> parse_turn(std::string_view) { refuse("turns of molecules"); }
 
-bool ColorScheme::uses_scale() const { return has_scale(); }  // rules are not read
+bool ColorScheme::uses_scale() const { return has_scale(); }  // rules are not checked
 
 namespace scene_values {
 

@@ -6,7 +6,6 @@
 
 #include <glm/geometric.hpp>
 
-
 namespace meniscus {
 namespace {
 
