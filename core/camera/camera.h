@@ -103,8 +103,6 @@ Camera turned(const Camera& camera, const glm::dvec3& pivot, const glm::dvec3& a
 /// Returns the camera translated by `shift`, Å.
 Camera shifted(const Camera& camera, const glm::dvec3& shift);
 
-struct Camera;
-
 /// Returns the transform from the world, Å, to x right, y up and z along the view from the camera's position, Å:
 /// left-handed, as in OpenEXR. It is for column vectors; in memory, column after column, it is the matrix that OpenEXR
 /// stores for row vectors.

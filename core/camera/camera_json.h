@@ -32,8 +32,6 @@ std::string camera_path_json(const std::vector<CameraKey>& keys);
 /// Returns keys as a JSON object.
 nlohmann::ordered_json camera_path_object(const std::vector<CameraKey>& keys);
 
-struct Camera;
-
 /// Parses a camera of this program (parse_camera), of PyMOL (the 18 numbers of get_view, with or without set_view(...)
 /// around them) or of ChimeraX (`view matrix`: camera and 12 numbers, with or without models after them); the content
 /// decides which. PyMOL's clipping planes are ignored. If all models have the same placement, it is undone, so that the

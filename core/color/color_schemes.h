@@ -32,7 +32,6 @@ struct OpacityRule {
 };
 
 struct ColorRule;
-struct VolumePaint;
 
 /// A scheme such as "chain" or "#e69f00", and rules for some atoms.
 struct ColorScheme {
@@ -159,9 +158,7 @@ ColorRule named_color_rule(std::string_view text);
 /// Formats a rule as named_color_rule reads it.
 std::string color_rule_text(const ColorRule& rule);
 
-struct ColorScheme;
 struct Coloring;
-struct Structure;
 
 /// Returns one colour per atom of the structure, for a surface that is one object. Rules override the scheme, except
 /// where it colours by kind of patch. Throws InputError if colours are by a number and no atom has one, if a file has a

@@ -53,8 +53,6 @@ class PngStream {
   std::uint32_t sum_ = 1;
 };
 
-class PngStream;
-
 /// Writes a file (W3C, Portable Network Graphics, 2nd edition: 8 bits per channel) as its rows come, with the same
 /// pixels and notes as OpenImageIO. Throws CapacityError if there is not enough memory to compress.
 class PngEncoder {

@@ -20,9 +20,6 @@ inline constexpr double kSmoothingRadius = 2.0;
 /// their angles. Runs on all cores that TBB may use.
 std::vector<Curvature> smoothed_curvatures(const TriangleMesh& mesh, double radius = kSmoothingRadius);
 
-struct Surface;
-struct TriangleMesh;
-
 /// Returns sky_visibility() at each vertex of a mesh of the surface.
 std::vector<float> vertex_open_sky(const Surface& surface, const TriangleMesh& mesh);
 

@@ -17,12 +17,7 @@
 
 namespace meniscus {
 
-struct Ball;
 struct Camera;
-struct FineMesh;
-struct Surface;
-struct SurfaceObject;
-struct TriangleMesh;
 
 /// The tolerance (pixels) of meshes that are made for a camera: nothing finer can be seen.
 inline constexpr double kPixelsOfACamera = 0.5;
@@ -60,10 +55,6 @@ double estimated_triangles(const Surface& surface, const MeshFineness& fineness)
 
 /// Makes a mesh of this fineness. Throws what tessellate() and even_mesh() throw.
 FineMesh fine_mesh(const Surface& surface, const MeshFineness& fineness);
-
-struct Atom;
-struct ColoredShapes;
-struct TriangleMesh;
 
 /// Shapes as an object without patches. Its atoms are those of the shapes, with their colours in `object.coloring`. It
 /// has one outer component with the measures of the mesh, which consists of closed bodies. The triangles have `atom`,

@@ -17,8 +17,6 @@
 
 namespace meniscus {
 
-struct SurfaceObject;
-
 /// Caps as plain arrays of flat triangles.
 struct CapMesh {
   std::vector<glm::dvec3> positions;  ///< Å

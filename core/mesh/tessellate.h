@@ -47,8 +47,6 @@ void shrink_lists(FaceMesh& mesh);
 /// surface (compare_mesh.h).
 TriangleMesh tessellate(const Surface& surface, const MeshOptions& options = {});
 
-struct Surface;
-
 /// Meshes the surface and compares the areas of faces and the volumes of components with the sums of their triangles.
 /// Where a face is thinner than its borders bend, finer meshes are tried. Throws OpenSurfaceError with the first
 /// difference.

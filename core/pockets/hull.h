@@ -16,8 +16,6 @@
 
 namespace meniscus {
 
-struct Surface;
-
 /// The solid of a solvent-excluded surface with its cavities filled. A larger probe has a larger hull, because a ball
 /// is a union of smaller ones. Probes that overlap one outside count as outside, although a door between the two may be
 /// too narrow for them.

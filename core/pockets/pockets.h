@@ -20,8 +20,6 @@
 
 namespace meniscus {
 
-struct Surface;
-
 /// The pockets that are searched for. Lengths are in Å, volumes in Å³.
 struct PocketRequest {
   double probe_radius = kUsualProbe;

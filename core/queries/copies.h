@@ -17,7 +17,6 @@
 
 namespace meniscus {
 
-struct RigidMotion;
 struct SurfaceObject;
 
 /// Appends a moved copy of `part` to `whole`: its rows follow the rows of `whole`, and areas and volumes add up. Both

@@ -58,8 +58,6 @@ class SurfaceDistance {
   std::unique_ptr<const Index> index_;
 };
 
-struct Surface;
-
 /// A narrow band of distances on a lattice: voxel (i, j, k) represents the point (i, j, k) times the voxel's edge.
 struct DistanceBand {
   static constexpr int kEdge = 8;  ///< voxels along the edge of a block

@@ -31,8 +31,6 @@ std::vector<bool> reached_from_outside(const Surface& surface);
 /// ball that the component touches unless the component encloses that ball, and in no probe that touches it.
 int winding_number(const Surface& surface, std::uint32_t component, const glm::dvec3& point);
 
-struct Surface;
-
 /// A maximal connected set of points that take the colours of the chosen atoms (coloring.h).
 struct AtomPatch {
   double area = 0.0;  ///< Å², exact

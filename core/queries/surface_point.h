@@ -11,8 +11,6 @@
 
 namespace meniscus {
 
-struct Surface;
-
 /// The curvature by the principal curvatures k1, k2 with the normal towards the solvent, positive where the solid
 /// bulges.
 struct Curvature {

@@ -105,8 +105,6 @@ class SwallowedAtoms {
   std::vector<std::array<std::uint32_t, 2>> pairs_;  ///< pairs with the lower index first
 };
 
-struct Ball;
-
 /// Computes lone_atoms and lost_atoms of a reduced surface. Its arcs must have been found already.
 ///
 /// A sphere without an exposed arc is exposed as a whole or not at all, so each of its points decides (theorem 4). Two

@@ -25,8 +25,6 @@
 namespace meniscus {
 
 class EglContext;
-class PictureCollector;
-class StageClock;
 struct Coloring;
 
 /// An object that the GPU can draw: a complete surface (SurfaceDrawable), or atoms whose surface the GPU computes for

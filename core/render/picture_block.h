@@ -26,9 +26,6 @@
 namespace meniscus {
 
 enum class PatchKind : std::uint8_t;
-struct Border;
-struct Face;
-struct Surface;
 
 /// A point on a ray.
 struct HitPoint {

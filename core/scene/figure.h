@@ -21,8 +21,6 @@
 
 namespace meniscus {
 
-struct SurfaceObject;
-
 /// The motion of a figure from one frame to the next.
 struct FigureMotion {
   std::vector<glm::dvec3> atoms;  ///< displacement of each of shown_atoms() to its place in the next frame, Å

@@ -23,10 +23,7 @@ namespace meniscus {
 
 class EglContext;
 struct BesideSurface;
-struct Camera;
 struct FigureRequest;
-struct Instances;
-struct SurfaceObject;
 
 /// Draws computed surfaces and shapes into pictures in memory, one after another, for files. This one draws on the CPU.
 class StillRenderer {

@@ -42,8 +42,6 @@ class ThreadLimit {
   std::unique_ptr<tbb::global_control, End> limit_;
 };
 
-struct Surface;
-
 /// The kind of a surface of atoms.
 enum class SurfaceKind {
   ses,  ///< solvent-excluded: the boundary of the volume that the probe cannot reach

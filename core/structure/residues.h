@@ -15,8 +15,6 @@
 
 namespace meniscus {
 
-struct Atom;
-
 /// Numbers residues in the order of the file. Consecutive atoms with the same model, chain, segment, number, insertion
 /// code and name form one residue. It may have several names only if all its atoms are alternate locations. Atoms with
 /// the same identifiers later in the file belong to the same residue, unless it has such an atom already. In that case

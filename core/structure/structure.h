@@ -21,7 +21,6 @@
 namespace meniscus {
 
 struct Ball;
-struct RigidMotion;
 
 /// The class of an atom. `unclassified`: the format has no classes (XYZ, XYZR).
 enum class AtomClass : std::uint8_t { polymer, ligand, water, ion, unclassified };

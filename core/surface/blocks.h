@@ -25,8 +25,6 @@
 
 namespace meniscus {
 
-class StageClock;
-
 /// Returns blocks of at most `most` atoms, made by repeated halving along the widest axis. Each block is a list of
 /// ascending indices.
 std::vector<std::vector<std::uint32_t>> divide_into_blocks(std::span<const Ball> atoms, std::size_t most);
@@ -54,7 +52,6 @@ Surface surface_in_blocks(std::span<const Ball> atoms, double probe_radius,
 /// the CPU.
 Surface compute_without_borders(std::span<const Ball> atoms, double probe_radius, ClipPlanes planes, StageClock& clock);
 
-class StageClock;
 struct BlockPatches;
 
 /// The contribution of a face to its component. Each block numbers its own pieces.

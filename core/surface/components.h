@@ -11,8 +11,6 @@ namespace meniscus {
 
 class ConvexPlanes;
 
-struct Surface;
-
 /// Computes Face::component, Component::euler and the list of components, in the order of their first faces. Two faces
 /// are connected where they share a border; a border with fewer than two faces connects nothing. Returns true if each
 /// border has two faces.

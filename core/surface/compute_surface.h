@@ -16,8 +16,6 @@
 
 namespace meniscus {
 
-class StageClock;
-
 /// Finds reduced surfaces on one device, frame after frame. All engines find the same ones. One thread uses it at a
 /// time.
 class ReducedSurfaceEngine {
@@ -43,11 +41,7 @@ class ReducedSurfaceEngine {
 std::unique_ptr<ReducedSurfaceEngine> make_cpu_engine();
 
 class ConvexPlanes;
-class CuspTracer;
-class ReducedSurfaceEngine;
-class StageClock;
 struct ReducedComponents;
-struct ReducedSurface;
 
 /// The choice whether a surface lists the clip planes of its convex patches (ConvexPatch::planes), a fifth of the work.
 enum class ClipPlanes {

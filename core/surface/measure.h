@@ -57,10 +57,6 @@ glm::dvec3 toroidal_moments(const Surface& surface, const ToroidalPatch& patch, 
 /// Returns the area of the patch between two tube angles, Å².
 double toroidal_area(const Surface& surface, const ToroidalPatch& patch, double low, double high);
 
-struct ConcavePatch;
-struct Face;
-struct Surface;
-
 /// Areas in Å², one per Surface::atoms; 0 for buried atoms.
 struct AtomAreas {
   /// The area of the points that take the atom's colour (coloring.h): its contact patch, and the parts of adjacent
@@ -114,8 +110,6 @@ double accessible_area(const Surface& surface, const Face& face);
 /// from integrals along the patch's planes and its borders, so the sum is the area of the patch's faces only if both
 /// describe one figure.
 double divided_area(const Surface& surface, const ConcavePatch& patch);
-
-struct Surface;
 
 /// One derivative per Surface::atoms; zero for buried atoms.
 using Gradient = std::vector<glm::dvec3>;

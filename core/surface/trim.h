@@ -70,9 +70,6 @@ class PlanesWhenAsked final : public ConvexPlanes {
 /// Computes the planes of the convex patches.
 void trim_convex_patches(Surface& surface, const ReducedSurface& rs);
 
-struct Plane;
-struct Surface;
-
 /// Some faces of one patch, and planes that have these faces inside and the patch's other faces outside.
 struct PartedFaces {
   std::vector<std::uint32_t> faces;

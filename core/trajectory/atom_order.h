@@ -10,9 +10,6 @@
 
 namespace meniscus {
 
-struct Atom;
-struct Topology;
-
 /// The frame that is compared, and the files that it belongs to.
 struct ComparedFrame {
   const std::string& file;        ///< the structure file

@@ -24,8 +24,6 @@
 
 namespace meniscus {
 
-class StageClock;
-
 /// Statistics of one view.
 struct ViewStats {
   std::size_t atoms = 0;

@@ -83,7 +83,6 @@ namespace {
 constexpr std::string_view kPymolScript = R"(from pymol import cmd
 from pymol.cgo import BEGIN, COLOR, END, NORMAL, TRIANGLES, VERTEX
 
-
 def show_of_meniscus(name, vertices, triangles):
     """Loads an object from rows: position, normal and color of vertices; vertices and, if any, color of triangles."""
     corners = [list(map(float, line.split())) for line in vertices.strip().splitlines()]
@@ -93,7 +92,6 @@ def show_of_meniscus(name, vertices, triangles):
         for corner in (corners[n] for n in numbers[:3]):
             shape += [COLOR, *(c / 255 for c in numbers[3:] or corner[6:]), NORMAL, *corner[3:6], VERTEX, *corner[:3]]
     cmd.load_cgo(shape + [END], name, 1)
-
 
 )";
 

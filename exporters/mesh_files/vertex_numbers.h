@@ -15,8 +15,6 @@
 
 namespace meniscus {
 
-struct Atom;
-
 /// A number that each vertex may have.
 struct VertexNumberKind {
   std::string_view name;  ///< name of the column

@@ -19,8 +19,6 @@
 
 namespace meniscus {
 
-class StageClock;
-
 /// The kernel "circles" and its buffers. A GL context must be current.
 class GpuCircles {
  public:

@@ -64,8 +64,6 @@ class Occluders {
 /// evenly: the R2 sequence (Roberts 2018) on the equal-area cylinder (Lambert 1772).
 std::vector<glm::vec3> sky_directions(std::size_t first, std::size_t count);
 
-struct Surface;
-
 /// The default number of rays into the hemisphere of a point from which its visibility is computed. Compared with
 /// 10,000 random rays at 1,000 points of 1UBQ the error is 0.008 (rms), at most 0.03: tests/image/light_test.cpp.
 inline constexpr std::size_t kSkyRays = 256;

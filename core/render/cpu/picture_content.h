@@ -20,9 +20,6 @@
 
 namespace meniscus {
 
-struct ClipPlane;
-struct PictureObject;
-
 /// A packed scene on the host.
 struct HostPack {
   RayCastPack packed;
@@ -109,7 +106,6 @@ class SortedList {
 };
 
 class Interruption;
-class StageClock;
 
 /// A block of pixels and the settings of its rays.
 struct SceneBlock {

@@ -20,8 +20,6 @@
 
 namespace meniscus {
 
-struct Atom;
-
 /// True if the line is this record, in upper or lower case. Names of records with fewer than six letters must be
 /// followed by a blank.
 bool is_pdb_record(std::string_view line, std::string_view record);
