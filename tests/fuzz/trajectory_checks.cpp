@@ -43,7 +43,8 @@ void check_cell(const glm::dmat3& vectors) {
 void check_frame(const Frame& frame, std::size_t atoms) {
   require(frame.positions.size() == atoms, "all frames have the atoms of the first");
   for (const glm::dvec3& position : frame.positions) {
-    require(all_finite(position) && glm::length(position) <= 2.0 * kLargestCoordinate, "positions are finite and bounded");
+    require(all_finite(position) && glm::length(position) <= 2.0 * kLargestCoordinate,
+            "positions are finite and bounded");
   }
   require(!frame.time || std::isfinite(*frame.time), "times are finite");
   if (frame.cell) check_cell(*frame.cell);
