@@ -32,8 +32,9 @@ class PocketComputer {
   /// computing: the device and threads; the surface is always solvent-excluded, with the probe of `request`.
   PocketComputer(SurfaceRequest computing, const PocketRequest& request);
 
-  /// Returns the pockets of a structure. left_out: one truth value per atom of the structure, or empty. Throws
-  /// RequestError if all atoms are left out, otherwise like find_pockets.
+  /// Returns the pockets of a structure. left_out: one truth value per atom of the structure, true for atoms that are
+  /// taken out; empty: none. Throws RequestError if all atoms are left out or the request is invalid (find_pockets),
+  /// and OpenSurfaceError, CapacityError or GpuError if a surface cannot be computed.
   MoleculePockets compute(const Structure& structure, const std::vector<bool>& left_out);
 
   bool is_on_cpu() const { return small_.is_on_cpu(); }

@@ -139,8 +139,8 @@ class SurfaceComputer {
   StageClock clock_;
 };
 
-/// Returns one closed surface. Throws OpenSurfaceError if the surface is not closed, and the exceptions of
-/// SurfaceComputer::compute().
+/// Returns one closed surface. Throws OpenSurfaceError if the surface is not closed, and what
+/// SurfaceComputer::compute() throws.
 ComputedSurface compute_surface(std::span<const Ball> balls, const SurfaceRequest& request);
 
 /// Returns the sum of the times of all stages, ms.

@@ -41,8 +41,8 @@ const meniscus_read_options kReadDefaults{sizeof(meniscus_read_options),
                                           0};
 
 /// Returns the sRGB colours of the atoms. `scheme` is a word of --color. Refuses an unknown scheme, and one that needs
-/// more than the atoms, such as a surface, frames or a file of numbers. Throws the exceptions of color_atoms(). Builds
-/// without nlohmann_json or FreeType refuse every call.
+/// more than the atoms, such as a surface, frames or a file of numbers. Throws InputError if the atoms do not have the
+/// numbers of the scheme. Builds without nlohmann_json or FreeType refuse every call.
 std::vector<glm::vec3> structure_colors(const Structure& structure, std::string_view scheme);
 
 }  // namespace meniscus::c_api
