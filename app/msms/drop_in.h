@@ -13,10 +13,10 @@
 
 namespace meniscus::msms {
 
-/// The spheres of a run, without those of radius 0, and what the files of MSMS say about them.
+/// The spheres of a run, without spheres of radius 0, and their names and numbers for the files of MSMS.
 struct Spheres {
   std::vector<Ball> balls;  ///< spheres of a radius above 0, in Å, in the order of the input
-  /// The name and number of all input spheres, those of radius 0 included; of_atom has one entry per ball.
+  /// The name and number of all input spheres, also of radius 0; of_atom has one entry per ball.
   MsmsSpheres rows;
   double smallest_radius = 0.0, largest_radius = 0.0;  ///< Å, over all input spheres; 0 if a sphere has that radius
 };

@@ -21,8 +21,8 @@
 
 namespace meniscus {
 
-/// Limits the number of threads of the whole program while it exists; 0: no limit. Of several limits the smallest
-/// applies.
+/// Limits the number of threads of the whole program while it exists; 0: no limit. If there are several limits, the
+/// smallest applies.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads) {

@@ -22,8 +22,8 @@ namespace meniscus {
 /// and `cusps` says which of them cut each other. surface.atoms must be filled in; the tables must be empty.
 void list_concave_patches(Surface& surface, const FixedProbes& probes, const CuspParts& cusps);
 
-/// Finds the planes of convex patches: those of the contact circles that border the patch, and further ones if these
-/// leave more of the sphere than the patch.
+/// Finds the planes of convex patches: the planes of the contact circles that border the patch, and further ones if
+/// these leave more of the sphere than the patch.
 class ConvexTrimmer {
  public:
   /// Keeps references: surface and reduced surface must outlive the trimmer. The surface must have its atoms and convex
@@ -31,7 +31,7 @@ class ConvexTrimmer {
   ConvexTrimmer(const Surface& surface, const ReducedSurface& rs);
   ~ConvexTrimmer();
 
-  /// Returns the planes of one convex patch: all, or at least those of the circles that border it (PlaneChoice).
+  /// Returns the planes of one convex patch: all, or at least the planes of the circles that border it (PlaneChoice).
   /// Several threads may call this and the next function at once.
   std::vector<Plane> planes_of(std::uint32_t convex, PlaneChoice choice) const;
 

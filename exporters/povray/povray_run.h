@@ -59,8 +59,8 @@ struct Run {
   std::vector<MaterialRequest> materials = {};
   std::shared_ptr<const VolumePaint> map = {};  ///< the volume map that colours points in all frames, or nullptr
   bool maps_change = false;  ///< true if each frame has a map of its own; `colors` must be empty then
-  /// One per frame: its background and shadows replace those of the options; empty if all frames have those of the
-  /// options.
+  /// One per frame, with a background and shadows that replace the values of the options. Empty if all frames have the
+  /// values of the options.
   std::vector<FrameLook> looks = {};
 };
 
