@@ -50,7 +50,7 @@ std::optional<glm::dvec3> symmetry_axis(std::span<const RigidMotion> motions);
 /// A turn of the molecule, as seen by the viewer, about an axis of the picture: x to the right, y up, z towards the
 /// viewer.
 struct Turn {
-  int axis = 1;
+  int axis = 1;          ///< 0: x; 1: y; 2: z
   double degrees = 0.0;  ///< right-handed: y90 moves the front to the right
 };
 

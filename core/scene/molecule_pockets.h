@@ -15,11 +15,12 @@ namespace meniscus {
 
 /// A residue that was taken out, such as a ligand.
 struct LeftOutResidue {
-  std::uint32_t first_atom = 0;  ///< place in Structure::atoms
-  std::size_t atoms = 0;
+  std::uint32_t first_atom = 0;        ///< place in Structure::atoms
+  std::size_t atoms = 0;               ///< number of the residue's atoms
   std::vector<std::size_t> in_pocket;  ///< per pocket: number of the residue's atoms with their centre in it
 };
 
+/// The pockets of a structure.
 struct MoleculePockets {
   Pockets found;  ///< atoms of cavities and surfaces are places in Structure::atoms
   std::vector<LeftOutResidue> left_out;

@@ -67,8 +67,8 @@ struct CameraMotionRequest {
 
 /// The cameras of a run that are read from files.
 struct GivenCameras {
-  std::optional<Camera> still;
-  std::optional<CameraPath> path;
+  std::optional<Camera> still;     ///< a camera for all frames
+  std::optional<CameraPath> path;  ///< a camera that moves
 
   bool any() const { return still || path; }
 };
@@ -88,6 +88,7 @@ GivenCameras given_cameras(const ViewRequest& view, const CameraMotionRequest& m
 std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
                                 ShownFrames& frames, RunExtent* extent = nullptr);
 
+/// The cameras of a run, and the boxes around its atoms.
 struct RunFraming {
   std::vector<Camera> cameras;  ///< one, or one per frame if the camera moves
   RunExtent extent;
