@@ -13,29 +13,35 @@
 
 namespace meniscus::msms {
 
+/// The spheres of a run, without spheres of radius 0, and their names and numbers for the files of MSMS.
 struct Spheres {
-  std::vector<Ball> balls;  ///< spheres that the probe touches: spheres of radius 0 are left out
+  std::vector<Ball> balls;  ///< spheres of a radius above 0, in Å, in the order of the input
+  /// The name and number of all input spheres, also of radius 0; of_atom has one entry per ball.
   MsmsSpheres rows;
-  double smallest_radius = 0.0, largest_radius = 0.0;
+  double smallest_radius = 0.0, largest_radius = 0.0;  ///< Å, over all input spheres; 0 if a sphere has that radius
 };
 
-/// Reads lines x y z r [[1] name]; "-": standard input. Throws InputError, with file and line, also if there is no
-/// sphere with a radius; CapacityError.
+/// Reads a file of lines "x y z r", "x y z r NAME" or "x y z r 1 NAME", in Å. The 1 says that the sphere is part of the
+/// surface; no other number is allowed there. The file "-" is standard input. Throws InputError, with file and line,
+/// for anything else, and if no sphere has a radius above 0. Throws CapacityError if the input is too large.
 Spheres read_spheres(const std::string& file);
 
-/// Makes spheres from other sources; `file` names them in errors. Throws InputError for NaN, for a radius below 0 or
-/// above kLargestRadius, and for a coordinate beyond kLargestCoordinate.
+/// Makes spheres from other sources. `names` has one name per ball; if all are empty, or there are none, the files get
+/// no column of names. `file` names the source in errors. Throws InputError for NaN, for a radius below 0 or above
+/// kLargestRadius (Å), for a coordinate beyond kLargestCoordinate (Å), and if no ball has a radius above 0.
 Spheres spheres_of(std::vector<Ball> balls, std::vector<std::string> names, const std::string& file);
 
 /// Implements -noh: removes the balls of radius 1.2 Å, by which MSMS recognizes hydrogens. Throws InputError if no
 /// other ball exists.
 void leave_out_hydrogens(Spheres& spheres);
 
+/// The output files of a run. commit() gives them their final names, folder by folder, and replaces existing files;
+/// before it, no existing file changes. Files that are never committed are deleted. All members throw OutputError.
 class OutputFiles {
  public:
-  /// Begins a file, which replaces an existing one at the end. Throws OutputError, also if its folder is missing.
+  /// Begins a file. Throws OutputError also if its folder is missing.
   void begin(const std::string& path);
-  /// Writes the whole contents of a file; begins it if it has not begun.
+  /// Appends the text to a file, which begins if it has not begun.
   void write(const std::string& path, const std::string& text);
   /// Gives all files their final names.
   void commit();

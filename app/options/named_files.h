@@ -15,6 +15,7 @@
 
 namespace meniscus {
 
+/// The path of numbered files, with # in place of digits.
 class NumberedPath {
  public:
   /// Parses a path in whose file name the last run of # represents the number. Returns nothing if there is no #.

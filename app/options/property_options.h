@@ -22,13 +22,15 @@
 
 namespace meniscus {
 
-/// The scene's properties for which a command has options, and conditions of their effect. Each command declares them:
-/// a common set below, plus or minus some properties. Options that scenes do not have are added by the command itself.
+/// The scene's properties for which a command has options, and the conditions without which some of them have no
+/// effect. Each command declares its own set: one of the common sets below this class, with some properties added or
+/// removed. Options that scenes do not have are added by the command itself.
 class TakenProperties {
  public:
-  /// names: headings of the help, such as "Colour", and keys, such as "molecule.quiet"; a name that begins with a minus
-  /// is left out. The last name that refers to a property decides. Throws std::logic_error for a name that is neither.
-  /// needs: conditions that this command adds to the conditions of all scenes.
+  /// `names` are headings of the help, such as "Colour", and keys, such as "molecule.quiet". A name that begins with a
+  /// minus removes its properties. Names apply in order, so a later one overrules an earlier one. `needs` are
+  /// conditions that this command adds to the conditions of all scenes; idle_values() (idle_values.h) tests them.
+  /// Throws std::logic_error for a name that is neither heading nor key.
   TakenProperties(std::initializer_list<std::string_view> names, std::initializer_list<Need> needs = {}) {
     add(names, needs);
   }
@@ -37,6 +39,7 @@ class TakenProperties {
   TakenProperties with(std::initializer_list<std::string_view> names, std::initializer_list<Need> needs = {}) const;
 
   bool has(const Property& property) const { return taken_.contains(&property); }
+  /// Throws std::logic_error for an unknown key.
   bool has(std::string_view key) const { return has(property_of(key)); }
   const std::vector<Need>& needs() const { return needs_; }
 
@@ -56,19 +59,22 @@ const TakenProperties& render_properties();
 
 /// Returns the condition of options for films: the output must be a film.
 Need film_need();
-/// Returns the condition of options that turn and move frames: `condition` is met by commands that write a table of
-/// positions or directions.
+/// Returns the condition of options that turn and move frames, which have no effect on areas and volumes. Each command
+/// passes a `condition` of its own: it is met by the options that make this command write positions or directions.
+/// idle_values() tests it.
 Need superposition_need(Condition condition);
 
-/// Returns a check that accepts any value, and proposes these words. command_tree() reads the words from its name.
+/// Returns a check that accepts any value. The name of the check is the list of words, where command_tree()
+/// (command_tree.h) finds the proposals.
 CLI::Validator proposes(const std::vector<std::string>& words);
 
 /// Returns a check that accepts only these words.
 CLI::Validator one_of(const std::vector<std::string>& words);
 
-/// Adds options to a command. Name, heading, help, default, range and words of each option come from property_of(key).
-/// Options appear in the help in the order in which they are added. Exceptions of functions that are passed
-/// (CLI::ValidationError, SelectionError, RequestError) are not caught.
+/// Adds options to a command. Name, heading, help, default, range and words of each option come from property_of(key),
+/// which throws std::logic_error for an unknown key. Options appear in the help in the order in which they are added.
+/// Exceptions of functions that are passed (CLI::ValidationError, SelectionError, RequestError) are not caught. The
+/// command must outlive this object; targets and selections must exist until it has been parsed.
 class PropertyOptions {
  public:
   explicit PropertyOptions(CLI::App& command) : command_(command) {}
@@ -95,7 +101,7 @@ class PropertyOptions {
     });
   }
 
-  /// Adds an option whose text `parse` reads.
+  /// Adds an option whose text `parse` reads. For an invalid text `parse` throws one of the exceptions named above.
   CLI::Option* add_parsed(std::string_view key, const std::function<void(const std::string&)>& parse);
   /// Adds an option whose value is a selection of atoms. It throws SelectionError that names the option.
   CLI::Option* add_selection(std::string_view key, std::optional<Selection>& selection);
@@ -110,9 +116,10 @@ class PropertyOptions {
   CLI::App& command_;
 };
 
-/// Returns the place of a word among a property's words. Throws UsageError. meaning_of() returns the meaning of a word
-/// instead: `meanings` are in the order of the words, and an empty text has the first.
+/// Returns the place of a word among a property's words. Throws UsageError if it is none of them.
 std::size_t place_of(const std::string& text, const Property& property);
+/// Returns the meaning of a word. `meanings` must have one entry for each of the property's words, in their order; this
+/// is not checked. An empty text has the first meaning. Throws UsageError if the text is none of the words.
 template <typename Meaning>
 Meaning meaning_of(const std::string& text, std::string_view key, std::initializer_list<Meaning> meanings) {
   return text.empty() ? *meanings.begin() : *(meanings.begin() + place_of(text, property_of(key)));
@@ -124,12 +131,12 @@ std::string group_of(const Property& property);
 /// Parses an expression that is the value of an option. Throws SelectionError that names the option.
 Selection parse_selection_option(const std::string& option, const std::string& text);
 
-/// Returns FILE, and an option for each value that differs from Scene{} except the output. path: returns the text that
-/// replaces the path of a file to read.
+/// Returns the path of the molecule, and options for all values that differ from those of Scene{}. The output file is
+/// left out. If `path` is given, it returns the text that replaces the path of each file to read.
 std::vector<std::string> scene_words(const Scene& scene,
                                      const std::function<std::string(const std::string& path)>& path = {});
 
-/// Returns "meniscus", "render" and scene_words(), with the output.
+/// Returns "meniscus", "render", scene_words(), and the output file if there is one.
 std::vector<std::string> render_words(const Scene& scene);
 
 /// Returns the words as one line for a shell, quoted if necessary.

@@ -15,6 +15,7 @@ namespace meniscus {
 
 struct Ball;
 
+/// Perspective: rays meet in the camera's position. Orthographic: rays are parallel.
 enum class Projection { perspective, orthographic };
 
 /// A right-handed camera; lengths in Å. `up` need not be perpendicular to the view direction, only not parallel to it.

@@ -50,7 +50,7 @@ std::optional<glm::dvec3> symmetry_axis(std::span<const RigidMotion> motions);
 /// A turn of the molecule, as seen by the viewer, about an axis of the picture: x to the right, y up, z towards the
 /// viewer.
 struct Turn {
-  int axis = 1;
+  int axis = 1;          ///< 0: x; 1: y; 2: z
   double degrees = 0.0;  ///< right-handed: y90 moves the front to the right
 };
 
@@ -91,10 +91,12 @@ ViewBasis view_basis(const ViewDirection& direction, const ViewedBalls& balls);
 std::optional<Camera> given_camera(const ViewRequest& request);
 
 /// Returns the axes of the picture: the given camera's axes, else the axes of the requested side, else of the broad
-/// side of the shown balls; then the requested turns apply. Throws like view_basis(); so does view_camera().
+/// side of the shown balls; then the requested turns apply. Throws RequestError if the requested side is that of a
+/// channel and there is none.
 ViewBasis aimed_basis(const ViewRequest& request, const std::optional<Camera>& given, const ViewedBalls& balls);
 
 /// Returns the given camera, turned about the middle of the shown balls, or a camera that shows all framed balls.
+/// Throws RequestError as aimed_basis() does.
 Camera view_camera(const ViewRequest& request, const std::optional<Camera>& given, const ViewedBalls& balls);
 
 /// True if certainly no ray of the picture meets anything within `reach` (Å) of a ball. False may be wrong.

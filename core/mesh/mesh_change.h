@@ -13,7 +13,8 @@
 
 namespace meniscus {
 
-/// A local change of a mesh that has not been made yet.
+/// A local change of a mesh that has not been made yet. The half-edge of a flip or split is the edge; a collapse merges
+/// the first vertex of the half-edge into the second.
 struct MeshChange {
   enum class Kind : std::uint8_t { flip, collapse, split, poke, move };
   Kind kind = Kind::flip;
@@ -23,11 +24,14 @@ struct MeshChange {
   bool places_vertex() const { return kind == Kind::split || kind == Kind::poke || kind == Kind::move; }
 };
 
-/// The triangles that a change makes and those that it removes. A new vertex has the number that it will get.
+/// The triangles that a change makes, and the numbers of those that it removes. A made triangle has the numbers and
+/// positions (Å) of its vertices, counter-clockwise seen from outside. A vertex that the change inserts has the number
+/// links().vertex_count().
 struct TriangleExchange {
   std::vector<PlacedTriangle> made;
   std::vector<std::uint32_t> removed;
 };
+/// Returns the triangles that a change makes and removes.
 TriangleExchange exchange_by(const MeshOnSurface& mesh, const MeshChange& change);
 
 /// Calls visit(PlacedTriangle) for each triangle that a change makes.
@@ -102,15 +106,18 @@ void for_each_removed(const MeshOnSurface& mesh, const MeshChange& change, const
 /// crease, a vertex where creases end or meet must stay, and two creases must not fall together.
 bool is_mergeable(const MeshOnSurface& mesh, std::uint32_t half);
 
-/// True if no triangle that a change makes would pass through guarded triangles of the mesh.
+/// True if no triangle that a change makes would pass through a triangle at a guarded vertex. The mesh guards vertices
+/// where triangles have crossed (CrossingGuard).
 bool is_free_of_crossings(const MeshOnSurface& mesh, const MeshChange& change);
 
-/// Makes a change. A collapse that takes a vertex off its crease, or removes a pinned vertex of a crease, pins the
-/// vertex that remains.
+/// Makes a change without checking it: callers decide which changes are valid, for example by is_mergeable(). A
+/// collapse pins the vertex that remains, so that it never moves, if the other one leaves its crease or was itself
+/// pinned on one.
 void apply_change(MeshOnSurface& mesh, const MeshChange& change);
 
-/// Returns the point of the surface below the midpoint of an edge, for a crease edge the point on the crease; nothing
-/// if the surface is another sheet there.
+/// Returns the point of the surface that is found by walking from an edge's ends to the midpoint; for a crease edge,
+/// the nearest point of the crease. Returns nothing if that point is far from the midpoint, which then lies near
+/// another sheet of the surface.
 std::optional<SurfacePoint> edge_middle(const MeshOnSurface& mesh, std::uint32_t half);
 
 /// Returns the midpoint of the two neighbours of a crease vertex along its crease; nothing unless there are two.
@@ -120,8 +127,9 @@ std::optional<glm::dvec3> crease_middle(const MeshOnSurface& mesh, std::uint32_t
 /// algorithm.
 glm::dvec3 centroid_around(const MeshOnSurface& mesh, std::uint32_t vertex);
 
-/// Returns the place that relaxation moves a vertex to; nothing if the vertex stays, for example because its triangles
-/// would become poor.
+/// Returns the place to which one step of relaxation moves a vertex: part of the way to the centroid around it or, on a
+/// crease, to the middle of its neighbours along the crease. Returns nothing if the vertex stays: it is pinned or
+/// frozen, the step would be too short or too long, the surface has no point there, or its triangles would become poor.
 std::optional<SurfacePoint> relaxed(const MeshOnSurface& mesh, std::uint32_t vertex);
 
 }  // namespace meniscus

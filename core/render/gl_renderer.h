@@ -42,7 +42,8 @@ class Drawable {
 
   /// An implementation of prepare() may assume that a frame needs no more memory than the one before. ask() then queues
   /// the reading of the counts that the frame needed, and settle() returns whether the memory was sufficient. If it was
-  /// not, the picture is invalid, and the next prepare() measures again. Throws as prepare().
+  /// not, the picture is invalid, and the next prepare() measures again. They throw GpuError, CapacityError and
+  /// OpenSurfaceError, as prepare() does.
   virtual void ask(Readback&) {}
   virtual bool settle() { return true; }
 
@@ -87,7 +88,7 @@ class GlRenderer {
 
   /// Draws a finished picture over the look's background, which stays on the GPU as texture(). `stop` is called
   /// regularly; if it returns true, drawing stops, draw() returns false, the texture keeps the previous picture, and
-  /// pick() finds nothing. The drawable must outlive all calls of pick(). Throws as render().
+  /// pick() finds nothing. The drawable must outlive all calls of pick(). Throws what render() throws.
   bool draw(Drawable& drawable, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop = {});
 

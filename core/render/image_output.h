@@ -63,6 +63,7 @@ class ExrChannels {
   std::vector<std::string> names_;
 };
 
+/// The settings of a picture's file.
 struct ImageSettings {
   std::optional<glm::vec3> background;  ///< sRGB in [0, 1] behind the surface; nothing: transparent
   Existing existing = Existing::refuse;

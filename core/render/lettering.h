@@ -140,7 +140,7 @@ using InkStroke = std::variant<InkText, InkLine, PixelBox>;
 /// Fonts of several sizes, each opened once.
 class FontShelf {
  public:
-  /// Returns the font of a height and weight, and opens it if necessary. Throws as Font does.
+  /// Returns the font of a height and weight, and opens it if necessary. Throws RequestError if there is no font file.
   const Font& at(int height, Weight weight = Weight::regular) {
     return fonts_.try_emplace({height, weight}, height, weight).first->second;
   }

@@ -18,15 +18,16 @@ struct ColorScheme;
 
 /// The response of a surface to light. With ambient 1 and specular 0 a pixel has exactly the colour given.
 struct Material {
-  float ambient = 0.0f;     ///< share in [0, 1] of light that comes evenly from all directions, which hides shapes
-  float roughness = 0.0f;   ///< in [0, 1]: from light that falls off early, as on wax, to even light, as on chalk
+  float ambient = 0.0f;  ///< share in [0, 1] of light that comes evenly from all directions, which hides shapes
+  /// In [0, 1]. 0: light falls off early away from the lamp, as on wax; 1: it stays even, as on chalk.
+  float roughness = 0.0f;
   float specular = 0.10f;   ///< strength of the highlight, 0 to 1
   float shininess = 40.0f;  ///< exponent of Blinn and Phong, 1 to 1000; higher values make smaller highlights
 
   bool operator==(const Material&) const = default;
 };
 
-/// The requested differences from the look's material. Nothing: the look's value is kept.
+/// The requested differences from the look's material. A missing value is kept.
 struct MaterialRequest {
   std::optional<float> ambient{}, roughness{}, specular{}, shininess{};
 
@@ -53,12 +54,13 @@ struct LookNumbers {
   Number light_strength{};  ///< strength of the key light, >= 0
   MaterialNumbers material{};
 
-  /// Strength in [0, 1] of the shade in pockets and clefts. It is computed from the picture alone (ground-truth ambient
-  /// occlusion, Jimenez et al. 2016): parts that the picture does not show cast no shade.
+  /// Strength in [0, 1] of the shade in pockets and clefts. Unless ambient_occlusion_rays is set, it is computed from
+  /// the picture alone (ground-truth ambient occlusion, Jimenez et al. 2016), so parts outside of the picture cast no
+  /// shade.
   Number ambient_occlusion{};
   Number ambient_occlusion_radius{};  ///< largest distance over which shade is cast, Å
-  /// Rays per pixel, over the whole sky, from which the shade is computed (core/render/cpu/shadow_rays.h); 0: none.
-  /// They hit everything that is drawn, even outside of the picture.
+  /// Rays per pixel, over the whole sky, by which the shade is computed instead (core/render/cpu/shadow_rays.h); 0:
+  /// none. The rays hit everything that is drawn, even outside of the picture.
   Number ambient_occlusion_rays{};
 
   Number shadows{};          ///< darkness in [0, 1] of the shadows that the key light casts
@@ -92,8 +94,9 @@ struct Look : LookNumbers<float, Material> {
   /// Width in pixels of lines around patches (Coloring::in_patch), on the surface, and their colour, sRGB in [0, 1].
   float patch_lines = 0.0f;
   glm::vec3 patch_line_color{0.0f};
-  /// The smallest step in depth that gets a line: this share of the length of the picture's shorter side, plus 0.5 Å,
-  /// so that close views outline atoms and distant views domains. 0: two pixels.
+  /// The smallest step in depth that gets a line is 0.5 Å plus a length in pixels: this share of the picture's shorter
+  /// side, but at least two pixels. Pixels count by their size in Å at that depth, so that close views outline atoms
+  /// and distant views domains.
   float line_step = 0.0f;
 
   /// True: far atoms fade into the background's colour and keep their alpha. False: they become transparent.
@@ -101,11 +104,11 @@ struct Look : LookNumbers<float, Material> {
 
   bool operator==(const Look&) const = default;
 
-  /// True if colours change after they are cast.
+  /// True if an effect changes colours after the rays of the picture are cast.
   bool has_effects() const { return ambient_occlusion > 0.0f || widest_line() > 0.0f || depth_cue > 0.0f; }
 
   bool traces_sky() const { return ambient_occlusion > 0.0f && ambient_occlusion_rays > 0.0f; }
-  /// True if highlights are added after the shade is known, because the rays do not know it when they are cast.
+  /// True if highlights are added after the shade: the shade covers them, but is not yet known when the rays are cast.
   bool finishes_highlights() const { return ambient_occlusion > 0.0f && !traces_light(); }
   /// True if rays continue from the points that they hit. Such pictures are made on the CPU.
   bool traces_light() const { return shadows > 0.0f || traces_sky(); }
@@ -149,7 +152,7 @@ enum class LookPreset {
   classic       ///< studio light alone: Look{}
 };
 
-/// A preset and the requested differences from it. Nothing: the preset's value is kept.
+/// A preset and the requested differences from it. A missing value is that of the preset.
 struct LookRequest : LookNumbers<std::optional<float>, MaterialRequest> {
   LookPreset preset = LookPreset::publication;
   std::optional<glm::vec3> light_direction{};
@@ -157,39 +160,41 @@ struct LookRequest : LookNumbers<std::optional<float>, MaterialRequest> {
   std::optional<float> outer_lines{}, inner_lines{}, part_lines{};
   std::optional<float> patch_lines{};  ///< pixels
   std::optional<glm::vec3> patch_line_color{};
-  bool linear_alpha = false;  ///< transparent edges for programs that blend in linear light
+  /// True: the values of transparent pixels are right for programs that blend in linear light, else in sRGB.
+  bool linear_alpha = false;
 
-  /// Returns true if alpha is linear; `classic` keeps it so for compatibility.
+  /// True if alpha is linear; `classic` always has linear alpha, for compatibility.
   bool has_linear_alpha() const { return linear_alpha || preset == LookPreset::classic; }
 };
 
 /// The description of a number of a look.
 struct LookNumber {
-  std::string_view key;  ///< key of its property (core/properties)
-  std::optional<float>* (*asked)(LookRequest& request);
-  float& (*in)(Look& look);  ///< null for a width of lines; look_of() knows their order
+  std::string_view key;                                  ///< key of its property (core/properties)
+  std::optional<float>* (*asked)(LookRequest& request);  ///< returns the number's place in the request, never null
+  /// Returns the number in the look; null for the widths of lines, which look_of() copies itself.
+  float& (*in)(Look& look);
 };
 
-/// Returns all numbers in the order of the help.
+/// Returns the descriptions of all numbers in the order of the help.
 std::span<const LookNumber> look_numbers();
 
-/// The changes of colours that light may cause. `kept`: only the lightness changes, so that a colour can be compared
-/// with the bar or the swatches that explain it. Lamps are white and not too bright, without highlights and depth cue.
-/// `unfaded`: only the depth cue is off.
+/// The changes of colours that light may cause. `free`: any. `kept`: only the lightness changes, so that a colour can
+/// be compared with the bar or the swatches that explain it; look_of() then makes lamps white, limits the key light to
+/// strength 1, and leaves out highlights and the depth cue. `unfaded`: look_of() leaves out the depth cue only.
 enum class Hues : std::uint8_t { free, kept, unfaded };
 
-/// Returns `kept` if colours encode numbers or a legend explains them. Returns `unfaded` if the surface is transparent,
-/// because it covers its content already, or if looks_inside: it is cut so that some atoms are visible, which must be
-/// recognisable at any depth. Otherwise returns `free`.
+/// Returns `kept` if there is a legend or if the scheme or a rule of `color` colours by a number. Otherwise returns
+/// `unfaded` if a rule makes the surface transparent, which dims its content already, or if looks_inside is true: then
+/// the surface is cut to show atoms, which must be recognisable at any depth. Otherwise returns `free`.
 Hues hues_of(const ColorScheme& color, bool legend, bool looks_inside);
 
 /// Returns the part of the request that changes more than the lightness of colours in spite of Hues::kept, in words for
 /// a message, such as "depth_cue fades them"; empty if there is none.
 std::string hue_changes(const LookRequest& request);
 
-/// Returns the look of a request. background: nothing if it is transparent; far parts then fade into the colour of
-/// white paper. Explicit values of the request have priority over `hues`. Without outlines_patches no patches have
-/// lines.
+/// Returns the look of a request. Widths of lines in a preset grow with picture_size. `background` is nothing if it is
+/// transparent; then the depth cue fades colours into white, as on paper. Values of the request have priority over
+/// `hues` and are not checked. Patches have lines only if outlines_patches is true.
 Look look_of(LookRequest request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background, Hues hues,
              bool outlines_patches = false);
 

@@ -49,8 +49,8 @@ struct PictureLayers {
   PictureLayers(bool has_aovs = false, bool has_motion = false, int rays_of_seen = 0)
       : aovs(has_aovs), motion(has_motion), rays(rays_of_seen) {}
 
-  bool aovs, motion;
-  int rays;  ///< rays per pixel in Framebuffer::seen; 0: it is empty
+  bool aovs, motion;  ///< true if there are AOVs (numbers of atoms, depths, ...), and the motion of points
+  int rays;           ///< rays per pixel in Framebuffer::seen; 0: it is empty
 };
 
 /// Returns the layers that a picture has.
@@ -92,6 +92,7 @@ struct RenderSettings {
   PictureLayers layers() const { return {aovs, aovs && motion, mattes ? samples : 0}; }
 };
 
+/// The part of a surface that is computed for a picture.
 enum class Extent {
   complete,  ///< the whole surface
   visible,   ///< the part that can affect a pixel (theorem 2): the same picture

@@ -28,8 +28,9 @@ struct PictureMargins {
 /// On a page (is_page()) only the molecule is in pixels.
 class PictureFile {
  public:
-  /// Opens the file and sets settings.take_band, so that the bands of the molecule's picture go to it. Throws as
-  /// ImageWriter and annotate() do.
+  /// Opens the file and sets settings.take_band, so that the bands of the molecule's picture go to it. This object must
+  /// therefore outlive the drawing with these settings. Throws OutputError if the file cannot be written, and
+  /// RequestError if a title or label does not fit.
   PictureFile(const std::filesystem::path& path, const PictureMargins& margins, const Camera& camera,
               const ImageSettings& image, RenderSettings& settings);
   PictureFile(const PictureFile&) = delete;
@@ -61,7 +62,7 @@ class PictureFile {
   bool shows_something_ = false;
 };
 
-/// Writes a legend as a file of its own. Throws as ImageWriter does.
+/// Writes a legend as a file of its own. Throws OutputError.
 void write_legend_picture(const std::filesystem::path& path, const Legend& legend, const ImageSettings& settings);
 
 }  // namespace meniscus

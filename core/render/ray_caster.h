@@ -29,7 +29,8 @@ struct CastSample {
   glm::vec2 offset;  ///< from the centres of pixels, pixels
 };
 
-/// Runs the kernels of gpu_shaders/look/ and owns their buffers. Needs a current GL context.
+/// Runs the kernels of gpu_shaders/look/ and owns their buffers. Needs a current GL context. The programs must outlive
+/// it.
 class LookPass {
  public:
   explicit LookPass(ProgramCache& programs) : programs_(programs) {}
@@ -82,7 +83,7 @@ inline constexpr std::uint32_t kSlotsPerTile = 2 * kSliceCount;
 
 /// Two lists of primitives, spheres and tori, for each tile of 16 x 16 pixels. Each list is divided into slices of
 /// depth, nearest slice first, in any order within a slice. A list covers all rays through any place in its tile's
-/// pixels. Needs a current GL context.
+/// pixels. Needs a current GL context. The programs must outlive it.
 class TileLists {
  public:
   explicit TileLists(ProgramCache& programs) : programs_(programs), scan_(programs) {}
@@ -145,7 +146,7 @@ class RayCaster {
             const CastSettings& settings = {});
 
   /// Returns the depths of a block of shade_map_frame(), row by row. picture() and hits() then belong to the map.
-  /// Throws as cast().
+  /// Throws GpuError; CapacityError if the block is too large for this GPU.
   std::vector<float> cast_depths(const GpuPack& scene, const PictureFrame& map, const PictureBlock& block) {
     cast(scene, map, block);
     return look_pass_.depths(hits_, map, block);

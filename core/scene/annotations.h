@@ -22,6 +22,7 @@ struct LabelRequest {
   std::string text;
 };
 
+/// The requested legend.
 struct LegendRequest {
   bool within = false;  ///< true if the legend is drawn within the picture
   std::string file;     ///< path of a file with the legend alone; empty: none
@@ -30,8 +31,9 @@ struct LegendRequest {
   bool asked() const { return within || !file.empty(); }
 };
 
+/// The requested texts and marks of a picture, except for the legend.
 struct AnnotationRequest {
-  std::string panel, title;
+  std::string panel, title;  ///< the letter of a panel, and a title; empty: none
   bool scale_bar = false, time_stamp = false;
   std::optional<double> bar_length;  ///< Å; empty: chosen automatically
   std::vector<LabelRequest> labels;

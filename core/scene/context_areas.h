@@ -22,8 +22,8 @@ struct ContextAreas {
 MoleculeRequest with_context(const MoleculeRequest& request, const Selection& context);
 
 /// Computes the surface of all atoms of `together` as one, and takes the areas of the molecule's atoms from it. alone:
-/// the columns of the molecule without its context. computer: must compute the surfaces of request.surface. Throws like
-/// the computation of a surface.
+/// the columns of the molecule without its context. computer: must compute the surfaces of request.surface. Throws
+/// OpenSurfaceError, CapacityError or GpuError if a surface cannot be computed, and Error if no part of it is left.
 ContextAreas context_areas(const MoleculeRequest& request, const Structure& together, const Molecule& molecule,
                            const std::vector<AreaColumn>& alone, SurfaceComputer& computer);
 

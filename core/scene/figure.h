@@ -105,7 +105,9 @@ struct Figure {
 };
 
 /// Returns everything that is drawn in addition to the surface of a structure; the structure must have been read with
-/// request.ask_for(). scheme: the molecule's colours. Throws like shown_shapes and make_objects.
+/// request.ask_for(). scheme: the molecule's colours. Throws InputError for colours by numbers that the atoms do not
+/// have and for an object without atoms, RequestError for an assembly of instances, and the errors of computing a
+/// surface (surface_objects).
 BesideSurface make_beside(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme);
 
 /// Updates the colours, opacities and shown parts of `beside`, which must be made from the same atoms. Surfaces are not
@@ -113,7 +115,7 @@ BesideSurface make_beside(const Structure& structure, const FigureRequest& reque
 void color_beside(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme,
                   BesideSurface& beside);
 
-/// Returns the molecule with everything that is drawn in addition to its surface. Throws like make_beside.
+/// Returns the molecule with everything that is drawn in addition to its surface. Throws what make_beside() throws.
 Figure make_figure(Molecule molecule, const FigureRequest& request);
 
 /// Returns the planes that cut the surface, as seen by this camera. cut_atoms: returned by cut_atoms() for

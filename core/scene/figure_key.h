@@ -11,7 +11,8 @@ namespace meniscus {
 
 /// Returns the key of the colours of the atoms in a picture. structure: read with request.ask_for() if anything is
 /// drawn in addition to the surface. drawn: one truth value per atom of the surface. `beside`: made by make_beside()
-/// from the same structure, request and scheme. Throws like color_atoms.
+/// from the same structure, request and scheme. Throws InputError if colours are by a number that the atoms do not have
+/// (color_atoms).
 ColorKey figure_key(const Structure& structure, const ColorScheme& scheme, DrawnAtoms drawn,
                     const FigureRequest& request, const BesideSurface& beside);
 

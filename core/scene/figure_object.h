@@ -49,8 +49,9 @@ struct FigureObject {
 void ask_for(std::span<const FigureObjectRequest> objects, ReadOptions& reading);
 
 /// Returns one object per request. structure: read with ask_for(). first_mark: number of sets of atoms that are marked
-/// for other purposes. scheme: the molecule's colours. Surfaces are computed on the CPU. Throws like surface_objects
-/// and color_object; InputError for a surface without atoms.
+/// for other purposes. scheme: the molecule's colours. Surfaces are computed on the CPU. Throws InputError for a
+/// surface without atoms and for colours by a number that the atoms do not have, and the errors of computing a surface
+/// (surface_objects).
 std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> objects, const Structure& structure,
                                        std::size_t first_mark, const ColorScheme& scheme);
 

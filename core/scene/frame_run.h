@@ -74,6 +74,7 @@ enum class Velocities {
   forward   ///< the difference between the next frame and this one; 0 at the end
 };
 
+/// A run of frames of one molecule, which are read one after another.
 class FrameRun {
  public:
   /// Opens the trajectory and selects the atoms. Selections are used as they are, so settle_selections() must be called

@@ -70,8 +70,8 @@ struct Burial {
   std::vector<double> areas;      ///< buried_areas() of each atom, Å²
 };
 
-/// Returns the burial in a structure whose interface is closed. Throws like buried_areas and interface_groups;
-/// RequestError for copies as instances.
+/// Returns the burial in a structure whose interface is closed. Throws RequestError for copies as instances, InputError
+/// for a side without atoms or an atom on both sides, and the errors of computing a surface (surface_objects).
 Burial burial_of(const MoleculeRequest& request, const Structure& structure, SurfaceComputer& computer);
 
 /// Throws RequestError for colours by copy where copies share one surface.
@@ -84,8 +84,9 @@ class MoleculeBuilder {
   /// in it. Throws InputError for the numbers of the colours, RequestError.
   explicit MoleculeBuilder(const MoleculeRequest& request, const EglContext* context = nullptr);
 
-  /// Computes and colours the surfaces of a structure. Throws like surface_objects and color_object; InputError if
-  /// nothing is shown or no point of the surface lies in its volume map.
+  /// Computes and colours the surfaces of a structure. Throws InputError if nothing is shown, if colours are by a
+  /// number that the atoms do not have, or if no point of the surface lies in its volume map. Throws the errors of
+  /// computing a surface (surface_objects), too.
   Molecule build(Structure structure);
 
   /// True if surfaces are computed on the CPU alone; then the builder may be used on any thread, by one at a time.

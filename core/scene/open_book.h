@@ -28,7 +28,8 @@ InterfaceRequest parse_interface(std::string_view text);
 /// Returns, per atom of the structure, by how much the other groups reduce the area of its sphere that the centre of
 /// the probe can reach, Å². This is the solvent-accessible area that is buried (B. Lee and F. M. Richards, J. Mol.
 /// Biol. 55, 379 (1971)); for a surface without a probe, the area of the surface itself. groups: must have every atom
-/// once. Throws like surface_objects.
+/// once. Throws OpenSurfaceError, CapacityError or GpuError if a surface cannot be computed, and Error if no part of it
+/// is left.
 std::vector<double> buried_areas(const Structure& structure, std::span<const AtomGroup> groups,
                                  SurfaceComputer& computer, SurfaceKind kind);
 

@@ -42,7 +42,7 @@ class StillRenderer {
   /// Returns the picture of merged(objects), equal to the last bit, without having all copies in memory at once: only
   /// the parts that its pixels show are kept. Rays of traced light are turned to each copy instead, so that the edges
   /// of shadows may differ by rounding. Atoms and components of the AOVs are places in merged(). objects: at least one,
-  /// as merged() requires them. Throws like render().
+  /// as merged() requires them. Throws what render() throws.
   virtual Framebuffer render_copies(std::span<const SurfaceObject> objects, const Camera& camera,
                                     const RenderSettings& settings) {
     return cpu_.render_copies(objects, camera, settings);

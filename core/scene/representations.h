@@ -65,7 +65,8 @@ ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorSc
 
 /// Returns the shapes of shown_atoms() at the positions of the structure, with the colours of the surface: chains have
 /// the same colours, numbers the same scale. A scheme for surfaces only (patch kinds, components) is replaced by
-/// elements. structure: as read with ask_for(). Throws like color_object; RequestError for an assembly of instances.
+/// elements. structure: as read with ask_for(). Throws InputError for colours by a number that the atoms do not have,
+/// and RequestError for an assembly of instances.
 ColoredShapes shown_shapes(const Structure& structure, const Representations& representations,
                            const ColorScheme& scheme);
 

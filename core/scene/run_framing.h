@@ -67,8 +67,8 @@ struct CameraMotionRequest {
 
 /// The cameras of a run that are read from files.
 struct GivenCameras {
-  std::optional<Camera> still;
-  std::optional<CameraPath> path;
+  std::optional<Camera> still;     ///< a camera for all frames
+  std::optional<CameraPath> path;  ///< a camera that moves
 
   bool any() const { return still || path; }
 };
@@ -88,6 +88,7 @@ GivenCameras given_cameras(const ViewRequest& view, const CameraMotionRequest& m
 std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
                                 ShownFrames& frames, RunExtent* extent = nullptr);
 
+/// The cameras of a run, and the boxes around its atoms.
 struct RunFraming {
   std::vector<Camera> cameras;  ///< one, or one per frame if the camera moves
   RunExtent extent;
@@ -96,12 +97,13 @@ struct RunFraming {
   glm::dvec3 origin() const;
 };
 
-/// Returns the cameras and the extent of the run. Reads all its frames once. Throws like run_cameras.
+/// Returns the cameras and the extent of the run. Reads all its frames once. Throws what run_cameras() throws.
 RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
                        ShownFrames& frames);
 
 /// Completes the scheme by numbers that depend on all frames of the run: fluctuations, and one range for numbers that
-/// change with the positions of atoms. Reads the run again for each scheme that needs it. Throws like fluctuations.
+/// change with the positions of atoms. Reads the run again for each scheme that needs it. Throws InputError if no frame
+/// can be read, and RequestError if the atoms change from frame to frame (fluctuations).
 void measure_colors(ColorScheme& color, ShownFrames& frames);
 
 /// Returns FrameRun::reach() with the number of the first frame, because a file may have numbers for that frame.

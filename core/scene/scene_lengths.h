@@ -18,10 +18,12 @@ inline constexpr int kLargestSide = 65535;  // pixels; PNG and EXR readers of ot
 /// The default resolution of lengths on paper, dots per inch.
 inline constexpr double kUsualResolution = 300.0;
 
+/// A length in pixels or on paper.
 struct Length {
   double value = 0.0;
   double per_inch = 0.0;  ///< units per inch; 0: pixels
 
+  /// Returns the length in pixels. A resolution of 0 is not known; kUsualResolution is then used.
   double pixels(double dots_per_inch) const;
 };
 

@@ -47,8 +47,9 @@ RenderSettings render_settings(const Scene& scene, const PictureLayout& layout);
 /// picture that shows nothing.
 void check_picture(const Scene& scene);
 
-/// Returns a whole picture of the molecule with its annotations and its legend. lacks_labels: unless
-/// nullptr, set to true if labels that need not fit have no room, else to false. Throws like annotate().
+/// Returns a whole picture of the molecule with its annotations and its legend. lacks_labels: unless nullptr, set to
+/// true if labels that need not fit have no room, else to false. Throws RequestError if a title or a label that must
+/// fit does not.
 Framebuffer finished_picture(Framebuffer molecule, const Annotations& annotations, const PictureLayout& layout,
                              const Camera& camera, const std::optional<glm::vec3>& background,
                              bool* lacks_labels = nullptr);

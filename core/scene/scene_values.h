@@ -24,7 +24,7 @@ class ValueError : public RequestError {
   std::string key_;
 };
 
-/// True if a scene has a value of this property.
+/// True if scenes have a value of this property. Properties of a command alone, such as overwriting files, are none.
 bool is_scene_value(const Property& property);
 
 /// Returns the name of a property in programs: its option without leading dashes, and with "_" for other dashes:
@@ -34,21 +34,25 @@ std::string value_name(const Property& property);
 /// proposes the nearest name.
 const Property& scene_property(std::string_view name);
 
-/// Sets a value. texts: one; for repeatable properties any number, which are added to the values of the scene. A flag
-/// is "true" or "false"; a value that was left out is "". Throws ValueError, SelectionError.
+/// Sets a value. The property must be one of scenes (is_scene_value). `texts` has one text or, for repeatable
+/// properties, any number, which are added to the values of the scene. A flag is "true" or "false". An option that was
+/// given without its value (value_optional) is "". Throws ValueError for a text that the property cannot have, and
+/// SelectionError.
 void set_value(Scene& scene, const Property& property, std::span<const std::string> texts);
 
 /// Returns the texts from which set_value() reads the scene's value, to the last bit; empty if it is the value of
 /// Scene{}.
 std::vector<std::string> value_texts(const Scene& scene, const Property& property);
 
-/// Completes a scene after all values are set: lengths on paper become pixels, numbers of a file colour all atoms
-/// unless another colour was set, and the sides of an interface are coloured by their buried areas and face the viewer.
-/// Completing a scene again changes nothing. Throws ValueError for values that contradict each other.
+/// Completes a scene after all values are set. Lengths on paper become pixels. If molecule.color is not set, the
+/// numbers of a number file colour all atoms. The sides of an interface are coloured by their buried areas and face the
+/// viewer. Completing a scene again changes nothing. Throws ValueError for values that contradict each other.
 void complete(Scene& scene);
 
-/// Returns the scene as it is read and computed: its molecule also has the atoms that are drawn in addition to the
-/// surface, and of an interface only the atoms of both sides. Must not be saved. Throws RequestError.
+/// Returns a copy of a completed scene for reading and computing: its molecule also has the atoms that are drawn in
+/// addition to the surface, and of an interface only the atoms of both sides. The copy must not be saved, because a
+/// saved copy would have a selection that the user did not choose. Throws ValueError if something else is to be drawn
+/// with an interface.
 Scene readied(Scene scene);
 
 }  // namespace meniscus

@@ -21,7 +21,8 @@
 
 namespace meniscus {
 
-/// Limits the number of threads while it exists; 0: all threads.
+/// Limits the number of threads of the whole program while it exists; 0: no limit. If there are several limits, the
+/// smallest applies.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads) {
@@ -31,8 +32,8 @@ class ThreadLimit {
   }
 
  private:
-  /// Keeps the limit if an exception passes: oneTBB that got no memory may hold a lock for ever, and ending the limit
-  /// would wait for it. That is harmless because the whole program has one limit.
+  /// Leaves the limit in force if an exception is passing: when memory runs out, oneTBB may keep a lock for ever, and
+  /// the end of the limit would wait for it. That is harmless because the whole program has one number of threads.
   struct End {
     void operator()(tbb::global_control* limit) const noexcept {
       if (std::uncaught_exceptions() == 0) delete limit;
@@ -61,15 +62,20 @@ struct SurfaceRequest {
   double probe_radius = kUsualProbe;  ///< Å
   bool probe_named = false;           ///< true if the user set it; a van der Waals surface has none
   bool cpu = false;                   ///< true: on the CPU; false: on GL
-  DeviceChoice gl;                    ///< automatic: a hardware GPU if there is one, else the CPU
-  bool verify = false;                ///< true: compute on the other device too, and compare
-  /// An additional check of each closed surface with `verify`, such as by its mesh; throws OpenSurfaceError. May be
-  /// empty.
+  /// The choice of GL device if `cpu` is false; automatic: a hardware GPU if there is one, else the CPU.
+  DeviceChoice gl;
+  bool verify = false;  ///< true: compute on the other device too, and compare
+  /// With `verify` only: a further check of each closed surface, for example of its mesh. It throws OpenSurfaceError
+  /// for a faulty surface. May be empty.
   std::function<void(const Surface&)> check;
-  bool drawn = true;     ///< false: for numbers only, see ClipPlanes::left_out
-  bool bordered = true;  ///< false: tables of vertices, borders and faces are not needed; large surfaces may lack them
-  int threads = 0;       ///< CPU threads; 0: all
-  StageTiming timing = StageTiming::rough;  ///< exact: times of stages are reported
+  /// False: the surface is for numbers only, so convex patches get no clip planes, a fifth of the work.
+  bool drawn = true;
+  /// False: a surface of very many atoms may come without its tables of vertices, borders and faces (Surface::sums),
+  /// which saves memory on the CPU.
+  bool bordered = true;
+  int threads = 0;  ///< CPU threads; 0: all
+  /// How exactly times are assigned to stages; exact times cost time on a GPU.
+  StageTiming timing = StageTiming::rough;
 };
 
 /// Returns the growth of the balls (Å) before a probe rolls over them.
@@ -96,30 +102,30 @@ struct ComputedSurface {
 /// Computes any number of surfaces on the requested device.
 class SurfaceComputer {
  public:
-  /// The automatic choice is a hardware GPU if there is one, else the CPU, which is faster than software GL. context: a
-  /// current context, which must outlive this object; work on GL is done in it; nullptr: in a context of its own.
-  /// Throws RequestError for a van der Waals surface with a probe.
+  /// The automatic choice is a hardware GPU if there is one, else the CPU, which is faster than software GL. `context`
+  /// is a current GL context that must outlive this object; GL work is done in it. If it is nullptr, this object makes
+  /// its own. Throws RequestError for a van der Waals surface with a probe.
   explicit SurfaceComputer(const SurfaceRequest& request, const EglContext* context = nullptr);
   ~SurfaceComputer();
 
-  /// Returns the surface of van der Waals balls. Sas and vdw surfaces are made without a probe: of the grown balls, or
-  /// of the balls themselves.
-  /// With `verify` the surface is computed on the other device as well (software GL if necessary) and checked further,
-  /// and every difference is an error. The caller must look at the surface's certificate. Throws OpenSurfaceError,
-  /// CapacityError, GpuError.
+  /// Returns the surface of van der Waals balls, whose radii this function enlarges for an accessible surface. The
+  /// surface may have open places: the caller must check Surface::certificate (certificate.closed is true for a closed
+  /// surface). With `verify` the surface is also computed on the other device, by software GL if necessary. Throws
+  /// OpenSurfaceError for any difference between the devices and for a fault that request.check finds, CapacityError if
+  /// there is too much to compute, and GpuError if GL fails.
   Surface compute(std::span<const Ball> balls);
 
-  /// True if surfaces are computed on the CPU alone, so not verified by GL; then, and only then, compute() may run on
-  /// any thread.
+  /// True if surfaces are computed on the CPU alone, without a check by GL. Only then may compute() run on any thread.
   bool is_on_cpu() const { return on_cpu_ && !request_.verify; }
   const std::string& device() const { return device_; }  ///< "cpu (16 threads)", or GL renderer and version
-  /// Returns the times of all surfaces since the last restart.
+  /// Returns the times of all surfaces since the last restart_clock().
   const std::vector<StageTime>& stages() const { return clock_.times(); }
   void restart_clock() { clock_.restart(); }
-  /// look: called before each stage; an exception that it throws ends the computation.
+  /// Sets a function that is called before each stage. An exception that it throws ends the computation.
   void before_stages(std::function<void()> look) { clock_.before_stages(std::move(look)); }
 
  private:
+  /// True if the automatic choice is a hardware GPU. If it has to make a context for that, it keeps the engine.
   bool find_hardware();
   std::unique_ptr<ReducedSurfaceEngine> make_engine(bool on_cpu, const DeviceChoice& gl) const;
   void verify(const Surface& surface, std::span<const Ball> balls, double probe_radius);
@@ -133,7 +139,8 @@ class SurfaceComputer {
   StageClock clock_;
 };
 
-/// Returns one closed surface. Throws like SurfaceComputer::compute, and OpenSurfaceError if the surface is not closed.
+/// Returns one closed surface. Throws OpenSurfaceError if the surface is not closed, and what
+/// SurfaceComputer::compute() throws.
 ComputedSurface compute_surface(std::span<const Ball> balls, const SurfaceRequest& request);
 
 /// Returns the sum of the times of all stages, ms.

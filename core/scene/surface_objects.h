@@ -46,8 +46,8 @@ void require_apart(const Structure& structure, double probe_radius);
 /// The largest values of the certificates of all objects, Å; usually 0. grown_by: the growth of radii by which ties are
 /// decided. exact_within: the surfaces are exact for radii that differ from the given ones by at most this.
 struct RadiiChange {
-  double grown_by = 0.0;
-  double exact_within = 0.0;
+  double grown_by = 0.0;      ///< Å
+  double exact_within = 0.0;  ///< Å
 };
 RadiiChange change_of_radii(const std::vector<SurfaceObject>& objects);
 

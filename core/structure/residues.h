@@ -22,6 +22,7 @@ namespace meniscus {
 class ResidueCounter {
  public:
   /// Begins with no residues. `atoms` are those numbered so far; the caller appends each atom after it was numbered.
+  /// `atoms` must outlive this object.
   explicit ResidueCounter(const std::vector<Atom>& atoms) : atoms_(atoms) {}
 
   /// Sets atom.index and atom.residue.

@@ -28,7 +28,9 @@ enum class AtomClass : std::uint8_t { polymer, ligand, water, ion, unclassified 
 /// Returns "polymer", "ligand", "water", "ion" or "unclassified".
 const char* class_name(AtomClass kind);
 
-/// The radii in a file. `on_request`: radii other than those of van der Waals, which are used only on request.
+/// The radii in a file. `none`: there are none; `usual`: they are van der Waals radii, which are used unless the user
+/// chooses others; `on_request`: they are for another purpose, such as implicit solvents, and are used only if the user
+/// asks.
 enum class FileRadii : std::uint8_t { none, on_request, usual };
 
 /// The secondary structure of a residue. `unknown`: not determined yet; `coil`: neither helix nor strand.
@@ -41,10 +43,11 @@ struct Atom {
   std::uint8_t element = 0;  ///< atomic number; 0: unknown
   AtomClass kind = AtomClass::unclassified;
   char insertion_code = ' ';
-  char altloc = ' ';          ///< letter of the alternate location, blank for none
-  std::uint32_t index = 0;    ///< place in the file, from 0, counting all atoms of all models that were read
-  std::uint32_t residue = 0;  ///< number of the residue, from 0; it is different for residues whose numbers wrapped
-  std::int32_t model = 1;     ///< number of the model, from 1; models of added files continue the count
+  char altloc = ' ';        ///< letter of the alternate location, blank for none
+  std::uint32_t index = 0;  ///< place in the file, from 0, counting all atoms of all models that were read
+  /// Number of the residue, from 0; two residues never share it, even if residue_number starts again in a large file.
+  std::uint32_t residue = 0;
+  std::int32_t model = 1;  ///< number of the model, from 1; models of added files continue the count
   std::int32_t residue_number = 0;
   float occupancy = std::numeric_limits<float>::quiet_NaN();  ///< NaN: missing
   float b_factor = std::numeric_limits<float>::quiet_NaN();   ///< Å²; NaN: missing
@@ -57,7 +60,8 @@ struct Atom {
   std::uint32_t copy = 0;  ///< number of the copy in an assembly, from 0
   /// pLDDT, 0 to 100, if the file has it separately from B-factors; otherwise NaN.
   float confidence = std::numeric_limits<float>::quiet_NaN();
-  std::uint16_t shown = 0;  ///< bit n is set if the n-th of ReadOptions::shown selects the atom
+  /// Bit n is set if the n-th set of atoms drawn in addition to the surface has the atom (ReadOptions::shown).
+  std::uint16_t shown = 0;
   SecondaryStructure secondary = SecondaryStructure::unknown;  ///< secondary structure of its residue
 };
 
@@ -73,12 +77,15 @@ struct Warning {
   std::vector<std::string> details;  ///< one line for every case if there are several
 };
 
-/// The number of atoms in a file, and how they were used: read is the sum of all excluded and of used.
+/// The number of atoms in a file, and how they were used: `read` is the sum of all numbers in `excluded` and of `used`.
 struct ReadReport {
   std::size_t read = 0;  ///< all atom records of the file, with all models and alternate locations
-  /// Number of atoms for each reason; an atom counts for the first reason that applies.
+  /// Number of atoms for each reason, one of kExcludedModel and the following; an atom counts for the first reason that
+  /// applies.
   std::map<std::string, std::size_t> excluded;
-  std::map<std::string, std::size_t> charged;  ///< the part of `excluded` that occupies space and has a partial charge
+  /// As `excluded`, but only atoms that have a partial charge and occupy space. Atoms that are excluded as
+  /// kExcludedAltloc, kExcludedVirtual or kExcludedRadius occupy none.
+  std::map<std::string, std::size_t> charged;
   std::size_t used = 0;
   std::size_t models = 1;  ///< number of models in the file
   std::string assembled;   ///< description of the assembly of the used atoms; empty without an assembly
@@ -88,40 +95,45 @@ struct ReadReport {
   std::string sentence() const;
 };
 
-/// Returns "127 of radius zero, 58 water": the number of atoms for each reason, in the order of the reasons.
+/// Returns "127 of radius zero, 58 water": the number of atoms for each reason, in the order of the constants below.
 std::string reasons_text(const std::map<std::string, std::size_t>& excluded);
 
 /// The reasons of ReadReport::excluded, in the order in which they are tried.
-inline constexpr const char* kExcludedModel = "other_model";
+inline constexpr const char* kExcludedModel = "other_model";  ///< in a model that is not read
+/// Not in the trajectory, which has fewer atoms than the file.
 inline constexpr const char* kExcludedTrajectory = "not_in_trajectory";
-inline constexpr const char* kExcludedAltloc = "altloc";
+inline constexpr const char* kExcludedAltloc = "altloc";  ///< at an alternate location that was not chosen
+/// A place without an atom, such as a lone pair or dummy atom.
 inline constexpr const char* kExcludedVirtual = "virtual_site";
-inline constexpr const char* kExcludedSelection = "not_selected";
+inline constexpr const char* kExcludedSelection = "not_selected";  ///< not in the selection
+/// The element is unknown, and such atoms are to be skipped.
 inline constexpr const char* kExcludedElement = "unknown_element";
-inline constexpr const char* kExcludedRadius = "zero_radius";
+inline constexpr const char* kExcludedRadius = "zero_radius";  ///< a radius of 0 in the file
+/// Hydrogen, if radii are of united atoms or the user leaves it out.
 inline constexpr const char* kExcludedHydrogen = "hydrogen";
-inline constexpr const char* kExcludedWater = "water";
-inline constexpr const char* kExcludedIon = "ion";
-inline constexpr const char* kExcludedAssembly = "not_in_assembly";
+inline constexpr const char* kExcludedWater = "water";               ///< water that was not requested
+inline constexpr const char* kExcludedIon = "ion";                   ///< a free ion that was not requested
+inline constexpr const char* kExcludedAssembly = "not_in_assembly";  ///< in a chain that is not in the assembly
 
 /// Atoms that have the same radius for the same reason.
 struct RadiusClass {
-  std::string label;  ///< bonding class, force-field type, or element
-  double radius;      ///< Å
-  std::string source;
+  std::string label;   ///< bonding class, force-field type, or element
+  double radius;       ///< Å
+  std::string source;  ///< where the radius is from: a paper, a file or an option, as text for people
   std::size_t atoms;
 };
 
-/// Atoms that have several copies in an assembly (--instances).
+/// Atoms, and the motions to their copies in an assembly (--instances).
 struct Instances {
   std::vector<std::uint32_t> atoms;  ///< indices into Structure::atoms, ascending
-  std::vector<RigidMotion> motions;  ///< one for each copy, at least one
+  /// From Atom::position to each copy, at least one; the identity is among them only if the file lists it.
+  std::vector<RigidMotion> motions;
 };
 
 /// Chains that have the same motions in an assembly.
 struct AssemblyPart {
-  std::vector<std::string> chains;  ///< values of Atom::subchain; empty: all chains
-  std::vector<RigidMotion> motions;
+  std::vector<std::string> chains;   ///< values of Atom::subchain; empty: all chains
+  std::vector<RigidMotion> motions;  ///< from the positions in the file to each copy, at least one
 };
 
 /// A biological assembly as described in a file.
@@ -164,11 +176,13 @@ struct Structure {
   std::vector<AddedFile> added;  ///< files whose atoms follow the atoms of `file`
   std::vector<Atom> atoms;
   std::vector<Atom> extra_atoms;  ///< atoms that are shown in addition to the surface, which is not computed for them
-  /// Bonds of shown atoms, as places in `atoms` followed by `extra_atoms`.
+  /// Bonds of the atoms that are drawn in addition to the surface, as places in `atoms` followed by `extra_atoms`. It
+  /// may be null if there are no such atoms.
   std::shared_ptr<const std::vector<Bond>> shown_bonds;
-  std::optional<std::uint64_t> frame;  ///< number of the frame in its trajectory; none without a trajectory
-  std::vector<Instances> instances;    ///< copies; each atom is in one entry; empty: every atom is only at its position
-  std::vector<Assembly> assemblies;    ///< assemblies that the file describes; empty unless requested
+  std::optional<std::uint64_t> frame;  ///< number of the frame in its trajectory, from 0; none without a trajectory
+  /// Copies: each of `atoms` is in exactly one entry; empty: atoms are only at their positions.
+  std::vector<Instances> instances;
+  std::vector<Assembly> assemblies;          ///< assemblies that the file describes; empty unless requested
   std::shared_ptr<const Topology> topology;  ///< null unless requested
   ReadReport report;
 };
@@ -196,8 +210,8 @@ struct AtomGroup {
 /// "ligand", "chain A 35B LEU".
 std::vector<AtomGroup> group_atoms(const Structure& structure, Grouping by);
 
-/// Returns the chain of an atom as it is named in the file. In an assembly the copies of chain A are named,
-/// ..., but have the same colour.
+/// Returns the chain of an atom as it is named in the file. Copies of chain A in an assembly are named, ...
+/// (Atom::chain); this function returns A for each of them.
 std::string chain_of_file(const Atom& atom);
 
 /// Returns the distinct chains of some atoms as they are named in the file, in order of appearance.

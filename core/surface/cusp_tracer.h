@@ -30,8 +30,8 @@ struct CuspSide {
 /// All fixed probes in the form that the search needs. The sides of probe s are sides[first_side[s]] to
 /// sides[first_side[s + 1] - 1].
 struct CuspProblem {
-  double probe_radius = 0.0;
-  std::span<const glm::dvec3> positions;
+  double probe_radius = 0.0;              ///< Å
+  std::span<const glm::dvec3> positions;  ///< centres of the probes, Å
   std::span<const double>
       heights;  ///< height over the contacts; only probes lower than their radius are cut (theorem 1.3)
   std::span<const std::uint32_t> first_side;

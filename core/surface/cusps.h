@@ -25,13 +25,14 @@ struct CuspArc {
   std::array<std::uint32_t, 2> probe{};               ///< probe[0] < probe[1]
   std::array<std::uint32_t, 2> vertex{kNone, kNone};  ///< begin and end: axis cusp or index into CuspParts::triple
   std::array<bool, 2> on_axis{};                      ///< vertex is an axis cusp: toroidal patch * 2 + side
-  glm::dvec3 center{0.0};
-  glm::dvec3 axis{0.0};
-  double radius = 0.0;
-  glm::dvec3 start{0.0};
-  double sweep = 0.0;
+  glm::dvec3 center{0.0};                             ///< Å
+  glm::dvec3 axis{0.0};                               ///< unit vector
+  double radius = 0.0;                                ///< Å
+  glm::dvec3 start{0.0};                              ///< unit vector, perpendicular to axis
+  double sweep = 0.0;                                 ///< radians
 };
 
+/// The parts of a surface that follow from fixed probes that reach into each other.
 struct CuspParts {
   std::vector<CuspArc> arcs;
   std::vector<glm::dvec3> triple;          ///< points where three probes meet on the surface

@@ -35,6 +35,7 @@ struct FixedProbes {
   }
 };
 
+/// The parts of a surface that follow from a rolling probe: its fixed positions and the tori between these.
 struct RollingParts {
   FixedProbes probes;
   std::vector<ToroidalPatch> toroidal;  ///< sorted by atoms; their faces are filled in later

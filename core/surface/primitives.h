@@ -27,12 +27,13 @@
 
 namespace meniscus {
 
-/// A half-space: a point x is inside where dot(normal, x) <= offset. The normal has unit length.
+/// A half-space: a point x (Å) is inside where dot(normal, x) <= offset.
 struct Plane {
-  glm::dvec3 normal{0.0};
-  double offset = 0.0;
+  glm::dvec3 normal{0.0};  ///< unit vector
+  double offset = 0.0;     ///< Å
 };
 
+/// The kind of a patch and of its faces.
 enum class PatchKind : std::uint8_t { convex = 0, toroidal = 1, concave = 2 };
 
 /// Contact patch: the vdW sphere of one atom inside all its planes (theorem 1.1).
@@ -52,11 +53,11 @@ struct ConvexPatch {
 struct ToroidalPatch {
   std::array<std::uint32_t, 2> atom{};               ///< atom[0] < atom[1]
   std::array<std::uint32_t, 2> probe{kNone, kNone};  ///< fixed probes at start and end; kNone for a free edge
-  glm::dvec3 center{0.0};
-  glm::dvec3 axis{0.0};
-  double radius = 0.0;
-  glm::dvec3 start{0.0};  ///< unit vector, perpendicular to axis
-  double sweep = 0.0;     ///< in (0, 2 pi]; exactly 2 pi for a free edge
+  glm::dvec3 center{0.0};                            ///< Å
+  glm::dvec3 axis{0.0};                              ///< unit vector
+  double radius = 0.0;                               ///< Å
+  glm::dvec3 start{0.0};                             ///< unit vector, perpendicular to axis
+  double sweep = 0.0;                                ///< radians, in (0, 2 pi]; exactly 2 pi for a free edge
   std::uint32_t first_face = 0;
   std::uint32_t face_count = 0;  ///< 1, or 2 for a spindle (the piece of atom[0], then that of atom[1])
   /// For a spindle: which of its two pieces exist. Both exist except in a part of a surface (part.h).
@@ -82,7 +83,7 @@ inline bool crosses_axis(const ToroidalPatch& t, std::span<const Ball> atoms, do
 /// through the probe and two neighbouring contacts, then `cut_count` bisectors towards the probes in `cuts`, then
 /// `parting_count` planes that separate it from faces that are not in a part of a surface (part.h).
 struct ConcavePatch {
-  glm::dvec3 center{0.0};
+  glm::dvec3 center{0.0};           ///< centre of the probe, Å
   std::uint32_t first_contact = 0;  ///< into Surface::contacts: touched atoms, counter-clockwise seen from the probe
   std::uint32_t contact_count = 0;  ///< 3, or more for a degenerate probe
   std::uint32_t first_plane = 0;    ///< into Surface::planes: side planes (contact n and n+1), then bisectors
@@ -106,11 +107,11 @@ enum class BorderKind : std::uint8_t {
 /// Points: center + radius*(cos t * start + sin t * cross(axis, start)), t in [0, sweep].
 struct Border {
   BorderKind kind = BorderKind::contact;
-  glm::dvec3 center{0.0};
-  glm::dvec3 axis{0.0};
-  double radius = 0.0;
-  glm::dvec3 start{0.0};
-  double sweep = 0.0;
+  glm::dvec3 center{0.0};                             ///< Å
+  glm::dvec3 axis{0.0};                               ///< unit vector
+  double radius = 0.0;                                ///< Å
+  glm::dvec3 start{0.0};                              ///< unit vector, perpendicular to axis
+  double sweep = 0.0;                                 ///< radians
   std::array<std::uint32_t, 2> vertex{kNone, kNone};  ///< start and end; kNone twice for a whole circle
   std::array<std::uint32_t, 2> face{kNone, kNone};  ///< left and right of the forward direction, seen from the solvent
 };
@@ -133,9 +134,10 @@ struct Face {
   std::uint32_t loop_count = 0;
   std::uint32_t component = 0;
   std::uint32_t tip = kNone;  ///< vertex inside the face, only for free spindle tori
-  double area = 0.0;
+  double area = 0.0;          ///< Å²
 };
 
+/// The kind of a component: the outside of a solid, or a cavity in it.
 enum class ComponentKind : std::uint8_t { outer, cavity };
 
 /// One closed, connected part of the surface.
@@ -180,8 +182,8 @@ struct SurfaceSums {
 
 /// The complete solvent-excluded surface of one set of balls. Patches are sorted by their atom indices.
 struct Surface {
-  double probe_radius = 0.0;
-  std::vector<Ball> atoms;  ///< every atom given, in input order, exposed or not
+  double probe_radius = 0.0;  ///< Å
+  std::vector<Ball> atoms;    ///< every atom given, in input order, exposed or not
 
   std::vector<ConvexPatch> convex;
   std::vector<ToroidalPatch> toroidal;

@@ -22,12 +22,12 @@ namespace meniscus {
 /// `to`, counter-clockwise about the axis unless the sweep is negative. A sweep of 0 has a sign, too: an arc without
 /// length still has a direction, which the corners on both sides of it need.
 struct SphereArc {
-  glm::dvec3 axis{0.0};
+  glm::dvec3 axis{0.0};  ///< unit vector
   double height = 0.0;
-  glm::dvec3 from{0.0};
-  glm::dvec3 to{0.0};
-  double sweep = 0.0;
-  bool whole = false;  ///< a whole circle without vertices
+  glm::dvec3 from{0.0};  ///< unit vector
+  glm::dvec3 to{0.0};    ///< unit vector
+  double sweep = 0.0;    ///< radians
+  bool whole = false;    ///< a whole circle without vertices
 
   bool clockwise() const { return std::signbit(sweep); }
 };

@@ -26,14 +26,15 @@ struct VolumeFrame {
   Box extent() const;
 };
 
-/// The most values of a grid, as many as the files of all programs hold; 4 GiB in memory.
+/// The most values of a grid, in every file format that is read: 2^30, which take 4 GiB of memory.
 inline constexpr std::size_t kMostVolumeValues = std::size_t{1} << 30;
 
 /// The values at the points of a grid.
 class VolumeGrid {
  public:
-  /// `values` has one value per point, with the last axis running fastest; `path` is for messages. Throws InputError
-  /// unless the axes span space and all values are finite.
+  /// `values` has one value per point, with the last axis running fastest. Their number must be frame.count(), and the
+  /// caller must have checked the size (check_volume_size). `path` is for messages. Throws InputError if the axes lie
+  /// in one plane, if a step or the origin is implausibly large, or if a value is not finite.
   VolumeGrid(const std::string& path, const VolumeFrame& frame, std::vector<float> values);
 
   /// Returns the trilinear interpolation of the eight values around a point (Å); NaN outside of the grid.
@@ -50,8 +51,8 @@ class VolumeGrid {
   std::vector<float> values_;
 };
 
-/// Throws InputError for sizes that no grid has, and CapacityError for more than kMostVolumeValues points. `path` and
-/// `line` are for messages.
+/// Throws InputError if an axis has fewer than two points, and CapacityError for more than kMostVolumeValues points.
+/// `path` and `line` are for messages.
 void check_volume_size(const std::string& path, std::size_t line, const std::array<std::int64_t, 3>& size);
 
 }  // namespace meniscus

@@ -18,6 +18,7 @@
 
 namespace meniscus::povray {
 
+/// The materials of a surface in POV-Ray.
 enum class Material {
   opaque,
   ghost,  ///< translucent; only the sides that face the viewer are drawn
@@ -42,14 +43,15 @@ struct SceneObject {
   MaterialRequest material;                ///< differences from the material of the scene
 };
 
+/// The settings of a POV-Ray scene.
 struct SceneOptions {
-  std::string name = "surface";          ///< begins all file names; letters, digits, '-' and '_' only
-  int width = 1280, height = 960;        ///< pixels
-  Material material = Material::opaque;  ///< the scene's default; every scene holds all of them
-  glm::vec3 background{1.0f};            ///< sRGB
-  float shadows = 0.0f;                  ///< Look::shadows
-  float shadow_softness = 0.0f;          ///< Look::shadow_softness
-  Existing existing = Existing::refuse;
+  std::string name = "surface";           ///< begins all file names; letters, digits, '-' and '_' only
+  int width = 1280, height = 960;         ///< pixels
+  Material material = Material::opaque;   ///< the scene's default; every scene holds all of them
+  glm::vec3 background{1.0f};             ///< sRGB
+  float shadows = 0.0f;                   ///< Look::shadows
+  float shadow_softness = 0.0f;           ///< Look::shadow_softness
+  Existing existing = Existing::refuse;   ///< the action if a file exists
   std::optional<glm::dvec3> origin;       ///< origin of the scene's coordinates, Å; empty: the middle of all atoms
   const ColoredShapes* shapes = nullptr;  ///< shapes in addition to the surface; no file if nullptr or empty
   std::vector<SceneObject> objects;       ///< further objects in addition to the surface
@@ -64,7 +66,7 @@ struct SceneOptions {
 
 /// A report of the written files, and of things that could not be written.
 struct SceneReport {
-  std::vector<std::filesystem::path> files;
+  std::vector<std::filesystem::path> files;  ///< paths of the written files
   std::size_t object_count = 0;  ///< number of primitives without copies; a patch of several colours counts more often
   std::vector<std::string> notes;  ///< sentences about things left out or slow; empty if everything is shown
   glm::dvec3 origin{0.0};          ///< scene coordinates + origin = molecule coordinates

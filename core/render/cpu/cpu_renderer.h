@@ -45,7 +45,7 @@ class CpuRenderer {
 
   /// Draws a finished picture over the look's background, which stays available as rgba(). `stop` is called regularly
   /// on this thread; if it returns true, drawing stops: draw() returns false, rgba() keeps the previous picture, and
-  /// pick() finds nothing. Throws as render().
+  /// pick() finds nothing. Throws what render() throws.
   bool draw(std::span<const PictureObject> objects, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop = {}) {
     return draw(pack(objects, camera, settings), settings, stop);

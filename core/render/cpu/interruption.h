@@ -14,7 +14,8 @@
 
 namespace meniscus {
 
-/// Decides whether the current picture is to be stopped. The caller's function is called on the caller's thread only.
+/// Decides if the current picture is to be stopped. Keeps a reference to the caller's function, which must outlive it.
+/// The caller's function is called on the caller's thread only.
 class Interruption {
  public:
   explicit Interruption(const std::function<bool()>& stop) : stop_(stop) {}

@@ -31,16 +31,19 @@ bool is_pdb_atom(std::string_view line);
 /// chain is replaced by the segment. Columns missing at the end of the line are blank.
 void read_pdb_names(std::string_view line, Atom& atom);
 
-/// Parses "52" or, with an insertion code, "52A". False for any other text.
+/// Parses "52" or, with an insertion code, "52A". Returns false for any other text, also for a blank one; `number` is
+/// then unchanged, and `insertion_code` may have changed.
 bool parse_residue_number(std::string_view field, std::int32_t& number, char& insertion_code);
 
-/// Reads residue numbers from the columns 23 to 26, or to 27 if the column of the insertion code has a digit. Numbers
-/// are decimal; hybrid-36 (A000 is 10,000; R. W. Grosse-Kunstleve); or hexadecimal as VMD writes them above 9,999,
-/// which are recognized because they continue the count. Instead of a number there may be asterisks. Residues with
-/// asterisks are counted, and a new residue begins where names of atoms repeat.
+/// Reads residue numbers from the columns 23 to 26, or to 27 if the column of the insertion code has a digit. A number
+/// is decimal, hybrid-36 (A000 is 10,000; R. W. Grosse-Kunstleve), or hexadecimal as VMD writes numbers above 9,999. A
+/// hexadecimal number is recognized because it continues the count of the residues before it. Asterisks stand for a
+/// number that did not fit: such residues are counted on from the last number, and a new one begins where the residue's
+/// name changes or the name of an atom repeats.
 class PdbResidueNumbers {
  public:
-  /// Sets residue_number of an atom whose names were read. False if the columns have no number.
+  /// Sets residue_number of an atom whose names were read (read_pdb_names). Returns false if the columns have no
+  /// number; the atom's number is then counted on, or 0 if the columns are blank.
   bool read(std::string_view line, Atom& atom);
 
  private:
@@ -55,15 +58,16 @@ class PdbResidueNumbers {
 /// numbers are compared as text, so that every numbering beyond 99,999 with distinct numbers works.
 class PdbBonds {
  public:
-  /// Adds the record of the next atom, in the order of Atom::index.
+  /// Adds the ATOM or HETATM record of the next atom, in the order of Atom::index. Only atoms of the first model that
+  /// is read are added, because bonds are between these.
   void add_atom(std::string_view line);
   /// Adds a CONECT record.
   void add_record(std::string_view line) { records_.push_back(line); }
   /// Adds a bond between two serial numbers.
   void add_pair(std::string_view first, std::string_view second) { pairs_.push_back({first, second}); }
 
-  /// Returns each bond once, the lower atom first, in ascending order. Records with the number of no atom or of several
-  /// atoms are ignored.
+  /// Returns each bond once, the lower atom first, in ascending order. Bonds to a serial number that no atom has, or
+  /// several atoms have, are ignored.
   std::vector<Bond> bonds() const;
 
  private:
@@ -71,19 +75,23 @@ class PdbBonds {
   std::vector<std::array<std::string_view, 2>> pairs_;
 };
 
-/// A function that takes charge and element of an atom from the columns after the B-factor. False if the element is
-/// unknown. Throws InputError.
+/// A function that takes charge and element of an atom from the columns after the B-factor. Returns false if the
+/// element is unknown. Throws InputError for columns that it cannot read.
 using TrailingColumns = bool (*)(const TextFile& file, std::size_t line_number, std::string_view line, Atom& atom);
 
-/// Reads a file. read_trailing: null for PDB, which has segment and element in these columns.
+/// Reads the chosen models of a file: one by its number, or all (ModelChoice). `read_trailing` reads the columns after
+/// the B-factor; it is nullptr for PDB, where these are segment and element. Throws InputError for an atom record
+/// without coordinates and for a file without atoms.
 FileContents read_pdb(const TextFile& file, const ModelChoice& models, TrailingColumns read_trailing);
 
-/// A PDB file with models of the same atoms. The file appears only when it is complete. Atoms of classes other than
-/// polymer are written as HETATM.
+/// A PDB file with models of the same atoms. The file appears only when it is complete: without commit() it is deleted.
+/// Atoms of classes other than polymer are written as HETATM.
 class PdbModels {
  public:
-  /// Begins a file. Throws RequestError if the format has no room for more than 99,999 atoms, residue numbers of more
-  /// than four characters, or chains of more than two. Throws OutputError.
+  /// Begins a file; an existing one is refused or replaced by commit() (Existing). `atoms` must outlive this object.
+  /// Throws RequestError for what the format has no room for: more than 99,999 atoms, residue numbers below -999 or
+  /// above 9999, and names of more than two letters for a chain, four for an atom or three for a residue. Throws
+  /// OutputError.
   PdbModels(const std::filesystem::path& path, Existing existing, std::span<const Atom> atoms);
 
   /// Adds a model with these positions (Å), in the order of the atoms. Throws RequestError for coordinates beyond

@@ -19,14 +19,16 @@ struct PqrRecord {
 };
 
 /// Splits a record at blanks or, if fields touch, at the columns of PDB. Returns nothing if neither gives all fields.
-/// If both give the same coordinates and there is no chain between blanks, the columns are used.
+/// The split at blanks is preferred if it found a chain; otherwise the columns are used if they give the same numbers.
 std::optional<PqrRecord> parse_pqr_record(std::string_view line);
 
 /// The formats that the atom records of a text may have, by the first hundred of them.
 struct AtomRecordStyle {
   bool has_records = false;  ///< true if there are atom records
-  bool is_pqr = false;       ///< true if most of them can be split as PQR
-  bool is_pdb = false;       ///< true if some have coordinates in PDB's columns and they are not clearly PQR
+  bool is_pqr = false;       ///< true if at least half of them can be split as PQR
+  /// True if a record has coordinates in PDB's columns, unless is_pqr is true and fewer than half of the records have
+  /// occupancy and B-factor there; both can be true.
+  bool is_pdb = false;
 };
 /// Returns the formats that the atom records of a text may have.
 AtomRecordStyle style_of_atom_records(std::string_view text);

@@ -28,8 +28,8 @@ struct FormatMetadata {
 
 /// The models (frames) to read from a file. They count from 1 in the order of the file, whatever numbers the file has.
 struct ModelChoice {
-  std::int32_t number = 1;
-  bool all = false;
+  std::int32_t number = 1;  ///< number of the only model to read, from 1
+  bool all = false;         ///< true: all models are read
   bool takes(std::int32_t model) const { return all || model == number; }
 };
 
@@ -44,7 +44,7 @@ struct FileContents {
   bool without_positions = false;          ///< true for a topology (PSF, prmtop), in which all positions are the origin
   std::size_t models = 0;                  ///< number of models in the whole file
   bool of_molecules = false;               ///< true if models are molecules or poses, not states of one molecule
-  std::size_t other_model_atoms = 0;
+  std::size_t other_model_atoms = 0;       ///< number of atoms in models that were not read
   FileRadii radii = FileRadii::none;
   std::string experiment;  ///< see Structure::experiment
   std::vector<Warning> warnings;

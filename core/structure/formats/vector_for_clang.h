@@ -2,10 +2,11 @@
 // Lets clang 14 compile gemmi 0.5 as C++20. The files that use gemmi include it before everything else.
 #pragma once
 
-// gemmi has vectors of a type that is incomplete at that point. clang instantiates constexpr members of std::vector at
-// once, where gcc waits until they are needed. Therefore these members are not constexpr here. The function that is
-// renamed is declared as constexpr elsewhere; only std::fill over std::vector<bool> would need it, which these files do
-// not use.
+// gemmi declares vectors of a type before the type is complete. clang instantiates constexpr members of std::vector at
+// their declaration, where gcc waits until they are needed. Therefore the members of std::vector are not constexpr in
+// this include. libstdc++ has declared __fill_a1(), which std::vector<bool> uses in std::fill, as constexpr already in
+// another header, so a second declaration without constexpr would be an error; the new name avoids it. The renamed
+// function has no callers in the files that use gemmi.
 #include <string>
 
 #pragma push_macro("_GLIBCXX20_CONSTEXPR")

@@ -21,6 +21,7 @@ struct RadiusOverride {
   double radius;  ///< Å, greater than 0
 };
 
+/// The choice of radii.
 struct RadiiOptions {
   /// "bondi", "united", "protor" or "file"; empty: "file" if the file has usual radii, else "bondi".
   std::string set{};

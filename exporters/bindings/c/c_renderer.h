@@ -20,14 +20,16 @@
 
 namespace meniscus::c_api {
 
-/// A GL context and its renderer.
+/// A GL context and its renderer. It must be made, used and destroyed on one thread (OnGlThread).
 struct GlRenderer {
+  /// Makes the context on a device other than MENISCUS_CPU. Throws GpuError if there is no such GL.
   explicit GlRenderer(std::int32_t device) : context(gl_of(device)), renderer(make_gl_still_renderer(context)) {}
   EglContext context;
   std::unique_ptr<StillRenderer> renderer;
 };
 
-/// Refuses memory of the caller that is too small for the picture of a scene with MENISCUS_USAGE.
+/// Refuses, with MENISCUS_USAGE, memory of the caller that is NULL or too small for the four bytes of each pixel of the
+/// picture of the scene.
 inline void require_room(const Scene& scene, const std::uint8_t* rgba, std::size_t rgba_size) {
   require(rgba, "rgba");
   require_numbers(rgba, rgba_size, 1, "rgba");
@@ -37,7 +39,9 @@ inline void require_room(const Scene& scene, const std::uint8_t* rgba, std::size
            scene.picture.height, size);
 }
 
-/// Writes the bytes of the program's PNG files to the caller's memory, always with alpha.
+/// Writes the bytes of the program's PNG files to the caller's memory, always with alpha. The memory must have passed
+/// require_room(). Transparent pixels are encoded for programs that blend in sRGB (layout_bytes), except with a
+/// background or linear alpha (display_bytes).
 inline void write_pixels(const Framebuffer& drawn, const Scene& scene, std::uint8_t* rgba) {
   if (scene.image.background || scene.look.has_linear_alpha())
     display_bytes(drawn.color, scene.image.background, 4, rgba);
@@ -45,29 +49,34 @@ inline void write_pixels(const Framebuffer& drawn, const Scene& scene, std::uint
     layout_bytes(drawn.color, rgba);
 }
 
-/// The settings of a picture of a computed surface.
+/// The settings of a picture of a surface that the caller computed, without a molecule from a file.
 struct SurfacePicture {
   Scene scene;
   Camera camera;
   Coloring coloring;
 };
 
-/// Returns the settings from the arguments of meniscus_render(). Refuses impossible arguments, and scenes with other
-/// properties than such a picture has.
+/// Returns the settings from the arguments of meniscus_render(). `scene`, `camera` and `atom_colors` may be NULL: then
+/// the scene is the default one, the camera frames all atoms, and the atoms have one colour. `atom_colors` has three
+/// numbers, sRGB in [0, 1], per atom of the surface. Refuses impossible arguments, and scenes with values that only
+/// pictures of molecules from files have.
 SurfacePicture surface_picture(const meniscus_surface* surface, const meniscus_scene* scene,
                                const meniscus_camera* camera, const float* atom_colors);
 
 }  // namespace meniscus::c_api
 
-/// The object behind the handle of a renderer. It draws on the CPU or on a GL thread.
+/// The object behind the handle of a renderer. It draws on the CPU or on a GL thread. It is made by new, and release()
+/// deletes it with its last reference (Counted).
 struct meniscus_renderer : meniscus::c_api::Counted {
+  /// `device` must have passed check_device(). MENISCUS_AUTO uses the CPU if there is no hardware GPU; any other device
+  /// without its GL is a GpuError.
   explicit meniscus_renderer(std::int32_t device) {
     if (device != MENISCUS_CPU) use_gl(device);
     if (!gl_renderer_) cpu_renderer_ = std::make_unique<meniscus::StillRenderer>();
   }
 
-  /// Calls use(renderer, context), on the GL thread if there is one. Calls wait for each other. context: nullptr on the
-  /// CPU.
+  /// Calls use(renderer, context), on the GL thread if there is one; `context` is nullptr on the CPU. Several threads
+  /// may call this; their calls wait for each other.
   template <typename Use>
   void run(const Use& use) {
     if (gl_renderer_)
@@ -77,8 +86,8 @@ struct meniscus_renderer : meniscus::c_api::Counted {
   }
 
  private:
-  /// Creates the GL renderer. MENISCUS_AUTO takes a hardware GPU only, because the CPU is faster than software GL.
-  /// Throws GpuError for another device without GL.
+  /// Creates the GL renderer. MENISCUS_AUTO takes a hardware GPU only, because the CPU is faster than software GL, and
+  /// leaves gl_renderer_ empty if there is none. For other devices throws GpuError if there is no such GL.
   void use_gl(std::int32_t device) {
     const bool automatic = device == MENISCUS_AUTO;
     try {
@@ -95,7 +104,7 @@ struct meniscus_renderer : meniscus::c_api::Counted {
   std::optional<meniscus::c_api::OnGlThread<meniscus::c_api::GlRenderer>> gl_renderer_;
 };
 
-/// The object behind the handle of a page.
+/// The object behind the handle of a page. release() deletes it with its last reference (Counted).
 struct meniscus_page : meniscus::c_api::Counted {
   explicit meniscus_page(std::string text) : html(std::move(text)) {}
   const std::string html;
