@@ -9,7 +9,6 @@
 #include <iterator>
 #include <memory>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <vector>
 
@@ -223,8 +222,11 @@ void verify(const std::filesystem::path& folder, const std::optional<farm::InPla
   const StopHandler handler([] { stop_children(); }, std::nullopt);
   farm::check_inputs(bundle, folder, true);
   const farm::FrameFaults faults = farm::faults_of(bundle, folder);
-  for (const auto& [frame, fault] : faults | std::views::take(kFaultsShown))
+  std::size_t shown = 0;
+  for (const auto& [frame, fault] : faults) {
+    if (shown++ == kFaultsShown) break;
     std::cerr << fmt::format("meniscus: frame {}: {}\n", frame, escaped(fault.sentence));
+  }
   const std::size_t all = bundle.frames.size(), good = all - faults.size();
   if (!faults.empty() && (!in_place || good == 0))
     throw RunError(kExitInput,
@@ -234,8 +236,8 @@ void verify(const std::filesystem::path& folder, const std::optional<farm::InPla
   if (bundle.film) farm::encode_film(bundle, folder, faults, in_place.value_or(farm::InPlace::hold));
   fmt::print(std::cout, "{} frames are good", with_thousands(good));
   if (!faults.empty()) {
-    const auto numbers = std::views::keys(faults);
-    const std::vector<std::uint64_t> missing(numbers.begin(), numbers.end());
+    std::vector<std::uint64_t> missing;
+    for (const auto& [frame, fault] : faults) missing.push_back(frame);
     fmt::print(std::cout, ", {} missing: {}; {}", with_thousands(faults.size()), frame_list_text(missing),
                in_place == farm::InPlace::drop ? "the film is shorter" : "the frame before is shown again");
   }
