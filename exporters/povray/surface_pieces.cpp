@@ -11,7 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/color/color_key.h"
+#include "core/color/color_key_json.h"
 #include "core/color/color_maps.h"
 #include "exporters/povray/patch_objects.h"
 #include "exporters/povray/scene_colors.h"
