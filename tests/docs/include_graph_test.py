@@ -148,7 +148,8 @@ class IncludeGraph(unittest.TestCase):
         drawing = html.unescape((ROOT / "docs/explanation/folders.svg").read_text())
         shown = set(re.findall(r"<title>(\S+)->(\S+)</title>", drawing))
         self.assertGreater(len(shown), 40)
-        self.assertEqual(shown, {(folder, name) for folder, names in needs(sources()).items() for name in names})
+        self.assertEqual(shown, {(folder, name) for folder, names in needs(sources()).items() for name in names},
+                         "draw it again: include_graph_test.py --dot | dot -Tsvg > docs/explanation/folders.svg")
 
     def test_every_file_has_its_place(self):
         graph = sources()
