@@ -131,8 +131,8 @@ std::string group_of(const Property& property);
 /// Parses an expression that is the value of an option. Throws SelectionError that names the option.
 Selection parse_selection_option(const std::string& option, const std::string& text);
 
-/// Returns the path of the molecule, and options for all values that differ from those of Scene{}. The output file is
-/// left out. If `path` is given, it returns the text that replaces the path of each file to read.
+/// Returns the path of the molecule, and an option for each value that differs from its default in Scene{}. The output
+/// file is left out. If `path` is given, it returns the text that replaces the path of each file to read.
 std::vector<std::string> scene_words(const Scene& scene,
                                      const std::function<std::string(const std::string& path)>& path = {});
 

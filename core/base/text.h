@@ -64,8 +64,8 @@ std::string base64(std::string_view bytes);
 /// shortened to a window around the position. Control characters are escaped, and UTF-8 counts by character.
 std::string pointed_at(std::string_view text, std::size_t position);
 
-/// Returns the spelling of an option by its name. "keep-water" becomes "--keep-water" unless spell_options() was
-/// called.
+/// Returns the spelling of an option by its name: by default with two hyphens before it, else as the function that
+/// spell_options() has set returns it.
 std::string option_name(std::string_view name);
 
 /// A function that spells options, and the call that sets it for this interface. It has to be called before anything

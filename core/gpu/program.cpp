@@ -32,7 +32,7 @@ std::string program_log(GLuint program) {
   return log.substr(0, log.find('\0'));
 }
 
-/// Rounds up to whole rows of 16 bytes, of which uniform blocks consist; some drivers count the last row as whole.
+/// Rounds up to whole rows of 16 bytes. Uniform blocks consist of such rows; some drivers count the last row as whole.
 std::size_t in_vectors(std::size_t byte_count) { return (byte_count + 15) / 16 * 16; }
 
 /// Returns the name of a kernel with its defines.

@@ -17,8 +17,8 @@
 #define MENISCUS_VECTOR_CLONES
 #endif
 
-// Stands before a loop of which no step writes what another step reads. clang finds that out by itself, and it warns
-// about such a pragma where sanitizers keep it from vectorizing.
+// Tells gcc that the steps of the following loop are independent: no step writes data that another step reads. clang
+// finds this out by itself, and warns about the pragma where sanitizers keep it from vectorizing.
 #if defined(__GNUC__) && !defined(__clang__)
 #define MENISCUS_INDEPENDENT_STEPS _Pragma("GCC ivdep")
 #else

@@ -46,7 +46,7 @@ double number_in_range(const Property& property, const std::string& text);
 /// Returns the place of the text among the words. Throws RequestError if it is not one of them.
 std::size_t place_of_word(const std::vector<std::string>& words, const std::string& text);
 
-// Values of common types are read from texts, of which the last counts, and written unless they have their defaults.
+// Values of common types are parsed from the last of several texts, and written unless they have their defaults.
 
 template <typename Number>
 requires std::is_arithmetic_v<Number>

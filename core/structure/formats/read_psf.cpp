@@ -80,8 +80,8 @@ class PsfReader {
   std::array<std::string_view, 7> columns_of(std::string_view line) const {
     std::vector<std::string_view> fields = fields_of(line, 12);
     if (fields.size() == 8) {
-      // Either the segment is blank or, if the second field is no number but the third is, the type, as ProDy writes
-      // it.
+      // One field is blank. It is the type, as ProDy writes it, if the third field is a number and the second is not;
+      // otherwise it is the segment.
       const bool has_segment = !is_residue_number(fields[1]) && is_residue_number(fields[2]);
       fields.insert(fields.begin() + (has_segment ? 5 : 1), std::string_view());
     }

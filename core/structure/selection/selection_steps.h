@@ -143,7 +143,7 @@ struct Token {
   std::size_t position = 0;  ///< byte in the expression
 };
 
-/// Returns the tokens, of which the last has the kind `end`. Words may contain everything except blanks, brackets,
+/// Returns the tokens. The last one has the kind `end`. Words may contain everything except blanks, brackets,
 /// commas, double quotes and the signs < > = ! & |. A single quote opens a quoted text only at the beginning of a word,
 /// so that O5' is a word. Throws SelectionError for a quote that is not closed and for control characters.
 std::vector<Token> tokens_of(std::string_view text);
