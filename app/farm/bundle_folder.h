@@ -24,7 +24,10 @@ class HiddenFolder {
  public:
   /// Makes PARENT/.NAME.RANDOM.part, which no other process on any machine has. Throws OutputError.
   HiddenFolder(const std::filesystem::path& parent, std::string_view name);
-  ~HiddenFolder() { remove(); }
+  ~HiddenFolder() {
+    const auto held = hold_stops();  // of two threads that remove the same folder, both may give up
+    remove();
+  }
   HiddenFolder(const HiddenFolder&) = delete;
   HiddenFolder& operator=(const HiddenFolder&) = delete;
 

@@ -149,7 +149,10 @@ bool take_line(const std::string& line, Frames& frames, const FrameListener& lis
 /// code where it cannot work at all, InputError if it cannot be started.
 void make_frames(const Bundle& bundle, Step step, const Order& order, const Frames& frames,
                  const FrameListener& listener) {
-  make_folders_of(order.folder / bundle.result_pattern(step));
+  {
+    const StopBarrier barrier;  // the folder may be a hidden one, which a signal removes
+    make_folders_of(order.folder / bundle.result_pattern(step));
+  }
   const Maker maker = bundle.maker(step);
   if (maker == Maker::povray) return make_by_povray(bundle, order, frames, listener);
   if (maker == Maker::blender) return make_by_blender(bundle, order, frames, listener);
