@@ -92,7 +92,7 @@ void check_blender(const Scene& scene) { check_caps_of_map(scene, "a .mns file h
 
 blender::Shot blender_shot(const Scene& scene, const Camera& camera) {
   return {camera, scene.picture.width, scene.picture.height, scene.look.shadows.value_or(0.0f),
-          scene.look.shadow_softness.value_or(0.0f)};
+          look_of(scene.look, glm::ivec2(1), std::nullopt, Hues::free).shadow_softness};
 }
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }

@@ -39,7 +39,7 @@ povray::SceneOptions povray_options(const Scene& scene, Existing existing) {
   options.height = scene.picture.height;
   options.material = meaning_of(scene.renderer.material, "povray.material", {opaque, ghost, glass, wax, flat});
   options.shadows = scene.look.shadows.value_or(0.0f);
-  options.shadow_softness = scene.look.shadow_softness.value_or(0.0f);
+  options.shadow_softness = look_of(scene.look, glm::ivec2(1), std::nullopt, Hues::free).shadow_softness;
   options.existing = existing;
   options.cut.style = scene.figure.cap;
   options.film = scene.figure.thickens;

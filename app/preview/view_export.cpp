@@ -216,7 +216,7 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target, 
   options.background = view.figure.background;
   options.existing = target.existing;
   options.shadows = view.figure.look.shadows.value_or(0.0f);
-  options.shadow_softness = view.figure.look.shadow_softness.value_or(0.0f);
+  options.shadow_softness = look_of(view.figure.look, view.size, std::nullopt, Hues::free).shadow_softness;
   options.colors = view.colors;
   if (view.beside) options.shapes = &view.beside->shapes;
   options.film = figure.thickens;
@@ -242,7 +242,7 @@ void export_blender(const ExportedView& view, const ExportTarget& target, const 
                                        view.structure.radii_set, device, view.colors};
   write_objects(target.path.string(), target.existing, objects,
                 blender::Shot{view.figure.camera, view.size.x, view.size.y, view.figure.look.shadows.value_or(0.0f),
-                              view.figure.look.shadow_softness.value_or(0.0f)},
+                              look_of(view.figure.look, view.size, std::nullopt, Hues::free).shadow_softness},
                 provenance);
 }
 

@@ -61,6 +61,12 @@ struct Coloring {
   bool hides_some() const {
     return std::ranges::find(hidden, true) != hidden.end() || std::ranges::find(opacity, 0.0f) != opacity.end();
   }
+  /// Returns whether each atom blocks light: only opaque ones do.
+  std::vector<bool> blocking() const {
+    std::vector<bool> result(atom.size());
+    for (std::uint32_t a = 0; a < atom.size(); ++a) result[a] = shows(a) && opacity_of(a) >= 1.0f;
+    return result;
+  }
   bool is_translucent() const {
     return std::ranges::any_of(opacity, [](float share) { return share > 0.0f && share < 1.0f; });
   }

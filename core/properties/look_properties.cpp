@@ -43,7 +43,7 @@ constexpr auto kTable = std::to_array<Property>({
         .from(1, 1000)
         .in(kLight, kLook | of_objects),
     number("look.ambient_occlusion", "--ambient-occlusion", "F",
-           "Shade in pockets and clefts, 0 (none) to 1. Only what the picture shows casts shade")
+           "Shade in pockets and clefts, 0 (none) to 1. All that is drawn casts shade; what is seen through casts none")
         .from(0, 1)
         .slider("Shade", 1)
         .in(kLight, kLook | in_short_help),
@@ -52,21 +52,18 @@ constexpr auto kTable = std::to_array<Property>({
         .from(0.1, 1000)
         .in(kLight, kLook),
     number("look.ambient_occlusion_rays", "--ambient-occlusion-rays", "N",
-           "Rays a pixel that find shade, such as 64. All that is drawn casts it then, shown or not, and it stays "
-           "where it is in films. 0: from the picture alone")
+           "Rays a pixel that find shade and shadows, such as 64: exact, but slow. 0: maps of the light find them")
         .from(0, 4096)
         .initially("0")
         .in(kLight, kLook),
     number("look.shadows", "--shadows", "F",
            "Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts none")
         .from(0, 1)
-        .initially("0")
         .slider("Shadows", 1)
         .in(kLight, kLook | in_short_help),
     number("look.shadow_softness", "--shadow-softness", "DEGREES",
-           "Half the angle at which the lamp is seen, 0 (sharp shadows) to 45")
+           "Half the angle at which the lamp is seen, 0 (sharp shadows, by rays) to 45")
         .from(0, 45)
-        .initially("0")
         .in(kLight, kLook),
     text("look.silhouettes", "--silhouettes", "WIDTH",
          "Width of black outlines: pixels, 0.5pt or 0.2mm; 0: no lines. They are drawn around whatever is in "

@@ -101,7 +101,7 @@ Framebuffer GlRenderer::render(Drawable& drawable, const Camera& camera, const R
     return names_of(source, hit, point);
   });
   const std::vector<PictureBlock> blocks = collector.blocks(usable_block_edge(settings.block_edge));
-  if (needs_shade_map(blocks.front(), settings)) make_shade_map();
+  caster_.make_light_maps(drawable.atoms(), *scene_, settings.look, frame_.basis);
   for (const PictureBlock& block : blocks) {
     render_block(block, settings, collector);
     collector.end_block(block);
@@ -110,7 +110,7 @@ Framebuffer GlRenderer::render(Drawable& drawable, const Camera& camera, const R
 }
 
 void GlRenderer::render_block(const PictureBlock& inner, const RenderSettings& settings, PictureCollector& collector) {
-  const PictureBlock block = with_neighbors(inner, look_reach(settings.look, settings.size), frame_.size);
+  const PictureBlock block = with_neighbors(inner, look_reach(settings.look), frame_.size);
   try {
     caster_.cast(*scene_, frame_, block, {.samples = settings.samples, .look = settings.look, .clock = &clock_});
   } catch (const CapacityError&) {
@@ -121,28 +121,6 @@ void GlRenderer::render_block(const PictureBlock& inner, const RenderSettings& s
   const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
   collector.add_colors(inner, block, samples().download<glm::vec4>(count));
   if (settings.aovs) collector.add_hits(inner, block, hits().download<ray_cast::Hit>(count));
-}
-
-void GlRenderer::make_shade_map() {
-  const PictureFrame map = shade_map_frame(frame_);
-  std::vector<float> depths(static_cast<std::size_t>(map.size.x) * map.size.y);
-  for (const PictureBlock& block : picture_blocks(map.size, glm::ivec2(usable_block_edge(map.size.x + map.size.y))))
-    add_to_shade_map(map, block, depths);
-  caster_.set_shade_map(depths);
-}
-
-void GlRenderer::add_to_shade_map(const PictureFrame& map, const PictureBlock& block, std::vector<float>& depths) {
-  std::vector<float> part;
-  try {
-    part = caster_.cast_depths(*scene_, map, block);
-  } catch (const CapacityError&) {
-    if (block.size.x <= kTileEdge && block.size.y <= kTileEdge) throw;
-    for (const PictureBlock& half : halves(block)) add_to_shade_map(map, half, depths);
-    return;
-  }
-  for (int y = 0; y < block.size.y; ++y)
-    std::copy_n(part.begin() + static_cast<std::ptrdiff_t>(y) * block.size.x, block.size.x,
-                depths.begin() + static_cast<std::ptrdiff_t>(block.origin.y + y) * map.size.x + block.origin.x);
 }
 
 bool GlRenderer::draw(Drawable& drawable, const Camera& camera, const RenderSettings& settings,
@@ -157,14 +135,12 @@ bool GlRenderer::draw_once(Drawable& drawable, const RenderSettings& settings, c
                            bool& settled) {
   const PictureBlock block{{0, 0}, frame_.size};
   // A caller that may stop the picture between samples is notified after each sample.
-  const bool needs_map = needs_shade_map(block, settings);
-  const bool trusts =
-      counting_ == Counting::later && !needs_map && caster_.can_trust(block) && !(stop && settings.samples > 1);
+  const bool trusts = counting_ == Counting::later && caster_.can_trust(block) && !(stop && settings.samples > 1);
   if (trusts)
     scene_ = &drawable.prepare(frame_, clock_);
   else
     prepare(drawable);
-  if (needs_map) make_shade_map();
+  caster_.make_light_maps(drawable.atoms(), *scene_, settings.look, frame_.basis);
   if (!caster_.cast(*scene_, frame_, block,
                     {settings.samples, settings.look, trusts ? Counting::later : Counting::now, stop, &clock_}))
     return false;

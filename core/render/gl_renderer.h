@@ -116,8 +116,6 @@ class GlRenderer {
   void begin(Drawable& drawable, const Camera& camera, const RenderSettings& settings);
   void prepare(Drawable& drawable);
   bool draw_once(Drawable& drawable, const RenderSettings& settings, const std::function<bool()>& stop, bool& settled);
-  void make_shade_map();
-  void add_to_shade_map(const PictureFrame& map, const PictureBlock& block, std::vector<float>& depths);
   void render_block(const PictureBlock& inner, const RenderSettings& settings, PictureCollector& collector);
 
   Counting counting_ = suitable_counting();

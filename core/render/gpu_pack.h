@@ -47,7 +47,8 @@ struct GpuPack : PackPlacement {
   std::uint32_t atom_count = 0;
   bool color_by_kind = false;
   bool some_hidden = false;
-  Buffer marks;  ///< one uint32 per atom, or empty: Coloring::line_marks()
+  std::vector<bool> blocks_light;  ///< Coloring::blocking()
+  Buffer marks;                    ///< one uint32 per atom, or empty: Coloring::line_marks()
 };
 
 /// Uploads the coloring: sets the last five members.

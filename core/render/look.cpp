@@ -28,13 +28,15 @@ Look modern() {
 
 Look publication(glm::ivec2 size) {
   Look look = modern();
-  look.material = {.ambient = 0.0f, .roughness = 0.35f, .specular = 0.06f, .shininess = 60.0f};
+  look.light_strength = 1.15f;
+  look.material = {.ambient = 0.5f, .roughness = 0.35f, .specular = 0.06f, .shininess = 60.0f};
   look.ambient_occlusion = 0.9f;
-  look.ambient_occlusion_radius = 25.0f;
+  look.shadows = 0.35f;
+  look.shadow_softness = 12.0f;
   look.outer_lines = line_width(1.8f, size);
   look.inner_lines = line_width(1.2f, size);
   look.part_lines = line_width(1.4f, size);
-  look.depth_cue = 0.35f;
+  look.depth_cue = 0.1f;
   return look;
 }
 
@@ -44,7 +46,6 @@ Look cover() {
   look.light_strength = 1.4f;
   look.material = {.ambient = 0.0f, .roughness = 0.15f, .specular = 0.25f, .shininess = 80.0f};
   look.ambient_occlusion = 1.0f;
-  look.ambient_occlusion_radius = 30.0f;
   look.depth_cue = 0.25f;
   return look;
 }
@@ -63,7 +64,6 @@ Look soft() {
   Look look = modern();
   look.material = {.ambient = 0.0f, .roughness = 1.0f, .specular = 0.0f, .shininess = 40.0f};
   look.ambient_occlusion = 1.0f;
-  look.ambient_occlusion_radius = 30.0f;
   look.depth_cue = 0.3f;
   return look;
 }

@@ -55,16 +55,15 @@ struct LookNumbers {
   MaterialNumbers material{};
 
   /// Strength in [0, 1] of the shade in pockets and clefts. Unless ambient_occlusion_rays is set, it is computed from
-  /// the picture alone (ground-truth ambient occlusion, Jimenez et al. 2016), so parts outside of the picture cast no
-  /// shade.
+  /// maps (core/render/light_maps.h).
   Number ambient_occlusion{};
   Number ambient_occlusion_radius{};  ///< largest distance over which shade is cast, Å
-  /// Rays per pixel, over the whole sky, by which the shade is computed instead (core/render/cpu/shadow_rays.h); 0:
-  /// none. The rays hit everything that is drawn, even outside of the picture.
+  /// Rays per pixel, over the whole sky, by which the shade is computed instead (core/render/cpu/shadow_rays.h), as
+  /// well as the shadows; 0: none.
   Number ambient_occlusion_rays{};
 
   Number shadows{};          ///< darkness in [0, 1] of the shadows that the key light casts
-  Number shadow_softness{};  ///< half the lamp's angular diameter, degrees, below 90; 0: sharp shadows
+  Number shadow_softness{};  ///< half the lamp's angular diameter, degrees, below 90; 0: sharp shadows, by rays
 
   /// Share in [0, 1] by which the farthest atoms fade into the background; the nearest do not.
   Number depth_cue{};
@@ -76,7 +75,7 @@ struct LookNumbers {
 struct Look : LookNumbers<float, Material> {
   Look() {
     light_strength = 1.0f;
-    ambient_occlusion_radius = 8.0f;
+    ambient_occlusion_radius = 100.0f;
   }
 
   glm::vec3 background{1.0f};  ///< sRGB in [0, 1]
@@ -105,13 +104,18 @@ struct Look : LookNumbers<float, Material> {
   bool operator==(const Look&) const = default;
 
   /// True if an effect changes colours after the rays of the picture are cast.
-  bool has_effects() const { return ambient_occlusion > 0.0f || widest_line() > 0.0f || depth_cue > 0.0f; }
+  bool has_effects() const { return has_shade() || widest_line() > 0.0f || depth_cue > 0.0f; }
+  /// True if light is changed after the rays of the picture are cast.
+  bool has_shade() const { return ambient_occlusion > 0.0f || maps_lamp(); }
 
   bool traces_sky() const { return ambient_occlusion > 0.0f && ambient_occlusion_rays > 0.0f; }
-  /// True if highlights are added after the shade: the shade covers them, but is not yet known when the rays are cast.
-  bool finishes_highlights() const { return ambient_occlusion > 0.0f && !traces_light(); }
   /// True if rays continue from the points that they hit. Such pictures are made on the CPU.
-  bool traces_light() const { return shadows > 0.0f || traces_sky(); }
+  bool traces_light() const { return traces_sky() || (shadows > 0.0f && shadow_softness == 0.0f); }
+  /// True if the visibility of the sky, and that of the lamp, comes from maps (core/render/light_maps.h).
+  bool maps_sky() const { return ambient_occlusion > 0.0f && !traces_sky(); }
+  bool maps_lamp() const { return shadows > 0.0f && !traces_light(); }
+  /// True if highlights are added after the shade: the shade covers them, but is not yet known when the rays are cast.
+  bool finishes_highlights() const { return has_shade() && !traces_light(); }
 
   float widest_silhouette() const {
     return std::max(
@@ -122,27 +126,9 @@ struct Look : LookNumbers<float, Material> {
 
 inline constexpr float kWidestSilhouette = 16.0f;  ///< pixels
 
-/// Returns the edge, in pixels, of a texel of the map of depths from which shade is computed. It is 1 except in large
-/// pictures, in which a map of kShadeMapSide is sufficient.
-inline float shade_texel_edge(glm::ivec2 picture_size) {
-  constexpr int kLargestOwnMap = 2048, kShadeMapSide = 1024;
-  const int side = picture_size.x > picture_size.y ? picture_size.x : picture_size.y;
-  return side <= kLargestOwnMap ? 1.0f : static_cast<float>(side) / kShadeMapSide;
-}
-
-/// Returns the distance in pixels around a pixel within which its shade depends on the picture's own pixels instead of
-/// the map: a few texels.
-inline int near_shade_reach(glm::ivec2 picture_size) {
-  const float edge = shade_texel_edge(picture_size);
-  return edge == 1.0f ? 0 : static_cast<int>(8.0f * edge);
-}
-
 /// Returns the distance in pixels, in whole tiles of 16, around a pixel within which its colour depends on other
 /// pixels.
-inline int look_reach(const Look& look, glm::ivec2 picture_size) {
-  if (look.ambient_occlusion > 0.0f) return (near_shade_reach(picture_size) + 15) / 16 * 16 + 16;
-  return look.widest_line() > 0.0f ? 16 : 0;
-}
+inline int look_reach(const Look& look) { return look.has_shade() || look.widest_line() > 0.0f ? 16 : 0; }
 
 enum class LookPreset {
   publication,  ///< shade, thin lines, slight depth cue, colours as given

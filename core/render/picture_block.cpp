@@ -177,38 +177,23 @@ kernel::RayCastParameters cast_parameters(const PackPlacement& scene, const Look
   return own;
 }
 
-PictureFrame shade_map_frame(const PictureFrame& frame) {
-  PictureFrame map = frame;
-  const double edge = shade_texel_edge(frame.size);
-  // The number of texels is rounded down, so that the middle of each lies within the picture.
-  map.size = glm::max(glm::ivec2(glm::dvec2(frame.size) / edge), glm::ivec2(1));
-  map.pixel_size *= edge;
-  return map;
-}
-
-bool holds_shade_map(const PictureBlock& block, glm::ivec2 picture_size) {
-  return block.size == picture_size && shade_texel_edge(picture_size) == 1.0f;
-}
-
-kernel::OcclusionParameters occlusion_parameters(const Look& look, glm::ivec2 picture_size, int sample) {
-  PictureFrame frame;
-  frame.size = picture_size;
-  const glm::ivec2 map_size = shade_map_frame(frame).size;
-  return {.map_middle = 0.5f * glm::vec2(map_size) - 0.5f,
-          .map_size = map_size,
-          .texel_edge = shade_texel_edge(picture_size),
-          .near_reach = static_cast<float>(near_shade_reach(picture_size)),
-          .radius = look.ambient_occlusion_radius,
-          .longest_reach = glm::length(glm::vec2(picture_size)),
-          .sample_index = static_cast<std::uint32_t>(sample / kSamplesOfShade)};
-}
-
 kernel::FinishParameters finish_parameters(const Look& look, const PackPlacement& scene, glm::ivec2 picture_size,
                                            int sample, bool has_marks) {
   constexpr float kLeastPixels = 2.0f;  // slopes and rounding cause smaller steps, which get no line
   const float step_pixels = look.line_step * static_cast<float>(std::min(picture_size.x, picture_size.y));
+  const Light light = light_of(look);
   return {.key_direction = glm::normalize(look.light_direction),
           .key_strength = look.light_strength,
+          .key_color = light.key_color,
+          .key_share = light.key_share,
+          .fill_direction = fill_direction(),
+          .fill_share = light.fill_share,
+          .fill_color = light.fill_color,
+          .ambient = look.material.ambient,
+          .sky = light.sky,
+          .roughness = look.material.roughness,
+          .ground = light.ground,
+          .shadow = look.maps_lamp() ? look.shadows : 0.0f,
           .air = linear_from_srgb(look.background),
           .keeps_alpha = look.depth_cue_keeps_alpha,
           .patch_line_color = linear_from_srgb(look.patch_line_color),

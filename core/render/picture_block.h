@@ -79,28 +79,9 @@ inline glm::ivec2 tile_origin(const PictureBlock& block, std::size_t tile) {
   return kTileEdge * glm::ivec2(number % columns, number / columns);
 }
 
-/// Returns the frame of the map of depths from which shade is computed: the whole picture in texels
-/// (gpu_shaders/look/occlusion.glsl).
-PictureFrame shade_map_frame(const PictureFrame& frame);
-
-/// True if a block contains that map, because the map's texels are the pixels of the whole picture, and the block is
-/// all of it.
-bool holds_shade_map(const PictureBlock& block, glm::ivec2 picture_size);
-
-/// True if such a map must be made before the blocks of a picture, the first of which is `first`.
-inline bool needs_shade_map(const PictureBlock& first, const RenderSettings& settings) {
-  return settings.look.ambient_occlusion > 0.0f && !settings.look.traces_sky() &&
-         !holds_shade_map(first, settings.size);
-}
-
 /// Returns the place of sample `index` in its pixel, in pixels from the centre: the R2 sequence (Roberts 2018), centre
 /// first.
 glm::vec2 sample_offset(int index);
-
-/// The number of successive samples of a pixel that share the shade of the first of them, because it hardly differs
-/// among them.
-inline constexpr int kSamplesOfShade = 3;
-inline int shade_sample(int sample) { return sample - sample % kSamplesOfShade; }
 
 /// Returns the view of a block by one sample of each of its pixels.
 kernel::BlockView block_view(const PictureFrame& frame, const PictureBlock& block, const glm::vec2& sample_offset);
@@ -114,7 +95,6 @@ kernel::RayCastParameters cast_parameters(const PackPlacement& scene, const Look
                                           bool color_by_kind);
 
 /// Returns the parameters for the sample with number `sample` of each pixel.
-kernel::OcclusionParameters occlusion_parameters(const Look& look, glm::ivec2 picture_size, int sample);
 kernel::FinishParameters finish_parameters(const Look& look, const PackPlacement& scene, glm::ivec2 picture_size,
                                            int sample, bool has_marks);
 

@@ -21,11 +21,8 @@ namespace meniscus {
 void LookPass::add(const CastSample& sample, const Look& look, const GpuPack& scene, const PictureFrame& frame,
                    const PictureBlock& block, const Buffer& picture) {
   const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
-  const bool is_map = look.ambient_occlusion > 0.0f && sample.index == 0 && holds_shade_map(block, frame.size);
-  Buffer& depths = is_map ? shade_map_ : depths_;
-  TexelBuffer& depth_texels = is_map ? map_texels_ : depth_texels_;
-  depths.resize(count * sizeof(float));
-  shade_.resize(count * sizeof(glm::vec2));
+  depths_.resize(count * sizeof(float));
+  shade_.resize(count * sizeof(glm::vec4));
   const bool has_marks = scene.marks.byte_count() > 0;
   marks_.resize(has_marks ? count * sizeof(std::uint32_t) : 0);
   const kernel::BlockView view = block_view(frame, block, sample.offset);
@@ -40,18 +37,18 @@ void LookPass::add(const CastSample& sample, const Look& look, const GpuPack& sc
   hit_texels.bind(0);
   atom_mark_texels_.view(scene.marks);
   atom_mark_texels_.bind(2);
-  depths.bind(0);
+  depths_.bind(0);
   marks_.bind(1);
   run(programs_.get("gpu_shaders/look/depth.comp"), kernel::DepthParameters{.has_marks = has_marks});
-  depth_texels.view(depths);
-  depth_texels.bind(1);
-  if (look.ambient_occlusion > 0.0f && sample.index == shade_sample(sample.index)) {
-    map_texels_.bind(2);
+  depth_texels_.view(depths_);
+  depth_texels_.bind(1);
+  if (look.has_shade() && sample.index == 0) {
+    light_texels_.bind(2);
     shade_.bind(0);
-    run(programs_.get("gpu_shaders/look/occlusion.comp"), occlusion_parameters(look, frame.size, sample.index));
+    run(programs_.get("gpu_shaders/look/light_maps.comp"), light_maps_.parameters(look, frame));
   }
   ShaderDefines effects;
-  if (look.ambient_occlusion > 0.0f) effects.emplace_back("AMBIENT_OCCLUSION", "1");
+  if (look.has_shade()) effects.emplace_back("SHADE", "1");
   if (look.widest_line() > 0.0f) effects.emplace_back("SILHOUETTES", "1");
   shade_texels_.view(shade_);
   shade_texels_.bind(2);
@@ -63,23 +60,14 @@ void LookPass::add(const CastSample& sample, const Look& look, const GpuPack& sc
       finish_parameters(look, scene, frame.size, sample.index, has_marks));
 }
 
-std::vector<float> LookPass::depths(const Buffer& hits, const PictureFrame& frame, const PictureBlock& block) {
-  const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
-  depths_.resize(count * sizeof(float));
-  first_hit_texels_.view(hits);
-  first_hit_texels_.bind(0);
-  depths_.bind(0);
-  const Program& program = programs_.get("gpu_shaders/look/depth.comp");
-  program.set(kernel::DepthParameters{.has_marks = false});
-  program.set(block_view(frame, block, glm::vec2(0.0f)), kernel::kBlockViewBinding);
-  program.dispatch_2d((static_cast<std::uint32_t>(block.size.x) + 7) / 8,
-                      (static_cast<std::uint32_t>(block.size.y) + 7) / 8);
-  return depths_.download<float>(count);
-}
-
-void LookPass::set_shade_map(const std::vector<float>& depths) {
-  shade_map_.upload(depths);
-  map_texels_.view(shade_map_);
+void LookPass::make_light_maps(std::span<const Ball> atoms, const GpuPack& scene, const Look& look,
+                               const ViewBasis& basis) {
+  if (!look.has_shade()) return;
+  light_maps_.begin();
+  light_maps_.add(atoms, scene.blocks_light);
+  light_maps_.make(look, basis);
+  light_map_.upload(light_maps_.texels());
+  light_texels_.view(light_map_);
 }
 
 Presenter::~Presenter() {
@@ -116,6 +104,7 @@ void upload_coloring(const Coloring& coloring, GpuPack& scene) {
   scene.atom_count = static_cast<std::uint32_t>(coloring.atom.size());
   scene.color_by_kind = coloring.kind.has_value();
   scene.some_hidden = coloring.hides_some();
+  scene.blocks_light = coloring.blocking();
   scene.colors.upload(linear_colors(coloring));
   scene.marks.upload(coloring.line_marks());
 }

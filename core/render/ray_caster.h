@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -15,6 +16,7 @@
 #include "core/gpu/kernel_records.h"
 #include "core/gpu/program.h"
 #include "core/render/gpu_pack.h"
+#include "core/render/light_maps.h"
 #include "core/render/look.h"
 #include "core/render/picture_block.h"
 #include "core/render/ray_cast_pack.h"
@@ -39,18 +41,15 @@ class LookPass {
   void add(const CastSample& sample, const Look& look, const GpuPack& scene, const PictureFrame& frame,
            const PictureBlock& block, const Buffer& picture);
 
-  /// Returns the depths along the view axis of the first sample's hits in a block; kernel::kNothing where nothing is
-  /// hit.
-  std::vector<float> depths(const Buffer& hits, const PictureFrame& frame, const PictureBlock& block);
-
-  /// Sets the depths of all pixels of shade_map_frame(), for pictures whose blocks do not contain the map.
-  void set_shade_map(const std::vector<float>& depths);
+  /// Makes the maps for the shade of a picture of these atoms. basis: of the camera.
+  void make_light_maps(std::span<const Ball> atoms, const GpuPack& scene, const Look& look, const ViewBasis& basis);
 
  private:
   ProgramCache& programs_;
-  Buffer depths_, shade_map_, marks_, shade_;
+  LightMaps light_maps_;
+  Buffer depths_, light_map_, marks_, shade_;
   TexelBuffer first_hit_texels_{TexelFormat::uint4}, hit_texels_{TexelFormat::uint4};  // sample 0; other samples
-  TexelBuffer depth_texels_{TexelFormat::uint1}, map_texels_{TexelFormat::uint1}, shade_texels_{TexelFormat::uint1},
+  TexelBuffer depth_texels_{TexelFormat::uint1}, light_texels_{TexelFormat::uint1}, shade_texels_{TexelFormat::uint4},
       mark_texels_{TexelFormat::uint1}, atom_mark_texels_{TexelFormat::uint1};
 };
 
@@ -145,14 +144,10 @@ class RayCaster {
   bool cast(const GpuPack& scene, const PictureFrame& frame, const PictureBlock& block,
             const CastSettings& settings = {});
 
-  /// Returns the depths of a block of shade_map_frame(), row by row. picture() and hits() then belong to the map.
-  /// Throws GpuError; CapacityError if the block is too large for this GPU.
-  std::vector<float> cast_depths(const GpuPack& scene, const PictureFrame& map, const PictureBlock& block) {
-    cast(scene, map, block);
-    return look_pass_.depths(hits_, map, block);
+  /// Makes the maps that a look with shade needs, before the blocks of a picture are cast.
+  void make_light_maps(std::span<const Ball> atoms, const GpuPack& scene, const Look& look, const ViewBasis& basis) {
+    look_pass_.make_light_maps(atoms, scene, look, basis);
   }
-  /// Sets the depths of the whole map, for the shade of blocks that do not contain it.
-  void set_shade_map(const std::vector<float>& depths) { look_pass_.set_shade_map(depths); }
 
   /// True if the next block may be cast with Counting::later: the last block had the same size, and the loops of its
   /// kernels ran to completion. Such a block is valid only if settle() returns true after the counts that ask() queued

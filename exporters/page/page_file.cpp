@@ -145,6 +145,25 @@ std::string legend_of(const ColorKey& key) {
   return text;
 }
 
+/// The number of successive samples of a pixel that share the shade of the first of them.
+constexpr int kSamplesOfShade = 3;
+
+/// Returns the parameters for the shade that a page takes from the depths of its picture.
+kernel::OcclusionParameters occlusion_parameters(const Look& look, glm::ivec2 size) {
+  constexpr int kLargestOwnMap = 2048;
+  constexpr float kMapSide = 1024.0f, kLongestRadius = 25.0f;  // texels; Å, beyond which such shade gets coarse
+  const int side = std::max(size.x, size.y);
+  const float edge = side <= kLargestOwnMap ? 1.0f : static_cast<float>(side) / kMapSide;
+  const glm::ivec2 map_size = glm::max(glm::ivec2(glm::vec2(size) / edge), glm::ivec2(1));
+  return {.map_middle = 0.5f * glm::vec2(map_size) - 0.5f,
+          .map_size = map_size,
+          .texel_edge = edge,
+          .near_reach = edge == 1.0f ? 0.0f : 8.0f * edge,
+          .radius = std::min(look.ambient_occlusion_radius, kLongestRadius),
+          .longest_reach = glm::length(glm::vec2(size)),
+          .sample_index = 0};
+}
+
 /// How points are lit and finished.
 json look_words(const PageFigure& figure, const Look& look, const Tables& tables) {
   return {{"cast", words_of(cast_parameters(tables.placement(), look, tables.atom_count(), tables.color_by_kind()))},
@@ -221,8 +240,8 @@ json description_of(const PageFigure& figure, const Tables& tables) {
           {"origin", numbers(tables.origin())},
           {"background", {background.x, background.y, background.z}},
           {"look", look_words(figure, look, tables)},
-          {"occlusion", words_of(occlusion_parameters(look, figure.size, 0))},
-          {"has_shade", look.ambient_occlusion > 0.0f},
+          {"occlusion", words_of(occlusion_parameters(look, figure.size))},
+          {"has_shade", look.has_shade()},
           {"has_lines", look.widest_line() > 0.0f},
           {"line_step", look.line_step},
           {"fades_always", figure.fades_always},

@@ -6,14 +6,15 @@
 // which may be outside of the block; visibility_at() of a pixel that has a hit; and shade_seen_at(), which is seen_at()
 // of a pixel at that depth.
 
-// Returns the mean visibility over 4 x 4 pixels, as a square of 5 x 5 whose rim has half the weight. Pixels of other
+// Returns the mean visibility of the sky and of the lamp over 4 x 4 pixels, as a square of 5 x 5 whose rim has half the weight. Pixels of other
 // surfaces do not count, unless there are no others.
-GEOMETRY real mean_visibility(pixel_row pixel, real depth) {
+GEOMETRY real2 mean_visibility(pixel_row pixel, real depth) {
   real3 p = position_at(pixel, depth);
   real3 normal = turned_over(facing(hit_normal_at(pixel), to_viewer_at(p)));
   p = turned_over(p);
   real tolerance = 0.3 + 2.0 * pixel_size_at(depth);
-  real sum = real(1e-9);
+  real sky = real(1e-9);
+  real lamp = real(1e-9);
   real weights = real(1e-9);
   for (int y = -2; y <= 2; ++y)
     for (int x = -2; x <= 2; ++x) {
@@ -23,19 +24,31 @@ GEOMETRY real mean_visibility(pixel_row pixel, real depth) {
       real off_plane = abs(dot(normal, shade_seen_at(other, other_depth) - p));
       float in_square = (x * x == 4 ? 0.5 : 1.0) * (y * y == 4 ? 0.5 : 1.0);
       real weight = in_square * max(1.0 - off_plane / tolerance, 1e-5);
-      sum += select(counts, weight * visibility_at(other), real(0.0));
+      real2 seen = visibility_at(other);
+      sky += select(counts, weight * seen.x, real(0.0));
+      lamp += select(counts, weight * seen.y, real(0.0));
       weights += select(counts, weight, real(0.0));
     }
-  return sum / weights;
+  return real2(sky / weights, lamp / weights);
 }
 
 // Returns the colour of a sample in the shade. The highlight needs a greater visibility than the other light.
 GEOMETRY real3 shaded(real3 color, real alpha, pixel_row pixel, real depth) {
-  real visible = mix(real(1.0), mean_visibility(pixel, depth), real(params.ambient_occlusion));
+  real2 seen = mean_visibility(pixel, depth);
+  real visible = mix(real(1.0), seen.x, real(params.ambient_occlusion));
   real3 lit = color * visible;
-  if (params.specular == 0.0) return lit;
+  if (params.specular == 0.0 && params.shadow == 0.0) return lit;
   real3 to_viewer = to_viewer_at(position_at(pixel, depth));
   real3 normal = facing(hit_normal_at(pixel), to_viewer);
+  if (params.shadow > 0.0) {
+    KeyLight key = open_key_light(normal);
+    real3 unshaded = matt_light(normal, to_viewer, key);
+    key.open = mix(real(1.0), seen.y, real(params.shadow));
+    key.diffuse = key.diffuse * key.open;
+    lit = lit * (matt_light(normal, to_viewer, key) / unshaded);
+    visible = visible * key.open;
+  }
+  if (params.specular == 0.0) return lit;
   real open = clamp((visible - 0.5) / 0.45, 0.0, 1.0);
   real highlight = sheen(normal, to_viewer, params.key_direction, params.key_strength, params.specular, params.shininess);
   return lit + real3(alpha * (open * open) * highlight);

@@ -2,8 +2,8 @@
 // Computes the final colour of a sample with shade, depth cueing and lines.
 //
 // Written in GLSL only; the CPU's rows have loops of their own (core/render/cpu/look_rows.h). The includer provides
-// finish.glsl, and depth_at() and mark_at() of a pixel of the block. AMBIENT_OCCLUSION and SILHOUETTES are defined if
-// they are requested.
+// finish.glsl, and depth_at() and mark_at() of a pixel of the block. SHADE and SILHOUETTES are defined if they are
+// requested.
 
 // The share of a pixel that black lines cover, the depth of the object that they outline, and the share that lines
 // around patches cover.
@@ -54,7 +54,7 @@ Ink ink_on(ivec2 pixel, float depth) {
 
 // Returns the final colour of a sample. color: linear, premultiplied.
 vec4 finished_sample(vec4 color, ivec2 pixel, float depth) {
-#ifdef AMBIENT_OCCLUSION
+#ifdef SHADE
   if (depth != kNothing) color.rgb = shaded(color.rgb, color.a, pixel, depth);
 #endif
   if (depth != kNothing) {

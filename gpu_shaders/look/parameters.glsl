@@ -21,9 +21,38 @@ struct OcclusionParameters {
   uint sample_index;    // other samples take other places of the pattern
 };
 
+const int kMostSkyAxes = 64;
+const int kMostLampPlaces = 16;
+const float kLightLift = 1.25;  // texels above the surface, from where light is looked for: more than a slope rises
+
+// The maps of light_maps.glsl.
+struct LightMapParameters {
+  // Three for each axis of the sky, then for each place on the lamp: they take a point in the camera's axes to columns
+  // and lines of texels and to the height, Å.
+  vec4 rows[3 * (kMostSkyAxes + kMostLampPlaces)];
+  float sky_texel;  // Å
+  float lamp_texel;
+  int sky_edge;  // texels
+  int lamp_edge;
+  int sky_axes;
+  int lamp_places;
+  int first_lamp_texel;
+  float radius;  // Å; what is farther blocks less of the sky
+};
+
 struct FinishParameters {
   vec3 key_direction;
   float key_strength;
+  vec3 key_color;  // this and the next numbers: as in RayCastParameters
+  float key_share;
+  vec3 fill_direction;
+  float fill_share;
+  vec3 fill_color;
+  float ambient;
+  vec3 sky;
+  float roughness;
+  vec3 ground;
+  float shadow;      // darkness of the shadows from maps
   vec3 air;          // linear: what the farthest fades into,
   uint keeps_alpha;  // or into nothing
   vec3 patch_line_color;  // linear

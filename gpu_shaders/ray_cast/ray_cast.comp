@@ -79,6 +79,7 @@ truth shows(uint atom) { return atom_color[atom].a > 0.0; }
 #include "gpu_shaders/ray_cast/patch_hits.glsl"
 #include "gpu_shaders/ray_cast/intersect.glsl"
 #include "gpu_shaders/ray_cast/sheen.glsl"
+#include "gpu_shaders/ray_cast/studio_light.glsl"
 #include "gpu_shaders/ray_cast/shade.glsl"
 
 // The part of a tile's list that an invocation traverses, with the ray in the middle of its four.

@@ -6,7 +6,7 @@
 
 uniform usampler2D sample_texels;      // points.frag's colours
 uniform usampler2D what_texels;        // points.frag's atoms and marks
-uniform usampler2D shade_texels;       // occlusion.frag's; there for AMBIENT_OCCLUSION
+uniform usampler2D shade_texels;       // occlusion.frag's; there for SHADE
 uniform usampler2D sum_texels;         // of the samples before
 layout(std140) uniform Parameters { FinishParameters params; };
 layout(location = 0) out uvec4 sum;  // as bits
@@ -14,7 +14,7 @@ layout(location = 0) out uvec4 sum;  // as bits
 layout(location = 1) out uvec4 ink;
 #endif
 
-float visibility_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(shade_texels, pixel, 0).x); }
+vec2 visibility_at(ivec2 pixel) { return vec2(uintBitsToFloat(texelFetch(shade_texels, pixel, 0).x), 1.0); }
 
 float shade_depth_or_nothing(ivec2 pixel) {
   return in_block(pixel) ? uintBitsToFloat(texelFetch(shade_texels, pixel, 0).y) : kNothing;
@@ -25,6 +25,7 @@ vec3 shade_seen_at(ivec2 pixel, float depth) { return seen_at(place_of(pixel), d
 int mark_at(ivec2 pixel) { return int(texelFetch(what_texels, pixel, 0).z); }
 
 #include "gpu_shaders/ray_cast/sheen.glsl"
+#include "gpu_shaders/ray_cast/studio_light.glsl"
 #include "gpu_shaders/look/finish.glsl"
 #include "gpu_shaders/look/finished_sample.glsl"
 

@@ -13,7 +13,7 @@ float map_depth_or_nothing(ivec2 texel) {
   return uintBitsToFloat(texelFetch(map_texels, texel, 0).w);
 }
 
-#include "gpu_shaders/look/occlusion.glsl"
+#include "gpu_shaders/webgl/occlusion.glsl"
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);

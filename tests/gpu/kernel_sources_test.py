@@ -17,8 +17,8 @@ HARMLESS = {
     ("geometry/patch_bounds.glsl", "contact_rho"),
     ("geometry/ray_torus.glsl", "knot"),                    # rays are in single precision on GPUs
     ("geometry/torus_hits.glsl", "t"),
-    ("look/occlusion.glsl", "occluder"),                    # what pixels look like is in single precision
-    ("look/occlusion.glsl", "ways"),
+    ("webgl/occlusion.glsl", "occluder"),                   # what pixels look like is in single precision
+    ("webgl/occlusion.glsl", "ways"),
 }
 
 

@@ -13,7 +13,7 @@ std::vector<ShaderDefines> variants_of(const EmbeddedShader& shader) {
     if (text.find("#if PASS == " + std::string(pass)) != std::string::npos ||
         (text.find("#if PASS") != std::string::npos && std::string_view(pass) == "1"))
       variants.push_back({{"PASS", pass}});
-  for (const char* word : {"AMBIENT_OCCLUSION", "LISTED", "RESUMED", "SILHOUETTES", "SOME_HIDDEN", "WHOLE_SPHERES"})
+  for (const char* word : {"LISTED", "RESUMED", "SHADE", "SILHOUETTES", "SOME_HIDDEN", "WHOLE_SPHERES"})
     if (text.find("#ifdef " + std::string(word)) != std::string::npos) variants.push_back({{word, "1"}});
   // Many include precision.glsl for single precision alone.
   if (shader.text.find("#ifdef DOUBLE_PRECISION") != std::string::npos) variants.push_back({{"DOUBLE_PRECISION", "1"}});

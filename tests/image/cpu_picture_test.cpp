@@ -47,6 +47,8 @@ struct Picture {
 Look all_effects() {
   Look look;
   look.ambient_occlusion = 0.9f;
+  look.shadows = 0.6f;
+  look.shadow_softness = 10.0f;
   look.silhouettes = 2.5f;
   look.depth_cue = 0.5f;
   return look;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "core/queries/copies.h"
 #include "core/queries/surface_object.h"
@@ -280,6 +281,150 @@ TEST(TracedLight, IsTheSameForAnyBlocksAndVectors) {
   for (const int lanes : {4, 8})
     EXPECT_TRUE(same_bits(usual, CpuRenderer(lanes).render(subject.objects, subject.camera, subject.settings)))
         << lanes;
+}
+
+/// Returns for each pixel the share of the light that shade from maps leaves; nothing is 1.
+std::vector<float> light_left(Subject& subject, float sky, float shadows) {
+  Look& look = subject.settings.look;
+  look.shadows = look.ambient_occlusion = 0.0f;
+  const Framebuffer bare = subject.picture();
+  look.ambient_occlusion = sky;
+  look.ambient_occlusion_radius = 1000.0f;
+  look.shadows = shadows;
+  look.shadow_softness = 12.0f;
+  const Framebuffer shaded = subject.picture();
+  std::vector<float> left;
+  for (std::size_t at = 0; at < bare.color.size(); ++at)
+    left.push_back(bare.color[at].w > 0.0f ? shaded.color[at].x / bare.color[at].x : 1.0f);
+  return left;
+}
+
+TEST(MappedLight, IsWholeOnALoneBall) {
+  Subject subject({{{0.0, 0.0, 0.0}, 2.0}});
+  for (const float left : light_left(subject, 1.0f, 0.0f)) EXPECT_GT(left, 0.995f);
+}
+
+// A ball of radius r whose centre is at distance d, at an angle to the normal, covers (r / d)² cos(angle) of the sky
+// while all of it is above the horizon (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-38).
+TEST(MappedLight, BesideABallIsThatOfItsViewFactor) {
+  const Ball large{{0.0, 0.0, 0.0}, 10.0}, small{{5.0, 0.0, 16.0}, 3.0};
+  Subject subject({large, small});
+  subject.camera = {.position = {-40.0, 0.0, 40.0}, .target = {0.0, 0.0, 8.0}, .up = {0.0, 1.0, 0.0}};
+  subject.camera.projection = Projection::orthographic;
+  subject.camera.height = 16.0;
+  const std::vector<float> left = light_left(subject, 1.0f, 0.0f);
+  const Framebuffer picture = subject.picture();
+  int count = 0;
+  float least = 1.0f;
+  for (std::size_t at = 0; at < left.size(); ++at) {
+    if (picture.atom[at] != 0) continue;
+    const glm::dvec3 way = small.center - glm::dvec3(picture.position[at]);
+    const double distance = glm::length(way), cosine = glm::dot(way, glm::dvec3(picture.normal[at])) / distance;
+    if (std::acos(cosine) + std::asin(small.radius / distance) > 1.45) continue;
+    EXPECT_NEAR(left[at], 1.0 - cosine * small.radius * small.radius / (distance * distance), 0.04);
+    least = std::min(least, left[at]);
+    ++count;
+  }
+  EXPECT_GT(count, 500);
+  EXPECT_LT(least, 0.8f);
+}
+
+TEST(MappedLight, IsScarceAtTheBottomOfAPit) {
+  Balls pit;
+  for (const double z : {0.0, -2.5, -5.0, -7.5})
+    for (const Ball& ball : testing::ring(10, 3.0)) pit.push_back({ball.center + glm::dvec3(0, 0, z), ball.radius});
+  pit.push_back({{0.0, 0.0, -9.0}, 1.7});
+  Subject subject(pit);
+  subject.camera = {.position = {0.0, 0.0, 30.0}, .target = {0.0, 0.0, 0.0}, .up = {0.0, 1.0, 0.0}};
+  const std::vector<float> left = light_left(subject, 1.0f, 0.0f);
+  EXPECT_LT(left[60 * 160 + 80], 0.2f);
+}
+
+TEST(MappedLight, IsThatOfRays) {
+  Subject subject(testing::ubiquitin());
+  subject.settings.size = {320, 240};
+  for (const float shadows : {0.0f, 1.0f}) {
+    const std::vector<float> left = light_left(subject, 1.0f - shadows, shadows);
+    subject.settings.look.ambient_occlusion = 1.0f;
+    subject.settings.look.ambient_occlusion_rays = 256.0f;
+    subject.settings.samples = 1;
+    Look bare = subject.settings.look;
+    bare.ambient_occlusion = bare.shadows = 0.0f;
+    if (shadows > 0.0f) subject.settings.look.ambient_occlusion = 1e-6f;
+    const Framebuffer traced = subject.picture();
+    std::swap(bare, subject.settings.look);
+    const Framebuffer open = subject.picture();
+    std::vector<float> errors;
+    for (std::size_t at = 0; at < left.size(); ++at)
+      if (std::isfinite(traced.z[at])) errors.push_back(std::abs(left[at] - traced.color[at].x / open.color[at].x));
+    std::ranges::sort(errors);
+    EXPECT_LT(errors[errors.size() / 2], 0.03f) << shadows;
+    EXPECT_LT(errors[errors.size() * 95 / 100], 0.15f) << shadows;
+    subject.settings.look.ambient_occlusion_rays = 0.0f;
+  }
+}
+
+TEST(MappedLight, IsTheSameForAnyBlocksVectorsAndThreads) {
+  Subject subject(testing::ubiquitin());
+  subject.settings.samples = 4;
+  subject.settings.look.shadow_softness = 6.0f;
+  subject.settings.look.ambient_occlusion = 0.9f;
+  subject.settings.aovs = false;
+  const Framebuffer usual = subject.picture();
+  subject.settings.block_edge = 64;
+  EXPECT_TRUE(same_bits(usual, subject.picture()));
+  for (const int lanes : {4, 8})
+    EXPECT_TRUE(same_bits(usual, CpuRenderer(lanes).render(subject.objects, subject.camera, subject.settings)))
+        << lanes;
+  for (const std::size_t threads : {1, 2, 3}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    EXPECT_TRUE(same_bits(usual, subject.picture())) << threads;
+  }
+}
+
+// In a slow turn a point of the surface keeps its shade.
+TEST(MappedLight, StaysAtItsPointWhileTheCameraTurns) {
+  Subject subject(testing::ubiquitin());
+  subject.settings.size = {480, 360};
+  subject.camera.projection = Projection::orthographic;
+  const std::vector<float> before = light_left(subject, 1.0f, 0.0f);
+  const Framebuffer picture = subject.picture();
+  const glm::dvec3 back = subject.camera.position - subject.camera.target, up = view_basis(subject.camera).up;
+  constexpr double kTurn = 0.5 * std::numbers::pi / 180.0;
+  subject.camera.up = up;
+  subject.camera.position = subject.camera.target + std::cos(kTurn) * back + std::sin(kTurn) * glm::cross(up, back);
+  const std::vector<float> after = light_left(subject, 1.0f, 0.0f);
+  const Framebuffer turned = subject.picture();
+  const ViewBasis basis = view_basis(subject.camera);
+  const double pixel = subject.camera.height / 360.0;
+  std::vector<float> changes;
+  for (std::size_t at = 0; at < before.size(); ++at) {
+    if (!std::isfinite(picture.z[at])) continue;
+    const glm::dvec3 point(picture.position[at]), way = point - subject.camera.position;
+    const double x = glm::dot(way, basis.right) / pixel + 239.5, y = 179.5 - glm::dot(way, basis.up) / pixel;
+    if (x < 0.0 || y < 0.0 || x >= 479.0 || y >= 359.0) continue;
+    float there = 0.0f;
+    bool same = true;  // surface, without an edge between the pixels
+    for (int n = 0; n < 4; ++n) {
+      const std::size_t other = (static_cast<std::size_t>(y) + n / 2) * 480 + static_cast<std::size_t>(x) + n % 2;
+      const double right = x - std::floor(x), down = y - std::floor(y);
+      there += static_cast<float>((n % 2 ? right : 1.0 - right) * (n / 2 ? down : 1.0 - down)) * after[other];
+      same = same && std::isfinite(turned.z[other]) && glm::distance(glm::dvec3(turned.position[other]), point) < 0.3;
+    }
+    if (same) changes.push_back(std::abs(there - before[at]));
+  }
+  ASSERT_GT(changes.size(), 20'000u);
+  std::ranges::sort(changes);
+  RecordProperty("change at the 99th percentile", std::to_string(changes[changes.size() * 99 / 100]));
+  EXPECT_LT(changes[changes.size() * 99 / 100], 0.02f);
+}
+
+TEST(MappedLight, OfACutIsThatOfWhatIsLeft) {
+  // The plane takes away the ball that shades the other one.
+  Subject subject({{{0.0, 0.0, 0.0}, 4.0}, {{0.0, 0.0, 12.0}, 4.0}});
+  subject.camera = {.position = {20.0, 0.0, 20.0}, .target = {0.0, 0.0, 2.0}, .up = {0.0, 1.0, 0.0}};
+  subject.objects[0].clip = {{{0.0, 0.0, 1.0}, 5.0}};
+  for (const float left : light_left(subject, 1.0f, 0.0f)) EXPECT_GT(left, 0.995f);
 }
 
 /// Points spread over a surface by the pixels of a picture, at most so many.

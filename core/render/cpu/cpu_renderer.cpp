@@ -43,14 +43,15 @@ void CpuRenderer::BlockSamples::resize(std::size_t pixel_count, bool has_marks, 
   for (std::vector<float>& axis : normal) axis.assign(pixel_count + 1, 0.0f);
   mark.assign(has_marks ? pixel_count + 1 : 0, 0.0f);
   over.assign(has_layers ? pixel_count + 1 : 0, glm::vec4(0.0f));
-  visibility.assign(pixel_count + 1, 1.0f);
+  sky_seen.assign(pixel_count + 1, 1.0f);
+  lamp_seen.assign(pixel_count + 1, 1.0f);
 }
 
 LaneSamples CpuRenderer::BlockSamples::lanes(bool has_visibility) {
   return {color.data(),
           depth.data(),
           {normal[0].data(), normal[1].data(), normal[2].data()},
-          has_visibility ? visibility.data() : nullptr,
+          has_visibility ? sky_seen.data() : nullptr,
           mark.empty() ? nullptr : mark.data(),
           over.empty() ? nullptr : over.data()};
 }
@@ -81,8 +82,13 @@ void CpuRenderer::place(std::span<const PictureObject> objects, const Camera& ca
 
 template <typename Object>
 void CpuRenderer::trace_light(std::span<const Object> objects, const RenderSettings& settings) {
+  const auto stage = clock_.stage("light");
+  if (settings.look.maps_sky() || settings.look.maps_lamp()) {
+    light_maps_.begin();
+    for (const Object& object : objects) light_maps_.add(object);
+    light_maps_.make(settings.look, frame_.basis);
+  }
   if (!settings.look.traces_light()) return;
-  const auto stage = clock_.stage("occluders");
   occluders_.emplace(frame_.pivot, placement_.slack);
   for (const Object& object : objects) occluders_->add(object);
   occluders_->aim(settings.look, frame_.basis, settings.samples);
@@ -122,9 +128,8 @@ Framebuffer CpuRenderer::render(PictureContent& scene, const RenderSettings& set
       scene.content().several_objects, [&](const ray_cast::Hit& hit) { return scene.atom_of(hit); });
   const std::vector<PictureBlock> blocks = collector.blocks(block_edge(settings));
   BlockProgress progress(settings, blocks.size());
-  if (needs_shade_map(blocks.front(), settings)) cast_shade_map(scene, settings, progress.interruption());
   for (const PictureBlock& inner : blocks) {
-    const PictureBlock block = with_neighbors(inner, look_reach(settings.look, settings.size), settings.size);
+    const PictureBlock block = with_neighbors(inner, look_reach(settings.look), settings.size);
     BlockTask task{scene, {frame_, block, settings.samples, light()}, settings, settings.aovs || settings.mattes};
     if (settings.mattes)
       task.after_sample = [&](int sample) {
@@ -144,7 +149,6 @@ bool CpuRenderer::draw(std::shared_ptr<PictureContent> scene, const RenderSettin
                        const std::function<bool()>& stop) {
   Interruption interruption(stop);
   const PictureBlock whole{{0, 0}, settings.size};
-  if (needs_shade_map(whole, settings)) cast_shade_map(*scene, settings, interruption);
   cast({*scene, {frame_, whole, settings.samples, light()}, settings, true}, interruption);
   if (interruption.came()) return false;
   present(settings);
@@ -186,17 +190,6 @@ void CpuRenderer::resize_samples(const BlockTask& task) {
   if (content.shows_through) front_.resize(task.pixel_count(), content.marks, false);
 }
 
-/// Depths do not depend on light.
-void CpuRenderer::cast_shade_map(PictureContent& scene, const RenderSettings& settings, Interruption& interruption) {
-  const PictureFrame map = shade_map_frame(frame_);
-  const BlockTask task{scene, {map, {{0, 0}, map.size}}, settings};
-  scene.begin_block(task.at, interruption, clock_);
-  resize_samples(task);
-  cast_samples(0, 1, task, interruption);
-  shade_map_.swap(samples_.depth);
-  if (scene.content().shows_through) front_shade_map_.swap(front_.depth);
-}
-
 void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
   task.scene.begin_block(task.at, interruption, clock_);
   const Look& look = task.settings.look;
@@ -210,11 +203,6 @@ void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
     cast_samples(first, std::min(step, task.settings.samples - first), task, interruption);
     if (task.after_sample) task.after_sample(first);
     if (!look.has_effects()) continue;
-    if (look.ambient_occlusion > 0.0f && !look.traces_sky() && first == 0 &&
-        holds_shade_map(task.at.block, task.settings.size)) {
-      shade_map_ = samples_.depth;
-      if (task.scene.content().shows_through) front_shade_map_ = front_.depth;
-    }
     look_at(first, task, interruption);
   }
 }
@@ -247,11 +235,12 @@ void CpuRenderer::look_at(int sample, const BlockTask& block, Interruption& inte
   const Look& look = block.settings.look;
   LaneLook task;
   task.view = block_view(block.at.frame, block.at.block, sample_offset(sample));
-  task.occlusion = occlusion_parameters(look, picture_size, sample);
+  const kernel::LightMapParameters maps = light_maps_.parameters(look, block.at.frame);
+  task.maps = &maps;
   task.finish = finish_parameters(look, placement_, picture_size, sample, block.scene.content().marks);
   if (block.scene.content().highlights) task.finish.specular = 0.0f;
   task.samples = samples_.lanes(look.traces_sky());
-  task.shade_map = shade_map_.data();
+  task.light_maps = light_maps_.texels().data();
   task.sums = sums_.data();
   if (block.scene.content().shows_through) look_at_front(sample, task, look, interruption);
   find_shade(samples_, sample, look, task, interruption);
@@ -261,19 +250,20 @@ void CpuRenderer::look_at(int sample, const BlockTask& block, Interruption& inte
 /// Prepares the shade of a sample, and computes it unless the sample shares the shade of an earlier one.
 void CpuRenderer::find_shade(BlockSamples& samples, int sample, const Look& look, LaneLook& task,
                              Interruption& interruption) {
-  task.visibility = samples.visibility.data();
+  task.sky_seen = samples.sky_seen.data();
+  task.lamp_seen = samples.lamp_seen.data();
   task.shade_depth = samples.depth.data();
-  if (look.ambient_occlusion == 0.0f) return;
+  if (!look.has_shade()) return;
   samples.shade_size.resize(samples.depth.size());
   task.shade_size = samples.shade_size.data();
   const auto for_each_row = [&](const auto& kernel) {
     for_each_until(interruption, task.view.size.y, [&](int y) { kernel(task, y); });
   };
   if (look.traces_sky()) return for_each_row(kernels_.measure_row);
-  const bool is_new = sample == shade_sample(sample);
-  if (is_new) samples.shade_depth = samples.depth;
+  // All samples of a pixel share the shade of the first, because it hardly differs among them.
+  if (sample == 0) samples.shade_depth = samples.depth;
   task.shade_depth = samples.shade_depth.data();
-  if (!is_new) return;
+  if (sample > 0) return;
   for_each_row(kernels_.measure_row);
   for_each_row(kernels_.occlude_row);
 }
@@ -287,7 +277,6 @@ void CpuRenderer::look_at_front(int sample, LaneLook task, const Look& look, Int
   front_ink_.assign(pixel_count, 0.0f);
   task.samples = front_.lanes(look.traces_sky());
   task.finish.specular = 0.0f;  // what is cast has highlights already
-  task.shade_map = front_shade_map_.data();
   task.sums = front_sums_.data();
   task.ink = front_ink_.data();
   find_shade(front_, sample, look, task, interruption);

@@ -19,6 +19,7 @@
 #include "core/render/cpu/occluders.h"
 #include "core/render/cpu/picture_content.h"
 #include "core/render/cpu/visible_copies.h"
+#include "core/render/light_maps.h"
 #include "core/render/picture.h"
 #include "core/render/picture_block.h"
 
@@ -73,7 +74,8 @@ class CpuRenderer {
   /// primitives are never written, so they are initialised once for all samples.
   struct BlockSamples {
     std::vector<glm::vec4> color, over;
-    std::vector<float> depth, normal[3], mark, visibility;
+    std::vector<float> depth, normal[3], mark;
+    std::vector<float> sky_seen, lamp_seen;  ///< LaneLook::sky_seen and lamp_seen
     std::vector<float> shade_depth;  ///< depth of the sample whose visibility this is, if several samples share it
     std::vector<float> shade_size;   ///< LaneLook::shade_size
 
@@ -105,7 +107,6 @@ class CpuRenderer {
 
   Framebuffer render(PictureContent& scene, const RenderSettings& settings);
   bool draw(std::shared_ptr<PictureContent> scene, const RenderSettings& settings, const std::function<bool()>& stop);
-  void cast_shade_map(PictureContent& scene, const RenderSettings& settings, Interruption& interruption);
   void cast(const BlockTask& task, Interruption& interruption);
   void resize_samples(const BlockTask& task);
   void cast_samples(int first, int count, const BlockTask& task, Interruption& interruption);
@@ -119,14 +120,14 @@ class CpuRenderer {
   StageClock clock_;
   PictureFrame frame_;                  // frame of the current or last drawn picture
   PackPlacement placement_;             // placement of the current picture
+  LightMaps light_maps_;                // maps of the current picture, if its look needs them
   std::optional<Occluders> occluders_;  // occluders of the current picture, if its light is traced
   const std::shared_ptr<SurfaceContent> surface_ = std::make_shared<SurfaceContent>();  // for pictures of one surface
   std::vector<glm::vec4> sums_;
   std::vector<ray_cast::Hit> hits_;
-  BlockSamples samples_, front_;                    // front_: for pictures with transparent parts
-  std::vector<glm::vec4> front_sums_;               // finished colours of front_
-  std::vector<float> front_ink_;                    // share of front_ that lines cover
-  std::vector<float> shade_map_, front_shade_map_;  // depths of the whole picture; the last is the depth of nothing
+  BlockSamples samples_, front_;       // front_: for pictures with transparent parts
+  std::vector<glm::vec4> front_sums_;  // finished colours of front_
+  std::vector<float> front_ink_;       // share of front_ that lines cover
   std::vector<std::uint8_t> rgba_;
   glm::ivec2 size_{0};  // size of rgba_
   std::shared_ptr<const PictureContent>

@@ -173,13 +173,14 @@ struct LayerTask {
 /// additional element at the end, which represents everything outside.
 struct LaneLook {
   kernel::BlockView view{};
-  kernel::OcclusionParameters occlusion{};
+  const kernel::LightMapParameters* maps = nullptr;
   kernel::FinishParameters finish{};
   LaneSamples samples;
-  const float* shade_map = nullptr;    ///< depths of the whole picture, for occlude_row
+  const float* light_maps = nullptr;   ///< LightMaps::texels(), for occlude_row
   const float* shade_depth = nullptr;  ///< depths of the sample whose visibility this is
   float* shade_size = nullptr;         ///< size of a pixel at that depth, Å
-  float* visibility = nullptr;
+  float* sky_seen = nullptr;           ///< shares of the sky and of the lamp that pixels see
+  float* lamp_seen = nullptr;
   glm::vec4* sums = nullptr;  ///< the finished colours are added to it
   float* ink = nullptr;       ///< receives the share of each pixel that lines cover; or nullptr
 };
@@ -196,7 +197,7 @@ struct LaneKernels {
   void (*see_sky)(const LaneLight& light, const glm::vec3* points, const glm::vec3* normals, float* seen,
                   std::uint32_t count);
   void (*measure_row)(const LaneLook& look, int y);  ///< writes pixel sizes at the shade's depth to shade_size
-  void (*occlude_row)(const LaneLook& look, int y);  ///< writes the visible share of the sky to visibility
+  void (*occlude_row)(const LaneLook& look, int y);  ///< writes sky_seen and lamp_seen where there are maps for them
   void (*finish_row)(const LaneLook& look, int y);   ///< reads the visibility and size of two rows around
 };
 

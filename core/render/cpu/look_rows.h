@@ -9,8 +9,9 @@ namespace meniscus::MENISCUS_LANE_NAMESPACE {
 
 using glm::ivec2;
 using glm::vec3;
+using glm::vec4;
+using kernel::kLightLift;
 using kernel::kNothing;
-using kernel::kStepCount;
 
 inline constexpr int kShadeReach = 2;  // pixels, the range of mean_visibility
 
@@ -18,8 +19,7 @@ inline constexpr int kShadeReach = 2;  // pixels, the range of mean_visibility
 /// the map.
 template <bool kInside>
 struct LookedAtBlock {
-  explicit LookedAtBlock(const LaneLook& look)
-      : look_(look), view(look.view), occlusion(look.occlusion), params(look.finish) {}
+  explicit LookedAtBlock(const LaneLook& look) : look_(look), view(look.view), maps(*look.maps), params(look.finish) {}
 
   /// Returns the elements of an array for these pixels; outside of the block the element after the last one.
   real fetch(const float* values, integer2 pixel) {
@@ -36,22 +36,14 @@ struct LookedAtBlock {
   }
   real depth_or_nothing(integer2 pixel) { return fetch(look_.samples.depth, pixel); }
   real depth_or_nothing(pixel_row pixel) { return fetch(look_.samples.depth, pixel); }
-  /// Returns depths of the map. The element after the map's last one has the depth of nothing, and is used outside of
-  /// it.
-  real map_depth_or_nothing(integer2 texel) {
-    const glm::ivec2 size = occlusion.map_size;
-    if (within_map_) return gather(look_.shade_map, texel.y * integer(size.x) + texel.x);
-    const truth inside =
-        texel.x >= integer(0) && texel.y >= integer(0) && texel.x < integer(size.x) && texel.y < integer(size.y);
-    return gather(look_.shade_map, select(inside, texel.y * integer(size.x) + texel.x, integer(size.x * size.y)));
-  }
+  real light_texel(integer at) const { return gather(look_.light_maps, at); }
   real shade_depth_or_nothing(pixel_row pixel) { return fetch(look_.shade_depth, pixel); }
   real3 shade_seen_at(pixel_row pixel, real depth) {
     if constexpr (!kInside) return seen_at(place_of(pixel), depth, pixel_size_at(depth));
     const real2 place(across_[pixel.x - first_across_], place_of(pixel).y);
     return seen_at(place, depth, load(look_.shade_size + place_in_block(pixel)));
   }
-  real visibility_at(pixel_row pixel) { return fetch(look_.visibility, pixel); }
+  real2 visibility_at(pixel_row pixel) { return {fetch(look_.sky_seen, pixel), fetch(look_.lamp_seen, pixel)}; }
   integer mark_at(pixel_row pixel) { return to_whole(fetch(look_.samples.mark, pixel)); }
   real3 hit_normal_at(pixel_row pixel) {
     return {fetch(look_.samples.normal[0], pixel), fetch(look_.samples.normal[1], pixel),
@@ -60,12 +52,13 @@ struct LookedAtBlock {
 
   const LaneLook& look_;
   const kernel::BlockView& view;
-  const kernel::OcclusionParameters& occlusion;
+  const kernel::LightMapParameters& maps;
   const kernel::FinishParameters& params;
 
 #include "gpu_shaders/look/view_space.glsl"
-#include "gpu_shaders/look/occlusion.glsl"
+#include "gpu_shaders/look/light_maps.glsl"
 #include "gpu_shaders/ray_cast/sheen.glsl"
+#include "gpu_shaders/ray_cast/studio_light.glsl"
 #include "gpu_shaders/look/finish.glsl"
 
   /// The shares of a pixel that black lines cover, with the depth of what they outline, and that lines around patches
@@ -134,7 +127,7 @@ struct LookedAtBlock {
     if (some(met)) {
       const real4 cast = colors(look_.samples.color + first, pixel);
       color = {cast.x, cast.y, cast.z};
-      if (params.ambient_occlusion > 0.0f) {
+      if (params.ambient_occlusion > 0.0f || params.shadow > 0.0f) {
         first_across_ = pixel.x - kShadeReach;
         for (int n = 0; n <= 2 * kShadeReach; ++n) across_[n] = place_of(pixel_row{first_across_ + n, pixel.y}).x;
         color = select(met, shaded(color, alpha, pixel, depth), color);
@@ -163,29 +156,22 @@ struct LookedAtBlock {
 
   void measure(pixel_row pixel) {
     const real size = pixel_size_at(shade_depth_or_nothing(pixel));
-    for (int n = 0; n < count_of(pixel); ++n) look_.shade_size[place_in_block(pixel) + n] = lane(size, n);
+    put(size, pixel, look_.shade_size);
   }
 
   void occlude(pixel_row pixel) {
     const real depth = depth_or_nothing(pixel);
     const truth met = depth != real(kNothing);
     if (!some(met)) return;
-    within_map_ = lies_within_map(pixel, greatest(select(met, shade_reach(depth), real(0.0f))));
-    const real visibility = sky_visibility(pixel, depth);
-    for (int n = 0; n < count_of(pixel); ++n) look_.visibility[place_in_block(pixel) + n] = lane(visibility, n);
+    const real3 p = position_at(pixel, depth);
+    const real3 normal = facing(hit_normal_at(pixel), to_viewer_at(p));
+    if (maps.sky_axes > 0) put(sky_visibility(p, normal), pixel, look_.sky_seen);
+    if (maps.lamp_places > 0) put(lamp_visibility(p, normal), pixel, look_.lamp_seen);
   }
 
  private:
-  /// True if all texels that the shade of these pixels depends on are in the map. reach: the maximum of shade_reach().
-  bool lies_within_map(pixel_row pixel, float reach) const {
-    constexpr float kRoom = 2.0f;  // tolerance for rounding
-    const glm::vec2 first = view.first_offset + glm::vec2(pixel.x, pixel.y) + view.sample_offset;
-    const float farthest = reach > kStepCount ? reach : kStepCount;
-    const glm::vec2 low = (first - farthest) / occlusion.texel_edge + occlusion.map_middle - kRoom;
-    const glm::vec2 high =
-        (first + glm::vec2(kLanes, 0.0f) + farthest) / occlusion.texel_edge + occlusion.map_middle + kRoom;
-    return low.x >= 0.0f && low.y >= 0.0f && high.x < static_cast<float>(occlusion.map_size.x) &&
-           high.y < static_cast<float>(occlusion.map_size.y);
+  void put(real value, pixel_row pixel, float* values) const {
+    for (int n = 0; n < count_of(pixel); ++n) values[place_in_block(pixel) + n] = lane(value, n);
   }
 
   struct Extremes {
@@ -244,7 +230,6 @@ struct LookedAtBlock {
     for (int n = 0; n < count_of(pixel); ++n) sums[n] = all[n];
   }
 
-  bool within_map_ = false;
   int first_across_ = 0;
   real across_[2 * kShadeReach + 1];  // x of the pixels from which a packet's shade is computed: place_of().x
 };

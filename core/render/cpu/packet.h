@@ -276,6 +276,7 @@ inline real3 operator*(const real3& a, const real3& b) { return {a.x * b.x, a.y 
 inline real3 operator*(const real3& a, real s) { return {a.x * s, a.y * s, a.z * s}; }
 inline real3 operator*(real s, const real3& a) { return a * s; }
 inline real3 operator/(const real3& a, real s) { return {a.x / s, a.y / s, a.z / s}; }
+inline real3 operator/(const real3& a, const real3& b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
 inline real3 select(truth c, const real3& a, const real3& b) {
   return {select(c, a.x, b.x), select(c, a.y, b.y), select(c, a.z, b.z)};
 }

@@ -109,7 +109,6 @@ class Interruption;
 
 /// A block of pixels and the settings of its rays.
 struct SceneBlock {
-  /// The frame of the picture, or of its shade map, which is the same view with other pixels.
   const PictureFrame& frame;
   PictureBlock block;
   int samples = 1;                   ///< rays per pixel

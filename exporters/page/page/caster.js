@@ -356,7 +356,7 @@ class Caster {
 
   /// The look of some points, which is added to the sum if this is not the first sample.
   finish(target, { normal, what, color, sum }, effects, values, defines = []) {
-    const wanted = [...(effects.shade ? ["AMBIENT_OCCLUSION"] : []), ...(effects.lines ? ["SILHOUETTES"] : []), ...defines];
+    const wanted = [...(effects.shade ? ["SHADE"] : []), ...(effects.lines ? ["SILHOUETTES"] : []), ...defines];
     this.draw_whole(target, this.program("whole.vert", "finish.frag", wanted), { normal_texels: normal, sample_texels: color, what_texels: what,
       ...(effects.shade ? { shade_texels: this.pixels.shade } : {}), sum_texels: sum }, {},
       { Parameters: { words: this.look.finish, values: { ...this.depth_range, ...this.line_widths(), ...(this.fades ? {} : { depth_cue: 0 }), ...values } } });

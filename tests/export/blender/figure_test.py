@@ -102,7 +102,7 @@ class Figure(unittest.TestCase):
     def test_shadows(self):
         """The lamp is hidden where it is for the ray caster, but for borders within a pixel."""
         camera, ours, mns = (self.path("shadows" + end) for end in (".json", ".exr", ".mns"))
-        usual = [*VIEW, "--color", "#c0c0c0", "--shadows", "1"]
+        usual = [*VIEW, "--color", "#c0c0c0", "--shadows", "1", "--shadow-softness", "0"]
         # Light from everywhere: what is darker than the rest is in shadow.
         self.run_program(PROGRAM, "render", UBIQUITIN, "-o", ours, *usual, "--preset", "classic", "--ambient", "1", "--specular", "0", "--samples",
                          "1", "--aovs", "--save-camera", camera)

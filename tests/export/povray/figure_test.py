@@ -117,7 +117,7 @@ class Figure(unittest.TestCase):
         """Per pixel whether the lamp is hidden there: in the ray caster's picture, in POV-Ray's; and whether both show something that is turned
         to it."""
         ours, camera, folder = (os.path.join(self.holder.name, name + end) for end in (".png", ".json", ""))
-        view = ["--size", f"{WIDTH}x{HEIGHT}", "-q", "--shadows", "1", "--color", "#c0c0c0", *options]
+        view = ["--size", f"{WIDTH}x{HEIGHT}", "-q", "--shadows", "1", "--shadow-softness", "0", "--color", "#c0c0c0", *options]
         # Light from everywhere: what differs from the colour is in shadow.
         self.run_program(PROGRAM, "render", molecule, "-o", ours, *view, "--preset", "classic", "--ambient", "1", "--specular", "0", "--samples",
                          "1", "--background", "white", "--save-camera", camera)

@@ -37,16 +37,16 @@ class SurfaceValues(TypedDict, total=False):
     specular: float
     #: F: Specular exponent, 1 to 1000; larger gives smaller highlights
     shininess: float
-    #: F: Shade in pockets and clefts, 0 (none) to 1. Only what the picture shows casts shade
+    #: F: Shade in pockets and clefts, 0 (none) to 1. All that is drawn casts shade; what is seen through
+    #: casts none
     ambient_occlusion: float
     #: Å: Largest distance at which shade is cast, in Å
     ambient_occlusion_radius: float
-    #: N: Rays a pixel that find shade, such as 64. All that is drawn casts it then, shown or not, and it stays
-    #: where it is in films. 0: from the picture alone [0]
+    #: N: Rays a pixel that find shade and shadows, such as 64: exact, but slow. 0: maps of the light find them [0]
     ambient_occlusion_rays: float
-    #: F: Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts none [0]
+    #: F: Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts none
     shadows: float
-    #: DEGREES: Half the angle at which the lamp is seen, 0 (sharp shadows) to 45 [0]
+    #: DEGREES: Half the angle at which the lamp is seen, 0 (sharp shadows, by rays) to 45
     shadow_softness: float
     #: WIDTH: Width of black outlines: pixels, 0.5pt or 0.2mm; 0: no lines. They are drawn around whatever is in
     #: front, and between chains

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Maps of what is drawn as the sky and the lamp see it, from which pictures get their shade and soft shadows.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/gpu/kernel_records.h"
+#include "core/render/look.h"
+#include "core/render/picture.h"
+#include "core/render/ray_cast_pack.h"
+
+namespace meniscus {
+
+struct SurfaceObject;
+
+/// The maps of gpu_shaders/look/light_maps.glsl. Surfaces block light as the balls of their atoms. Hidden, cut and
+/// transparent parts do not block light.
+class LightMaps {
+ public:
+  /// Begins a picture without objects.
+  void begin() { groups_.clear(); }
+  /// Adds an object.
+  void add(const PictureObject& object);
+  /// Adds each copy of a surface.
+  void add(const SurfaceObject& object);
+  /// Adds those of the balls that block light.
+  void add(std::span<const Ball> balls, const std::vector<bool>& blocking);
+
+  /// Makes the maps of everything that was added. Those of the sky are kept as long as the objects do not change.
+  /// basis: of the camera, which the lamp moves with.
+  void make(const Look& look, const ViewBasis& basis);
+
+  /// Returns the maps one after another, for light_texel(); empty unless the look needs maps.
+  const std::vector<float>& texels() const { return texels_; }
+  /// Returns the places of the maps in a picture.
+  kernel::LightMapParameters parameters(const Look& look, const PictureFrame& frame) const;
+
+ private:
+  /// Balls that the same planes cut.
+  struct Group {
+    std::vector<Ball> balls;
+    std::vector<ClipPlane> planes;
+  };
+  /// The axes of a map.
+  struct View {
+    glm::dvec3 right, up, axis;
+  };
+  struct Raster;
+
+  static View view_along(const glm::dvec3& axis);
+  static bool same(const Group& a, const Group& b);
+  void place_sky(int axes);
+  void place_lamp(const Look& look, const ViewBasis& basis);
+  void draw(const View& view, const Raster& raster) const;
+
+  std::vector<Group> groups_, drawn_;                ///< of this picture, and of the maps of the sky
+  glm::dvec3 middle_{0.0};                           ///< of all balls, Å
+  std::vector<View> views_;                          ///< of the sky's axes, then of the lamp's places
+  int sky_axes_ = 0, sky_edge_ = 0, lamp_edge_ = 0;  ///< edges: texels
+  double sky_texel_ = 1.0, lamp_texel_ = 1.0;        ///< Å
+  std::vector<float> texels_;
+};
+
+}  // namespace meniscus
