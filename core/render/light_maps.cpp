@@ -21,7 +21,7 @@
 namespace meniscus {
 namespace {
 
-constexpr double kFinestSkyTexel = 0.5, kFinestLampTexel = 0.35;  // Å
+constexpr double kFinestSkyTexel = 0.4, kFinestLampTexel = 0.35;  // Å
 constexpr int kLargestSkyEdge = 384, kLargestLampEdge = 768;      // texels
 constexpr int kMargin = 3;                                        // empty texels around everything
 constexpr float kEmpty = -1e30f;
@@ -171,13 +171,9 @@ void LightMaps::draw(const View& view, const Raster& raster) const {
   };
   for (const Group& group : groups_)
     for (const Ball& ball : group.balls) {
-      bool cut = false, gone = false;
-      for (const ClipPlane& plane : group.planes) {
-        const double room = plane.offset - glm::dot(plane.normal, ball.center);
-        cut |= room < ball.radius;
-        gone |= room <= -ball.radius;
-      }
-      if (gone) continue;
+      const bool cut = std::ranges::any_of(group.planes, [&](const ClipPlane& plane) {
+        return plane.offset - glm::dot(plane.normal, ball.center) < ball.radius;
+      });
       const glm::dvec3 center = ball.center - middle_;
       const auto x = static_cast<float>(glm::dot(center, view.right) * scale + half),
                  y = static_cast<float>(glm::dot(center, view.up) * scale + half),
@@ -211,7 +207,7 @@ void LightMaps::draw(const View& view, const Raster& raster) const {
     }
 }
 
-kernel::LightMapParameters LightMaps::parameters(const Look& look, const PictureFrame& frame) const {
+kernel::LightMapParameters LightMaps::parameters(const PictureFrame& frame) const {
   kernel::LightMapParameters maps{};
   maps.sky_texel = static_cast<float>(sky_texel_);
   maps.lamp_texel = static_cast<float>(lamp_texel_);
@@ -220,7 +216,6 @@ kernel::LightMapParameters LightMaps::parameters(const Look& look, const Picture
   maps.sky_axes = sky_axes_;
   maps.lamp_places = static_cast<int>(views_.size()) - sky_axes_;
   maps.first_lamp_texel = 2 * sky_axes_ * sky_edge_ * sky_edge_;
-  maps.radius = look.ambient_occlusion_radius;
   // The camera's position, or the point before the pivot in an orthographic picture, is the origin of its axes.
   const ViewBasis& basis = frame.basis;
   const glm::dvec3 eye = frame.pivot - basis.forward * frame.eye_distance - middle_;

@@ -37,7 +37,7 @@ class LightMaps {
   /// Returns the maps one after another, for light_texel(); empty unless the look needs maps.
   const std::vector<float>& texels() const { return texels_; }
   /// Returns the places of the maps in a picture.
-  kernel::LightMapParameters parameters(const Look& look, const PictureFrame& frame) const;
+  kernel::LightMapParameters parameters(const PictureFrame& frame) const;
 
  private:
   /// Balls that the same planes cut.

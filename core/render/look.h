@@ -57,7 +57,7 @@ struct LookNumbers {
   /// Strength in [0, 1] of the shade in pockets and clefts. Unless ambient_occlusion_rays is set, it is computed from
   /// maps (core/render/light_maps.h).
   Number ambient_occlusion{};
-  Number ambient_occlusion_radius{};  ///< largest distance over which shade is cast, Å
+  Number ambient_occlusion_radius{};  ///< largest distance over which rays find shade, Å
   /// Rays per pixel, over the whole sky, by which the shade is computed instead (core/render/cpu/shadow_rays.h), as
   /// well as the shadows; 0: none.
   Number ambient_occlusion_rays{};
@@ -75,7 +75,7 @@ struct LookNumbers {
 struct Look : LookNumbers<float, Material> {
   Look() {
     light_strength = 1.0f;
-    ambient_occlusion_radius = 100.0f;
+    ambient_occlusion_radius = 25.0f;
   }
 
   glm::vec3 background{1.0f};  ///< sRGB in [0, 1]

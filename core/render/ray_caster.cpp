@@ -45,7 +45,7 @@ void LookPass::add(const CastSample& sample, const Look& look, const GpuPack& sc
   if (look.has_shade() && sample.index == 0) {
     light_texels_.bind(2);
     shade_.bind(0);
-    run(programs_.get("gpu_shaders/look/light_maps.comp"), light_maps_.parameters(look, frame));
+    run(programs_.get("gpu_shaders/look/light_maps.comp"), light_maps_.parameters(frame));
   }
   ShaderDefines effects;
   if (look.has_shade()) effects.emplace_back("SHADE", "1");

@@ -91,7 +91,12 @@ const std::vector<Need>& needs_of_scenes() {
        "with @ambient 1@, as @preset flat@ has it, nothing is shaded; add a smaller @ambient@"},
       {{"look.shininess"}, has_highlights, "there are no highlights; add @specular@"},
       {{"look.shadow_softness"}, has_shadows, "there are no shadows; add @shadows@"},
-      {{"look.ambient_occlusion_radius", "look.ambient_occlusion_rays"},
+      {{"look.ambient_occlusion_radius"},
+       [](const GivenScene& given) {
+         return resulting_look(given).traces_sky() || std::string_view(given.scene.output).ends_with(".html");
+       },
+       "no rays find shade; add @ambient-occlusion-rays@"},
+      {{"look.ambient_occlusion_rays"},
        [](const GivenScene& given) { return resulting_look(given).ambient_occlusion > 0.0f; },
        "no shade is cast; add @ambient-occlusion@"},
       {{"look.linear_alpha"}, has_transparent_pixels, "it is for the edges of transparent .png and .tif pictures"}};

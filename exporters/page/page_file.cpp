@@ -151,7 +151,7 @@ constexpr int kSamplesOfShade = 3;
 /// Returns the parameters for the shade that a page takes from the depths of its picture.
 kernel::OcclusionParameters occlusion_parameters(const Look& look, glm::ivec2 size) {
   constexpr int kLargestOwnMap = 2048;
-  constexpr float kMapSide = 1024.0f, kLongestRadius = 25.0f;  // texels; Å, beyond which such shade gets coarse
+  constexpr float kMapSide = 1024.0f;  // texels
   const int side = std::max(size.x, size.y);
   const float edge = side <= kLargestOwnMap ? 1.0f : static_cast<float>(side) / kMapSide;
   const glm::ivec2 map_size = glm::max(glm::ivec2(glm::vec2(size) / edge), glm::ivec2(1));
@@ -159,7 +159,7 @@ kernel::OcclusionParameters occlusion_parameters(const Look& look, glm::ivec2 si
           .map_size = map_size,
           .texel_edge = edge,
           .near_reach = edge == 1.0f ? 0.0f : 8.0f * edge,
-          .radius = std::min(look.ambient_occlusion_radius, kLongestRadius),
+          .radius = look.ambient_occlusion_radius,
           .longest_reach = glm::length(glm::vec2(size)),
           .sample_index = 0};
 }

@@ -8,16 +8,14 @@
 // Written in GLSL and, as the body of a struct, in C++ (view_space.glsl). The includer provides `maps` of
 // LightMapParameters, and light_texel() of an index.
 
-// Returns the share of the light that something at a height above a point blocks, Å. It grows over a texel, so that
-// borders of shadows are smooth, and falls towards `reach`, because a step there would be visible as a rim.
-GEOMETRY real blocked_at(real height, float texel, float reach) {
-  return clamp(height * (1.0 / texel), 0.0, 1.0) * clamp((1.0 - height * (1.0 / reach)) * (1.0 / 0.6), 0.0, 1.0);
-}
+// Returns the share of the light that something at a height above a point blocks, Å. It grows over half a texel, so
+// that borders of shadows are smooth.
+GEOMETRY real blocked_at(real height, float texel) { return clamp(height * (2.0 / texel), 0.0, 1.0); }
 
 // Returns the share of the light in the direction of a map that does not reach a point, filtered over the four
 // surrounding texels (percentage-closer filtering, Reeves, Salesin & Cook 1987). row: index of the map's first row;
 // first: index of its first texel; down: true if the map's heights count against the axis.
-GEOMETRY real blocked(real3 p, int row, integer first, truth down, int edge, float texel, float reach) {
+GEOMETRY real blocked(real3 p, int row, integer first, truth down, int edge, float texel) {
   vec4 to_column = maps.rows[row];
   vec4 to_line = maps.rows[row + 1];
   vec4 to_height = maps.rows[row + 2];
@@ -29,10 +27,10 @@ GEOMETRY real blocked(real3 p, int row, integer first, truth down, int edge, flo
   integer2 place = integer2(real2(column, line));
   integer at = first + place.y * edge + place.x;
   real right = column - real(place.x);
-  real upper = mix(blocked_at(light_texel(at) - height, texel, reach),
-                   blocked_at(light_texel(at + 1) - height, texel, reach), right);
-  real lower = mix(blocked_at(light_texel(at + edge) - height, texel, reach),
-                   blocked_at(light_texel(at + (edge + 1)) - height, texel, reach), right);
+  integer below = at + edge;
+  real upper = mix(blocked_at(light_texel(at) - height, texel), blocked_at(light_texel(at + 1) - height, texel), right);
+  real lower =
+      mix(blocked_at(light_texel(below) - height, texel), blocked_at(light_texel(below + 1) - height, texel), right);
   return mix(upper, lower, line - real(place.y));
 }
 
@@ -48,24 +46,22 @@ GEOMETRY real sky_visibility(real3 p, real3 normal) {
     truth down = cosine < 0.0;
     integer first = select(down, integer((2 * axis + 1) * texels), integer(2 * axis * texels));
     real weight = abs(cosine);
-    seen += weight * (1.0 - blocked(from, 3 * axis, first, down, maps.sky_edge, maps.sky_texel, maps.radius));
+    seen += weight * (1.0 - blocked(from, 3 * axis, first, down, maps.sky_edge, maps.sky_texel));
     all += weight;
   }
   return seen / all;
 }
 
-// Returns the share of the lamp that a point sees, weighted by the cosine where it faces the lamp.
+// Returns the share of the lamp that a point sees. Places below its horizon are out of sight, and fade close to it.
 GEOMETRY real lamp_visibility(real3 p, real3 normal) {
   real3 from = p + normal * (kLightLift * maps.lamp_texel);
   int texels = maps.lamp_edge * maps.lamp_edge;
   real seen = real(0.0);
-  real all = real(1e-6);
   for (int n = 0; n < maps.lamp_places; ++n) {
     int row = 3 * (maps.sky_axes + n);
-    real weight = max(dot(normal, vec3(maps.rows[row + 2])), 0.0);
+    real above = clamp(dot(normal, vec3(maps.rows[row + 2])) * 8.0, 0.0, 1.0);
     integer first = integer(maps.first_lamp_texel + n * texels);
-    seen += weight * (1.0 - blocked(from, row, first, truth(false), maps.lamp_edge, maps.lamp_texel, 1e6));
-    all += weight;
+    seen += above * (1.0 - blocked(from, row, first, truth(false), maps.lamp_edge, maps.lamp_texel));
   }
-  return select(all > 1e-5, seen / all, real(0.0));
+  return seen / float(maps.lamp_places);
 }

@@ -23,7 +23,7 @@ struct OcclusionParameters {
 
 const int kMostSkyAxes = 64;
 const int kMostLampPlaces = 16;
-const float kLightLift = 1.25;  // texels above the surface, from where light is looked for: more than a slope rises
+const float kLightLift = 1.0;  // texels above the surface, from where light is looked for: as much as a slope rises
 
 // The maps of light_maps.glsl.
 struct LightMapParameters {
@@ -37,7 +37,6 @@ struct LightMapParameters {
   int sky_axes;
   int lamp_places;
   int first_lamp_texel;
-  float radius;  // Å; what is farther blocks less of the sky
 };
 
 struct FinishParameters {

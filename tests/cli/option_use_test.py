@@ -140,7 +140,7 @@ CONTEXTS = {
     "bar": ["{one.pdb}", "--scale-bar", "5"], "panel": ["{one.pdb}", "--panel", "a"],
     "shiny": ["{one.pdb}", "--specular", "0.9", "--ambient", "0.1"],
     "flat": ["{one.pdb}", "--preset", "flat"],
-    "shade": ["{one.pdb}", "--ambient-occlusion", "1"], "table of atoms": ["{one.pdb}", "--csv", "a.csv"], "summary": ["{one.pdb}", "--csv-summary", "s.csv"],
+    "shade": ["{one.pdb}", "--ambient-occlusion", "1"], "rays": ["{one.pdb}", "--ambient-occlusion-rays", "9"], "table of atoms": ["{one.pdb}", "--csv", "a.csv"], "summary": ["{one.pdb}", "--csv-summary", "s.csv"],
     "shadows": ["{one.pdb}", "--shadows", "1"], "patches": ["{one.pdb}", "--patches", "chain A"],
     "length": ["{one.pdb}", "--width", "10mm"],
     "pixels": ["{one.pdb}", "--tolerance-pixels", "2"], "choice": ["{one.pdb}", "--select", "chain A"],
@@ -185,7 +185,7 @@ ROWS = {
     "--turn": ("y40", "plain"), "--zoom-to": ("chain B", "plain"), "--look-into": ("chain B", "plain"), "--preset": ("soft", "plain"),
     "--light": ("1,0,1", "plain"), "--light-strength": ("3", "plain"), "--ambient": ("0.1", "plain"),
     "--roughness": ("0.9", "plain"), "--specular": ("0.9", "plain"), "--shininess": ("9", "shiny"),
-    "--ambient-occlusion": ("0.5", "plain"), "--ambient-occlusion-radius": ("3", "shade"),
+    "--ambient-occlusion": ("0.5", "plain"), "--ambient-occlusion-radius": ("3", "rays"),
     "--ambient-occlusion-rays": ("9", "shade"), "--shadows": ("0.8", "plain"), "--shadow-softness": ("20", "shadows"), "--silhouettes": ("3", "plain"),
     "--patch-lines": ("5", "patches"), "--patch-line-color": ("red", "patches"),
     "--outer-lines": ("3", "plain"), "--inner-lines": ("3", "plain"), "--part-lines": ("3", "plain"),
@@ -262,6 +262,7 @@ for export in ("povray", "blender", "mitsuba", "pbrt", "mvs"):
 for shape in ("--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans"):
     OWN_ROWS["export page", shape] = (ROWS[shape][0], "covered ring" if shape in ("--bases", "--glycans") else "plain")
 OWN_ROWS["export page", "--background"] = ("black", "plain")
+OWN_ROWS["export page", "--ambient-occlusion-radius"] = ("3", "shade")
 OWN_ROWS["export page", "--named-view"] = ("Back={camera.json}", "plain")
 OWN_ROWS["export mesh", "--preset"] = ("cover", "plain")
 for export in ("mesh", "ply"):

@@ -149,7 +149,6 @@ const Places& places_in_cpp() {
       AT(LightMapParameters, sky_axes),
       AT(LightMapParameters, lamp_places),
       AT(LightMapParameters, first_lamp_texel),
-      AT(LightMapParameters, radius),
       AT(FinishParameters, key_direction),
       AT(FinishParameters, key_strength),
       AT(FinishParameters, key_color),

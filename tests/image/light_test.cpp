@@ -289,7 +289,7 @@ std::vector<float> light_left(Subject& subject, float sky, float shadows) {
   look.shadows = look.ambient_occlusion = 0.0f;
   const Framebuffer bare = subject.picture();
   look.ambient_occlusion = sky;
-  look.ambient_occlusion_radius = 1000.0f;
+  look.ambient_occlusion_radius = 1000.0f;  // of rays
   look.shadows = shadows;
   look.shadow_softness = 12.0f;
   const Framebuffer shaded = subject.picture();
@@ -308,6 +308,7 @@ TEST(MappedLight, IsWholeOnALoneBall) {
 // while all of it is above the horizon (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-38).
 TEST(MappedLight, BesideABallIsThatOfItsViewFactor) {
   const Ball large{{0.0, 0.0, 0.0}, 10.0}, small{{5.0, 0.0, 16.0}, 3.0};
+  const double kLift = 0.4 * static_cast<double>(kernel::kLightLift);  // Å, from where light is looked for
   Subject subject({large, small});
   subject.camera = {.position = {-40.0, 0.0, 40.0}, .target = {0.0, 0.0, 8.0}, .up = {0.0, 1.0, 0.0}};
   subject.camera.projection = Projection::orthographic;
@@ -315,17 +316,22 @@ TEST(MappedLight, BesideABallIsThatOfItsViewFactor) {
   const std::vector<float> left = light_left(subject, 1.0f, 0.0f);
   const Framebuffer picture = subject.picture();
   int count = 0;
+  double bias = 0.0;
   float least = 1.0f;
   for (std::size_t at = 0; at < left.size(); ++at) {
     if (picture.atom[at] != 0) continue;
-    const glm::dvec3 way = small.center - glm::dvec3(picture.position[at]);
-    const double distance = glm::length(way), cosine = glm::dot(way, glm::dvec3(picture.normal[at])) / distance;
+    const glm::dvec3 normal(picture.normal[at]);
+    const glm::dvec3 way = small.center - glm::dvec3(picture.position[at]) - kLift * normal;
+    const double distance = glm::length(way), cosine = glm::dot(way, normal) / distance;
     if (std::acos(cosine) + std::asin(small.radius / distance) > 1.45) continue;
-    EXPECT_NEAR(left[at], 1.0 - cosine * small.radius * small.radius / (distance * distance), 0.04);
+    const double expected = 1.0 - cosine * small.radius * small.radius / (distance * distance);
+    EXPECT_NEAR(left[at], expected, 0.06);  // 128 directions
+    bias += left[at] - expected;
     least = std::min(least, left[at]);
     ++count;
   }
   EXPECT_GT(count, 500);
+  EXPECT_LT(std::abs(bias), 0.015 * count);
   EXPECT_LT(least, 0.8f);
 }
 
@@ -358,8 +364,8 @@ TEST(MappedLight, IsThatOfRays) {
     for (std::size_t at = 0; at < left.size(); ++at)
       if (std::isfinite(traced.z[at])) errors.push_back(std::abs(left[at] - traced.color[at].x / open.color[at].x));
     std::ranges::sort(errors);
-    EXPECT_LT(errors[errors.size() / 2], 0.03f) << shadows;
-    EXPECT_LT(errors[errors.size() * 95 / 100], 0.15f) << shadows;
+    EXPECT_LT(errors[errors.size() / 2], 0.04f) << shadows;
+    EXPECT_LT(errors[errors.size() * 95 / 100], 0.22f) << shadows;
     subject.settings.look.ambient_occlusion_rays = 0.0f;
   }
 }

@@ -235,7 +235,7 @@ void CpuRenderer::look_at(int sample, const BlockTask& block, Interruption& inte
   const Look& look = block.settings.look;
   LaneLook task;
   task.view = block_view(block.at.frame, block.at.block, sample_offset(sample));
-  const kernel::LightMapParameters maps = light_maps_.parameters(look, block.at.frame);
+  const kernel::LightMapParameters maps = light_maps_.parameters(block.at.frame);
   task.maps = &maps;
   task.finish = finish_parameters(look, placement_, picture_size, sample, block.scene.content().marks);
   if (block.scene.content().highlights) task.finish.specular = 0.0f;

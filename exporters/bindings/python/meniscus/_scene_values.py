@@ -40,7 +40,7 @@ class SurfaceValues(TypedDict, total=False):
     #: F: Shade in pockets and clefts, 0 (none) to 1. All that is drawn casts shade; what is seen through
     #: casts none
     ambient_occlusion: float
-    #: Å: Largest distance at which shade is cast, in Å
+    #: Å: Largest distance at which the rays of ambient_occlusion_rays find shade, in Å
     ambient_occlusion_radius: float
     #: N: Rays a pixel that find shade and shadows, such as 64: exact, but slow. 0: maps of the light find them [0]
     ambient_occlusion_rays: float
