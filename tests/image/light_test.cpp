@@ -392,7 +392,7 @@ TEST(MappedLight, IsTheSameForAnyBlocksVectorsAndThreads) {
 TEST(MappedLight, StaysAtItsPointWhileTheCameraTurns) {
   Subject subject(testing::ubiquitin());
   subject.settings.size = {480, 360};
-  subject.camera.projection = Projection::orthographic;
+  subject.camera = frame_camera(subject.surface.atoms, 4.0 / 3.0, Projection::orthographic);
   const std::vector<float> before = light_left(subject, 1.0f, 0.0f);
   const Framebuffer picture = subject.picture();
   const glm::dvec3 back = subject.camera.position - subject.camera.target, up = view_basis(subject.camera).up;

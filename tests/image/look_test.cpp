@@ -119,8 +119,8 @@ TEST_F(Looks, ShadeLeavesNoPattern) {
         const std::size_t at = static_cast<std::size_t>(y + dy) * 200 + x + dx;
         return (brightness(shaded.color[at]) + 1e-6f) / (brightness(bare.color[at]) + 1e-6f);  // 1 in a gap
       };
-      EXPECT_NEAR(share(0, 0), share(50, 0), 0.012f);
-      EXPECT_NEAR(share(0, 0), share(0, 50), 0.012f);
+      EXPECT_NEAR(share(0, 0), share(50, 0), 0.025f);
+      EXPECT_NEAR(share(0, 0), share(0, 50), 0.025f);
     }
 }
 
