@@ -256,7 +256,7 @@ path_tracers::SceneItem item_of(const SurfaceObject& object, std::span<const Cli
   return path_tracers::surface_item(object, shown.mesh, origin, caps);
 }
 
-void add_surface(const Scene& asked, Figure figure, double tolerance, path_tracers::Scene& scene) {
+void add_surface(const Scene& asked, Figure figure, double tolerance, path_tracers::PathTracerScene& scene) {
   std::vector<SurfaceObject>& objects = figure.molecule.objects;
   const std::vector<ClipPlane> planes = surface_planes(asked.figure, figure.beside.cut_atoms, scene.camera, objects);
   settle_copies(objects, !planes.empty());
@@ -266,7 +266,7 @@ void add_surface(const Scene& asked, Figure figure, double tolerance, path_trace
 
 // Adds objects with materials of their own.
 void add_more(const Scene& asked, const Figure& figure, std::span<const Atom> atoms, double tolerance,
-              path_tracers::Scene& scene) {
+              path_tracers::PathTracerScene& scene) {
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
   for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
     const FigureObject& object = figure.beside.objects[n];
@@ -291,7 +291,7 @@ TracedFigure traced_figure(const FigureRun& run, FigureFrame frame) {
   Figure& figure = frame.figure;
   const std::vector<Ball> balls = run.is_run() ? standing_balls(run.structure()) : figure.balls();
   const double tolerance = tolerance_of(asked.mesh, asked.picture.size(), run.camera(0), balls);
-  path_tracers::Scene scene;
+  path_tracers::PathTracerScene scene;
   scene.origin = run.is_run() ? run.framing().origin() : rounded_center(balls);
   scene.camera = frame.camera;
   scene.width = asked.picture.width;

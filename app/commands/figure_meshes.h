@@ -83,7 +83,7 @@ TakenProperties traced_properties();
 
 /// A figure's scene, and its fineness.
 struct TracedFigure {
-  path_tracers::Scene scene;
+  path_tracers::PathTracerScene scene;
   double tolerance = 0.0;  ///< Å
 };
 
