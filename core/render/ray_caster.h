@@ -140,13 +140,13 @@ struct CastSettings {
 class RayCaster {
  public:
   /// Casts a block of a picture and leaves the result on the GPU, in picture() and hits(). frame.size is the size of
-  /// the whole picture. Returns false if casting was stopped; then there is no picture. Throws GpuError; CapacityError
-  /// if the block is too large for this GPU.
+  /// the whole picture. Returns false, and leaves no picture, if casting was stopped. Throws CapacityError if the block
+  /// is too large for this GPU, and GpuError if the GPU fails.
   bool cast(const GpuPack& scene, const PictureFrame& frame, const PictureBlock& block,
             const CastSettings& settings = {});
 
   /// Returns the depths of a block of shade_map_frame(), row by row. picture() and hits() then belong to the map.
-  /// Throws GpuError; CapacityError if the block is too large for this GPU.
+  /// Throws like cast().
   std::vector<float> cast_depths(const GpuPack& scene, const PictureFrame& map, const PictureBlock& block) {
     cast(scene, map, block);
     return look_pass_.depths(hits_, map, block);
