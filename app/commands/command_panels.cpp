@@ -17,11 +17,11 @@
 #include "core/base/progress.h"
 #include "core/base/text.h"
 #include "core/render/image_output.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/panel_page.h"
 #include "core/scene/picture_device.h"
 #include "core/scene/scene_lengths.h"
 #include "core/scene/scene_values.h"
-#include "core/scene/settled_selections.h"
 #include "core/structure/superposition.h"
 
 namespace meniscus {

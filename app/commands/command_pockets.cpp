@@ -24,9 +24,9 @@
 #include "core/base/output_file.h"
 #include "core/base/text.h"
 #include "core/queries/cavity_tracks.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/molecule_pockets.h"
 #include "core/scene/scene_paths.h"
-#include "core/scene/settled_selections.h"
 #include "exporters/mesh_files/mesh_file_maker.h"
 #include "exporters/mesh_files/mesh_formats.h"
 

@@ -34,11 +34,11 @@
 #include "core/gpu/egl_context.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/frame_run.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/molecule.h"
 #include "core/scene/picture_device.h"
 #include "core/scene/renderers.h"
 #include "core/scene/run_framing.h"
-#include "core/scene/settled_selections.h"
 #include "core/scene/view_aim.h"
 
 namespace meniscus {

@@ -16,8 +16,8 @@
 #include "core/scene/context_areas.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/figure_key.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/scene_values.h"
-#include "core/scene/settled_selections.h"
 #include "core/scene/surface_computer.h"
 
 namespace meniscus {

@@ -30,8 +30,8 @@
 #include "core/queries/cavity_tracks.h"
 #include "core/scene/area_columns.h"
 #include "core/scene/context_areas.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/molecule.h"
-#include "core/scene/settled_selections.h"
 
 namespace meniscus {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/base/text.h"
 #include "core/queries/copies.h"
 #include "core/scene/figure_key.h"
-#include "core/scene/settled_selections.h"
+#include "core/scene/frozen_selections.h"
 #include "exporters/blender/mns_file.h"
 #include "exporters/blender/sequence_manifest.h"
 

@@ -17,7 +17,7 @@
 #include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
-#include "core/scene/settled_selections.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/surface_computer.h"
 #include "exporters/vdb/vdb_file.h"
 

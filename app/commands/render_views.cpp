@@ -28,10 +28,10 @@
 #include "core/render/picture.h"
 #include "core/render/picture_file.h"
 #include "core/scene/figure_key.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/molecule.h"
 #include "core/scene/run_framing.h"
-#include "core/scene/settled_selections.h"
 #include "core/scene/view_aim.h"
 #include "core/visible_surface/view_pipeline.h"
 

@@ -28,10 +28,10 @@
 #include "core/scene/annotations.h"
 #include "core/scene/figure_key.h"
 #include "core/scene/frame_run.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/run_framing.h"
 #include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
-#include "core/scene/settled_selections.h"
 
 namespace meniscus::farm {
 namespace {

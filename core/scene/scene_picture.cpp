@@ -17,8 +17,8 @@
 #include "core/camera/open_side.h"
 #include "core/color/color_schemes.h"
 #include "core/scene/figure_key.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/scene_values.h"
-#include "core/scene/settled_selections.h"
 
 namespace meniscus {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Samples a volume map at points of each patch, weighted by the areas of its faces.
-#include "core/scene/map_reach.h"
+#include "core/scene/map_coverage.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds values without effect by a table of what each of them needs.
-#include "core/scene/idle_values.h"
+#include "core/scene/ineffective_values.h"
 
 #include <algorithm>
 
