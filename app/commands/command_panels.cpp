@@ -48,14 +48,14 @@ std::vector<std::string> words_of_panels(const DeclaredPanels& page) {
 
 SceneCommand read_panel(const std::string& path, const std::vector<std::string>& words, const SceneCommand& page) {
   SceneCommand command = read_scene_file(path, words, page.reporting);
-  command.scene = readied(command.scene);
-  settle_selections(command.scene);
+  command.scene = prepared_scene(command.scene);
+  freeze_selections(command.scene);
   return command;
 }
 
 Structure read_structure(const SceneCommand& command, const std::string& path) {
   const Scene& scene = command.scene;
-  if (!scene.frames.asked()) return read_and_tell(command);
+  if (!scene.frames.is_requested()) return read_and_tell(command);
   FrameRun run(scene.molecule, scene.frames);
   tell_run(command, run);
   if (run.numbers().size() != 1)

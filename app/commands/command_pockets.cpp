@@ -70,7 +70,7 @@ class PocketTables {
 
   void make() {
     NumberRun run(command_);
-    takes_out_anew_ = run.is_run() && (run.frames().atoms_change() || command_.ligand.uses_positions());
+    removes_per_frame_ = run.is_run() && (run.frames().atoms_change() || command_.ligand.uses_positions());
     left_out_ = taken_out(command_, run.structure());
     if (run.is_run() && !command_.json && command_.csv != "-") std::cout << pocket_row_header();
     run.make(
@@ -88,7 +88,7 @@ class PocketTables {
       const auto numbered = std::make_shared<NumberedStructure>(std::move(given));
       const Structure& structure = numbered->structure;
       const auto pockets = std::make_shared<MoleculePockets>(
-          computer->compute(structure, takes_out_anew_ ? taken_out(command_, structure) : left_out_));
+          computer->compute(structure, removes_per_frame_ ? taken_out(command_, structure) : left_out_));
       return [this, numbered, pockets, computer] {
         return finish({numbered->structure, *pockets, computer->device()}, *numbered);
       };
@@ -141,14 +141,14 @@ class PocketTables {
     made.files.push_back(path_of(command_.figure, numbered));
     const Scene scene = scene_of(command_.scene, numbered.note);
     OutputFile file(made.files.back(), command_.existing());
-    file.write(pocket_figure(report, scene_text_beside(scene, made.files.back()), command_.ligand.text()));
+    file.write(pocket_figure(report, scene_text_for(scene, made.files.back()), command_.ligand.text()));
     file.commit();
   }
 
   const PocketsCommand& command_;
   GrowingTable rows_;
   CavityTracks tracks_;
-  bool takes_out_anew_ = false;  ///< true if the selection is evaluated in each frame
+  bool removes_per_frame_ = false;  ///< true if the selection is evaluated in each frame
   std::vector<bool> left_out_;
   bool hinted_ = false;
   std::string held_;  ///< for a single molecule: printed once its table is complete
@@ -158,7 +158,7 @@ class PocketTables {
 
 void print_pockets(const PocketsCommand& asked) {
   PocketsCommand command = asked;
-  settle_selections(command.scene, {&command.ligand});
+  freeze_selections(command.scene, {&command.ligand});
   if (const std::string fault = scene_fault(command.scene); !fault.empty() && !command.figure.empty())
     throw UsageError("--figure: " + fault);
   PocketTables(command).make();
@@ -205,7 +205,7 @@ void check_request(const PocketsCommand& command) {
     throw UsageError(
         "--figure: a scene is of a frame of the trajectory, not of one in between; leave --interpolate out");
   std::vector<std::string> paths{command.csv};
-  if (command.scene.frames.asked())
+  if (command.scene.frames.is_requested())
     check_run(command);
   else
     paths.insert(paths.end(), {command.mesh, command.figure});

@@ -66,18 +66,18 @@ Shown read_run(PreviewCommand& command) {
     command.models = false;
   }
   Scene scene = command.scene;
-  if (!scene.frames.asked()) {
+  if (!scene.frames.is_requested()) {
     // Copies belong to one model: of several models the first is shown.
     if (scene.molecule.division.instances != InstanceMode::none) command.models = false;
     SceneCommand reading = command;
     reading.scene.molecule = command.read_molecule_request();
     return {std::move(scene), read_and_tell(reading), {}, {}};
   }
-  Scene settled = scene;
-  settle_selections(settled);
-  const auto frames = std::make_shared<FrameRun>(settled.molecule, scene.frames);
-  scene.figure = settled.figure;
-  scene.picture = settled.picture;
+  Scene frozen = scene;
+  freeze_selections(frozen);
+  const auto frames = std::make_shared<FrameRun>(frozen.molecule, scene.frames);
+  scene.figure = frozen.figure;
+  scene.picture = frozen.picture;
   tell_run(command, *frames);
   if (scene.molecule.division.instances != InstanceMode::none && frames->atoms_change())
     throw UsageError(
@@ -165,7 +165,7 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
   std::unique_ptr<PreviewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
                                                   command.output_folder, std::move(shown.trajectory), context);
-  for (const std::string& sentence : session->idle_cuts()) say(command, "note: --clip " + sentence);
+  for (const std::string& sentence : session->ineffective_cuts()) say(command, "note: --clip " + sentence);
   if (!command.record.empty()) {
     auto log = std::make_shared<CommandLog>(command.record, command.existing());
     session->record([log](const nlohmann::json& line) { log->write(line); });

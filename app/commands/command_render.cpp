@@ -58,7 +58,8 @@ void tell_memory(const RenderCommand& command) {
 
 void tell_hue_changes(const RenderCommand& command) {
   const std::string changes = hue_changes(command.scene.look);
-  if (changes.empty() || hues_of(command.scene.molecule.color, command.scene.legend.asked(), false) != Hues::kept)
+  if (changes.empty() ||
+      hues_of(command.scene.molecule.color, command.scene.legend.is_requested(), false) != Hues::kept)
     return;
   say(command, "warning: colours of the surface are not those of the legend: " + changes);
 }
@@ -67,7 +68,7 @@ void tell_hue_changes(const RenderCommand& command) {
 void name_output(const CLI::App& program, RenderCommand& command) {
   Scene& scene = command.scene;
   if (!scene.output.empty()) return;
-  if (scene.frames.asked())
+  if (scene.frames.is_requested())
     throw UsageError(
         "-o is missing: name the pictures of the frames, such as frame_#####.png, or a film, such as a.mp4");
   std::filesystem::path name = std::filesystem::path(scene.molecule.file).filename();
@@ -100,7 +101,7 @@ void check_layers(const Scene& scene) {
 /// Checks the scene before anything is read.
 void check_scene(const RenderCommand& command) {
   const Scene& scene = command.scene;
-  if (scene.frames.asked()) {
+  if (scene.frames.is_requested()) {
     if (is_film_path(scene.output) && !scene.frames.only.empty())
       throw UsageError("--only: a film needs all frames; write the chunk as pictures: frame_#####.png");
     numbered_output(scene.output, scene.film, scene.picture.size());
@@ -118,7 +119,7 @@ void check_scene(const RenderCommand& command) {
     check_image_path(scene.output);
   }
   check_cost(command, scene, scene.picture.size());
-  if (scene.image.motion_blur > 1 && !scene.frames.asked())
+  if (scene.image.motion_blur > 1 && !scene.frames.is_requested())
     throw UsageError("--motion-blur: one molecule does not move; add the frames of a run (--frames)");
   check_layers(scene);
   if (scene.image.extent && (!scene.figure.plain() || !scene.molecule.color.opacities.empty()))
@@ -134,7 +135,7 @@ void check_scene(const RenderCommand& command) {
 /// Opens the outputs before the work begins, so that errors come early, and removes them again.
 void check_files(const RenderCommand& command) {
   const Scene& scene = command.scene;
-  if ((!scene.frames.asked() || is_film_path(scene.output)) && !command.resumes)
+  if ((!scene.frames.is_requested() || is_film_path(scene.output)) && !command.resumes)
     check_output(scene.output, command.existing());
   if (!scene.legend.file.empty()) {
     check_image_path(scene.legend.file);
@@ -213,7 +214,7 @@ bool needs_borders(const Scene& scene) {
 
 /// Keeps only the missing pictures, in a run their frames; false if none is missing.
 bool leave_missing(RenderCommand& command) {
-  const bool is_run = command.scene.frames.asked();
+  const bool is_run = command.scene.frames.is_requested();
   const std::optional<NumberedPath> pictures = NumberedPath::parse(command.scene.output);
   if (is_run && !pictures)
     throw UsageError("--resume: a film is made as a whole; name pictures instead, such as -o frame_#####.png");
@@ -221,8 +222,8 @@ bool leave_missing(RenderCommand& command) {
   std::vector<std::string> paths{command.scene.output};
   std::vector<std::uint64_t> frames;
   if (is_run) {
-    Scene scene = readied(command.scene);
-    settle_selections(scene);
+    Scene scene = prepared_scene(command.scene);
+    freeze_selections(scene);
     frames = FrameRun(scene.molecule, scene.frames).chunk();
     paths.clear();
     for (const std::uint64_t frame : frames) paths.push_back(pictures->at(frame));
@@ -240,7 +241,7 @@ bool leave_missing(RenderCommand& command) {
 /// Takes a copy of the command, because the scene is saved as the user set it.
 void run(RenderCommand command) {
   if (command.is_draft) make_draft(command.scene);
-  command.keeps_scene = command.names_program && !command.scene.frames.asked();
+  command.keeps_scene = command.names_program && !command.scene.frames.is_requested();
   tell_hue_changes(command);
   if (const std::string fault = scene_fault(command.scene); command.keeps_scene && !fault.empty()) {
     command.keeps_scene = false;
@@ -271,7 +272,7 @@ ImageSettings image_settings(const RenderCommand& command) {
 RenderSettings picture_settings(const RenderCommand& command, const PictureLayout& layout) {
   RenderSettings settings = render_settings(command.scene, layout);
   // Exact times are needed only for pictures with printed times.
-  if (command.stats || (!command.scene.frames.asked() && !command.reporting.quiet))
+  if (command.stats || (!command.scene.frames.is_requested() && !command.reporting.quiet))
     settings.timing = StageTiming::exact;
   return settings;
 }

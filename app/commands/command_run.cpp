@@ -23,7 +23,7 @@
 namespace meniscus {
 
 NumberRun::NumberRun(const SceneCommand& command) : command_(command) {
-  if (!command.scene.frames.asked()) {
+  if (!command.scene.frames.is_requested()) {
     molecule_ = read_and_tell(command);
     return;
   }
@@ -78,8 +78,8 @@ namespace {
 
 SceneCommand ready(const SceneCommand& command) {
   SceneCommand made = command;
-  made.scene = readied(command.scene);
-  settle_selections(made.scene);
+  made.scene = prepared_scene(command.scene);
+  freeze_selections(made.scene);
   return made;
 }
 
@@ -95,7 +95,7 @@ std::vector<CameraKey> keys_of(std::span<const Camera> cameras, std::span<const 
 
 FigureRun::FigureRun(const SceneCommand& command, Velocities velocities)
     : command_(ready(command)), given_(given_cameras(command_.scene.picture, command_.scene.run_camera)) {
-  if (command_.scene.frames.asked())
+  if (command_.scene.frames.is_requested())
     open_run(velocities);
   else
     make_one_figure();
@@ -126,13 +126,13 @@ void FigureRun::aim(const ViewRequest& picture, bool extent) {
   } else {
     framing_.cameras = run_cameras(picture, scene().run_camera, given_, *shown_);
   }
-  tell_idle_cuts();
+  log_ineffective_cuts();
 }
 
-void FigureRun::tell_idle_cuts() const {
+void FigureRun::log_ineffective_cuts() const {
   const Camera& camera = framing_.cameras.front();
   if (!frames_) {
-    for (const std::string& sentence : idle_cuts(scene().figure, *figure_, camera))
+    for (const std::string& sentence : ineffective_cuts(scene().figure, *figure_, camera))
       say(command_, "note: --clip " + sentence);
     return;
   }
@@ -141,7 +141,7 @@ void FigureRun::tell_idle_cuts() const {
   std::vector<Ball> balls = grown(balls_of(structure()), growth_of(surface.kind, surface.probe_radius));
   if (!structure().instances.empty()) balls = reaching_balls(balls, structure().instances);
   const CutAtoms atoms = cut_atoms(scene().figure.cuts, structure());
-  for (const std::string& sentence : idle_cuts(scene().figure.cuts, atoms, {camera, balls, balls}, balls))
+  for (const std::string& sentence : ineffective_cuts(scene().figure.cuts, atoms, {camera, balls, balls}, balls))
     say(command_, fmt::format("note: --clip {}, in the first frame of the run", sentence));
 }
 
@@ -161,7 +161,7 @@ void FigureRun::measure(ColorScheme& color) {
 }
 
 ColorKey FigureRun::key() const {
-  return frames_ ? key_of(*frames_, scene()) : key_of(figure_->molecule, scene().figure, figure_->beside);
+  return frames_ ? key_of(*frames_, scene()) : key_of(figure_->molecule, scene().figure, figure_->extras);
 }
 
 void FigureRun::make(const FigureWork& work, const std::function<Sink()>& make_sink) {
@@ -185,7 +185,7 @@ void FigureRun::make(const FigureWork& work, const std::function<Sink()>& make_s
   tell_beyond_map(command_, builders);
 }
 
-void settle_copies(std::vector<SurfaceObject>& objects, bool are_cut) {
+void merge_copies(std::vector<SurfaceObject>& objects, bool are_cut) {
   if (std::ranges::none_of(objects, [](const SurfaceObject& object) { return object.copies.size() > 1; })) return;
   if (!are_cut && !copies_differ(objects)) return;
   SurfaceObject whole = merged(std::move(objects));

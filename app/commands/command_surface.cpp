@@ -215,7 +215,7 @@ void print_surface(const SurfaceCommand& asked) {
   check_outputs(asked);
   SurfaceCommand command = asked;
   command.scene.frames.context = command.context;
-  settle_selections(command.scene);
+  freeze_selections(command.scene);
   SurfaceTables(command).make();
 }
 
@@ -236,7 +236,7 @@ TakenProperties surface_command_properties() {
       {"surface.patches", "surface.min_patch", "surface.by", "surface.cavities"},
       {{{"surface.patches"},
         [](const GivenScene& given) {
-          return !given.scene.frames.asked() || given.any({"report.csv_patches", "report.json"});
+          return !given.scene.frames.is_requested() || given.any({"report.csv_patches", "report.json"});
         },
         "of a run, patches are written by --csv-patches FILE or --json; add one of them"},
        superposition_need({"report.csv_cavities", "report.gradients"}),

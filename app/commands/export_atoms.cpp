@@ -44,8 +44,8 @@ void export_atoms(const SceneCommand& asked) {
   if (command.scene.molecule.division.instances == InstanceMode::separate)
     throw UsageError("--instances separate: of the atoms in the file one surface is made; leave it out");
   std::unique_ptr<FrameRun> run;
-  if (command.scene.frames.asked()) {
-    settle_selections(command.scene);
+  if (command.scene.frames.is_requested()) {
+    freeze_selections(command.scene);
     run = std::make_unique<FrameRun>(command.scene.molecule, command.scene.frames);
     if (run->atoms_change())
       throw UsageError(

@@ -101,8 +101,8 @@ void export_to_blender(const SceneCommand& asked) {
       provenance.radii_set = sequence->manifest.provenance.radii_set;
     } else {
       std::vector<Ball> balls = placed_balls(molecule.objects);
-      const std::vector<Ball> beside = balls_around(frame.figure.beside.shapes.shapes);
-      balls.insert(balls.end(), beside.begin(), beside.end());
+      const std::vector<Ball> extras = balls_around(frame.figure.extras.shapes.shapes);
+      balls.insert(balls.end(), extras.begin(), extras.end());
       if (fineness.density == 0.0)
         fineness = fineness_of(scene.mesh, scene.mesh.even, 0.0, scene.picture.size(), frame.camera, balls);
     }
@@ -150,7 +150,7 @@ void declare_blender(CLI::App& command) {
     Scene& scene = declared->state.scene;
     if (!has_fineness(declared->options)) {
       if (scene.picture.camera_file.empty())
-        scene.mesh.tolerance = scene.frames.asked() ? blender::kRunTolerance : blender::kTolerance;
+        scene.mesh.tolerance = scene.frames.is_requested() ? blender::kRunTolerance : blender::kTolerance;
       else
         scene.mesh.tolerance_pixels = kPixelsOfACamera;
     }

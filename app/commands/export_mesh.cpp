@@ -53,7 +53,7 @@ void refuse_what_does_not_fit(const MeshFormat& format, const Figure& figure, co
   refuse_even_parts(fineness, hides, false);
   if (!format.solid) return;
   const bool whole = std::ranges::all_of(molecule.objects, &SurfaceObject::whole);
-  if (molecule.objects.size() > 1 || !whole || hides || !figure.beside.shapes.empty())
+  if (molecule.objects.size() > 1 || !whole || hides || !figure.extras.shapes.empty())
     throw RequestError(fmt::format(
         "{} holds one complete closed surface; leave --by, --cavities, --show and shapes out", format.word));
 }
@@ -106,7 +106,7 @@ FileMaterial material_of(const Scene& scene) {
 MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFrame frame, bool is_told) {
   const Scene& scene = command.scene;
   Molecule& molecule = frame.figure.molecule;
-  const ColoredShapes& beside = frame.figure.beside.shapes;
+  const ColoredShapes& extras = frame.figure.extras.shapes;
   std::vector<std::string> names;
   if (format.numbers) names = parse_vertex_numbers(scene.mesh.attributes);
   const MeshFineness fineness = fineness_of(scene.mesh, scene.mesh.even, scene.mesh.density, scene.picture.size(),
@@ -122,7 +122,7 @@ MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFr
                        material_of(scene)},
                       about_line(kind_word(scene.molecule.surface.kind), scene.mesh.scale, fineness));
   for (SurfaceObject& object : molecule.objects) maker.add(std::exchange(object, {}));
-  if (!beside.empty()) maker.add(shape_object(atoms, beside, fineness.tolerance));
+  if (!extras.empty()) maker.add(shape_object(atoms, extras, fineness.tolerance));
   if (is_told) tell(command, format, maker, fineness);
   return maker.take();
 }
@@ -147,7 +147,7 @@ void export_to_mesh(const SceneCommand& asked) {
   const MeshFormat& format = format_of(asked.scene);
   if (format.numbers) parse_vertex_numbers(asked.scene.mesh.attributes);
   const auto numbered = NumberedPath::parse(asked.scene.output);
-  const bool one_file = asked.scene.frames.asked() && !numbered;
+  const bool one_file = asked.scene.frames.is_requested() && !numbered;
   if (one_file) check_one_file(format, asked.scene);
   const auto is_partial = [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; };
   if (!format.opacity && std::ranges::any_of(asked.scene.molecule.color.opacities, is_partial))
@@ -194,7 +194,7 @@ TakenProperties mesh_export_properties() {
       {"-Figure", "surface.opacity", "-figure.object", "-camera.look_into", "-camera.path", "-camera.turntable",
        "-camera.follow", "-camera.save", "look.preset", "look.specular", "look.shininess", "frames.fps", "Mesh"},
       {{{"frames.fps"},
-        [](const GivenScene& given) { return given.scene.frames.asked() && is_usd(given.scene); },
+        [](const GivenScene& given) { return given.scene.frames.is_requested() && is_usd(given.scene); },
         "of meshes USD alone has times; name a file of a run, such as -o a.usda"},
        {{"look.preset", "look.specular", "look.shininess"},
         [](const GivenScene& given) {

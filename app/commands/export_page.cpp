@@ -70,7 +70,7 @@ class PageRun {
  public:
   PageRun(FigureRun& run, const NamedViews& views) : run_(run), views_(views) {
     common_.key = run.key();
-    common_.others = page::other_colors(run.reach(), color_of(run.scene().molecule),
+    common_.others = page::other_colors(run.possible_structure(), color_of(run.scene().molecule),
                                         [&](ColorScheme& scheme) { run.measure(scheme); });
     if (!run.is_run()) return;
     frame_count_ = run.frames().numbers().size();

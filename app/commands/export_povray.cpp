@@ -31,9 +31,9 @@ namespace {
 // Returns one table of colours for all frames: all colours that any rule can give to any atom. Nothing if each frame
 // needs a table of its own, because colours change from frame to frame, or objects have colours of their own.
 std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& asked, const ColorScheme& scheme,
-                                                             const Structure& reach, const Coloring& beside) {
+                                                             const Structure& possible, const Coloring& extras) {
   if (scheme.changes_with_frames() || asked.figure.hides_surface || !asked.figure.objects.empty()) return {};
-  const std::vector<glm::vec3> colors = run_colors(reach, scheme, beside);
+  const std::vector<glm::vec3> colors = run_colors(possible, scheme, extras);
   povray::ColorTable all;
   const auto add = [&](const povray::SceneColor& color) {
     if (color.opacity > 0.0f) all.number(color);
@@ -59,15 +59,15 @@ std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& asked,
 povray::SequenceScene sequence_of(FigureRun& run, povray::SceneOptions options) {
   const Scene& asked = run.scene();
   const FigureRequest& figure = asked.figure;
-  const Structure reach = numbered_reach(run.frames());
+  const Structure possible = numbered_structure(run.frames());
   const ColorScheme scheme = color_of(asked.molecule);
   options.origin = run.framing().origin();
-  const ColoredShapes beside = shown_shapes(reach, figure.representations, scheme);
+  const ColoredShapes extras = shown_shapes(possible, figure.representations, scheme);
   const auto sees_through = [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; };
   povray::Run shared{run.frames().numbers(), run.framing().cameras,
-                     colors_of_run(asked, scheme, reach, beside.coloring), run.framing().extent.shown};
+                     colors_of_run(asked, scheme, possible, extras.coloring), run.framing().extent.shown};
   shared.surface = !figure.hides_surface;
-  shared.shapes = !beside.empty();
+  shared.shapes = !extras.empty();
   shared.caps = shared.surface && !figure.cuts.empty();
   shared.translucent = std::ranges::any_of(scheme.opacities, sees_through);
   shared.map = scheme.volume;
@@ -91,10 +91,10 @@ povray::SceneReport write_figure(const Scene& asked, povray::SceneOptions option
   options.cut = povray_cut(figure, asked.figure, frame.camera);
   options.atom_names = comment_names(asked, figure.molecule.structure);
   if (sequence)
-    return sequence->write_frame(frame.place, {surface, options.cut, &figure.beside.shapes, more, options.atom_names});
-  options.shapes = &figure.beside.shapes;
+    return sequence->write_frame(frame.place, {surface, options.cut, &figure.extras.shapes, more, options.atom_names});
+  options.shapes = &figure.extras.shapes;
   options.objects = more;
-  if (asked.figure.hides_surface && figure.beside.shapes.empty() && more.empty())
+  if (asked.figure.hides_surface && figure.extras.shapes.empty() && more.empty())
     throw RequestError("the surface is not shown, and there is nothing beside it");
   return write_scene(surface, frame.camera, options, asked.output);
 }

@@ -47,10 +47,10 @@ void export_to_vdb(const VdbCommand& asked) {
   VdbCommand command = asked;
   const Scene& scene = command.scene;
   const auto numbered = NumberedPath::parse(scene.output);
-  if (scene.frames.asked() && !numbered)
+  if (scene.frames.is_requested() && !numbered)
     throw UsageError(fmt::format("-o {}: each frame needs a file of its own; put # where its number goes, as in {}",
                                  in_quotes(scene.output), in_quotes(numbered_name(scene.output))));
-  settle_selections(command.scene);
+  freeze_selections(command.scene);
   NumberRun run(command);
   const auto make_worker = [&](const std::shared_ptr<MoleculeBuilder>& builder) -> NumberRun::Worker {
     return [&, builder](NumberedStructure numbered_structure) -> FinishFrame {

@@ -49,7 +49,7 @@ TakenProperties blender_properties();
 
 /// All meshes of one figure, and the data that they refer to.
 struct FigureMeshes {
-  std::optional<ShapeObject> beside;
+  std::optional<ShapeObject> extras;
   std::vector<ShapeObject> more;
   std::vector<blender::MeshedObject> objects;
 };

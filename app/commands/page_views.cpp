@@ -61,7 +61,7 @@ NamedViews::NamedViews(const std::vector<std::string>& texts, const SceneCommand
     if (is_scene(file)) {
       std::vector<std::string> words{page.scene.molecule.file};
       if (trusts_scenes) words.push_back("--trust-scene");
-      view.scene = readied(read_scene_file(file, std::move(words), page.reporting).scene);
+      view.scene = prepared_scene(read_scene_file(file, std::move(words), page.reporting).scene);
     } else {
       view.scene.picture.camera_file = file;
     }

@@ -72,7 +72,7 @@ void tell_small_letters(const RenderCommand& command, const PictureLayout& layou
   look_at(!asked.labels.empty(), "labels", heights.labels);
   look_at(asked.scale_bar, "the scale bar", heights.scale_bar);
   look_at(!asked.panel.empty(), "the panel", heights.panel);
-  look_at(asked.time_stamp && scene.frames.asked(), "the time", heights.usual);
+  look_at(asked.time_stamp && scene.frames.is_requested(), "the time", heights.usual);
   if (small.empty()) return;
   say(command,
       fmt::format("warning: letters of {} are as small as {:.1f} pt on paper; most journals ask for {:g} pt; add "

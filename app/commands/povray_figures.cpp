@@ -55,8 +55,8 @@ std::vector<povray::SceneObject> povray_objects(const Figure& figure, const Figu
                                                 const Camera& camera, bool keeps_empty) {
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
   std::vector<povray::SceneObject> more;
-  for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
-    const FigureObject& object = figure.beside.objects[n];
+  for (std::size_t n = 0; n < figure.extras.objects.size(); ++n) {
+    const FigureObject& object = figure.extras.objects[n];
     if (!keeps_empty && !object.surface && object.shapes.empty()) continue;
     const PictureObject shown = picture_object(object, request.objects[n], camera, balls);
     povray::SceneObject& made = more.emplace_back();
@@ -72,7 +72,7 @@ std::vector<povray::SceneObject> povray_objects(const Figure& figure, const Figu
 }
 
 povray::SurfaceCut povray_cut(const Figure& figure, const FigureRequest& request, const Camera& camera) {
-  return {surface_planes(request, figure.beside.cut_atoms, camera, figure.molecule.objects), request.cap};
+  return {surface_planes(request, figure.extras.cut_atoms, camera, figure.molecule.objects), request.cap};
 }
 
 std::vector<std::string> comment_names(const Scene& scene, const Structure& structure) {
@@ -243,7 +243,7 @@ class PovrayFilm : public FilmMaker {
     std::span<const SurfaceObject> surface = shot.figure.molecule.objects;
     if (asked.hides_surface) surface = {};
     const povray::SceneReport report =
-        sequence_.write_frame(place, {surface, povray_cut(shot.figure, asked, shot.camera), &shot.figure.beside.shapes,
+        sequence_.write_frame(place, {surface, povray_cut(shot.figure, asked, shot.camera), &shot.figure.extras.shapes,
                                       objects, names, asked.thickens});
     if (frames_++ == 0)
       for (const std::string& note : report.notes) say(storyboard_.command(), "note: " + note);

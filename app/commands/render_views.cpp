@@ -124,7 +124,7 @@ struct Viewed {
 
   explicit Viewed(RenderCommand& command) : given(given_cameras(command.scene.picture, command.scene.run_camera)) {
     Scene& scene = command.scene;
-    if (!scene.frames.asked()) {
+    if (!scene.frames.is_requested()) {
       atoms = colored_atoms(scene.molecule, color_of(scene.molecule), read_and_tell(command));
       aim.emplace(scene.picture, scene.molecule.show, atoms.molecule.structure);
       return;
@@ -154,7 +154,7 @@ void render_views(const RenderCommand& asked) {
   check_view_options(asked.scene.molecule);
   RenderCommand command = asked;
   Scene& scene = command.scene;
-  settle_selections(scene);
+  freeze_selections(scene);
   Viewed viewed(command);
   const PictureLayout layout(scene, viewed.key(scene));
   const std::vector<Camera> cameras = viewed.cameras(scene, layout.size);

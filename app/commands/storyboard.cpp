@@ -47,7 +47,7 @@ const FilmCommand& with_scenes(const FilmCommand& film) {
 
 bool is_written_into(const Scene& scene) {
   const AnnotationRequest& written = scene.annotations;
-  return scene.legend.asked() || !written.panel.empty() || !written.title.empty() || written.scale_bar ||
+  return scene.legend.is_requested() || !written.panel.empty() || !written.title.empty() || written.scale_bar ||
          written.time_stamp || !written.labels.empty() || !written.curve.empty();
 }
 

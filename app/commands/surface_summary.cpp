@@ -269,7 +269,7 @@ void check_summary(const SurfaceCommand& command) {
                                                  {!command.plot.empty(), "--plot"},
                                                  {command.open_sky, "--open-sky"},
                                                  {command.context.has_value(), "--context"},
-                                                 {scene.frames.asked(), "--frames, or another option for runs"}};
+                                                 {scene.frames.is_requested(), "--frames, or another option for runs"}};
   for (const auto& [is_given, option] : others)
     if (is_given)
       throw UsageError(fmt::format("--csv-summary is for many molecules, one row each; leave {} out", option));

@@ -235,9 +235,9 @@ bool take_measurements(const BundleOptions& options, Bundle& bundle) {
 
 MadeBundle described(const BundleOptions& options, const BundledCommand& given, BundleInputs& inputs) {
   SceneCommand command = given.command;
-  command.scene = readied(command.scene);
+  command.scene = prepared_scene(command.scene);
   Scene& scene = command.scene;
-  settle_selections(scene);
+  freeze_selections(scene);
   check_picture(scene);
   if (!scene.legend.file.empty()) check_image_path(scene.legend.file);
   const GivenCameras cameras = given_cameras(scene.picture, scene.run_camera);

@@ -158,7 +158,7 @@ class SceneOutput {
 
 /// Returns the text of the scene with paths relative to the folder of `path`, where it is to be saved. added: as for
 /// scene_text().
-std::string scene_text_beside(const Scene& scene, const std::string& path, std::span<const AddedFile> added = {});
+std::string scene_text_for(const Scene& scene, const std::string& path, std::span<const AddedFile> added = {});
 
 /// Returns the JSON of a scene file, or of the picture that carries it. Throws InputError.
 std::string read_scene_text(const std::string& file);

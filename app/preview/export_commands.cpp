@@ -177,7 +177,7 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   if (exporter.context.annotations) annotations = exporter.context.annotations(molecule.annotated_structure());
   auto view = std::make_shared<const ExportedView>(ExportedView{
       molecule.structure(), molecule.atoms(), molecule.balls(), molecule.coloring(state), molecule.key(state), state,
-      molecule.beside(), std::move(annotations), wishes.size, wishes.samples, wishes.transparent,
+      molecule.extras(), std::move(annotations), wishes.size, wishes.samples, wishes.transparent,
       format == Format::png ? scene_of(command, around) : "", state.wishes.dots_per_inch});
   const auto write = [view, target, format, make_device](const ExportWatch& watch) {
     return written(*view, format, make_device, target, watch);

@@ -222,7 +222,7 @@ Json pick(const CommandReader& command, const Surroundings& around) {
   const bool has_copies = !molecule.structure().instances.empty();
   const bool of_molecule = point->object == 0 || has_copies;
   const bool of_surface =
-      of_molecule || (point->object > 1 && molecule.beside()->objects.at(point->object - 2).surface);
+      of_molecule || (point->object > 1 && molecule.extras()->objects.at(point->object - 2).surface);
   Json reply = atom_json(molecule.atom_in_view(point->atom));
   reply["hit"] = true;
   reply["kind"] = point->kind ? kind_word(*point->kind) : of_surface ? "cap" : "shape";

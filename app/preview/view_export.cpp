@@ -184,7 +184,7 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
     legend.emplace(view.colors, view.size, legend_style(figure.legend_style, figure.letters));
   Figure whole;
   whole.molecule.objects = complete_surfaces(view, watch).first;
-  if (view.beside) whole.beside = *view.beside;
+  if (view.extras) whole.extras = *view.extras;
   RenderSettings settings;
   settings.size = legend ? legend->molecule_size() : view.size;
   const Strips strips = strips_for(strip_contents(view.annotations), view.annotations.letters, settings.size);
@@ -218,12 +218,12 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target, 
   options.shadows = view.figure.look.shadows.value_or(0.0f);
   options.shadow_softness = view.figure.look.shadow_softness.value_or(0.0f);
   options.colors = view.colors;
-  if (view.beside) options.shapes = &view.beside->shapes;
+  if (view.extras) options.shapes = &view.extras->shapes;
   options.film = figure.thickens;
   options.cut.style = figure.cap;
   const std::vector<SurfaceObject> surfaces = complete_surfaces(view, watch).first;
   options.cut.planes =
-      surface_planes(figure, view.beside ? view.beside->cut_atoms : CutAtoms(), view.figure.camera, surfaces);
+      surface_planes(figure, view.extras ? view.extras->cut_atoms : CutAtoms(), view.figure.camera, surfaces);
   watch("writing", 0.0);
   return write_scene(surfaces, view.figure.camera, options, target.path).command;
 }

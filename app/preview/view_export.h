@@ -70,13 +70,13 @@ struct ExportedView {
   Coloring coloring;                 ///< theirs
   ColorKey colors;                   ///< what the colours mean
   PreviewFigure figure;
-  std::shared_ptr<const BesideSurface> beside;  ///< the surface; nullptr: nothing
-  Annotations annotations;                      ///< written into pictures
-  glm::ivec2 size;                              ///< pixels, with the legend
-  int samples;                                  ///< rays per pixel
-  bool transparent;                             ///< pictures have no background
-  std::string scene;                            ///< what pictures say they were made of; empty: nothing
-  double dots_per_inch = 0.0;                   ///< of pictures; 0: not said
+  std::shared_ptr<const FigureExtras> extras;  ///< drawn in addition to the surface; nullptr: nothing
+  Annotations annotations;                     ///< written into pictures
+  glm::ivec2 size;                             ///< pixels, with the legend
+  int samples;                                 ///< rays per pixel
+  bool transparent;                            ///< pictures have no background
+  std::string scene;                           ///< what pictures say they were made of; empty: nothing
+  double dots_per_inch = 0.0;                  ///< of pictures; 0: not said
 };
 
 /// Where it goes.

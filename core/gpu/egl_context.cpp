@@ -112,17 +112,18 @@ void KernelFiles::save(std::uint32_t program, const std::string& name, std::stri
 
   static std::atomic<unsigned> count = 0;
   const std::filesystem::path path = path_of(name);
-  const std::filesystem::path beside = folder_ / fmt::format(".{}.{}.{}", path.filename().string(), getpid(), count++);
+  const std::filesystem::path temporary =
+      folder_ / fmt::format(".{}.{}.{}", path.filename().string(), getpid(), count++);
   std::error_code ignored, failed;
   std::filesystem::create_directories(folder_, ignored);
   {
-    std::ofstream file(beside, std::ios::binary);
+    std::ofstream file(temporary, std::ios::binary);
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
     if (!file.flush()) failed = std::make_error_code(std::errc::io_error);
   }
   // Not synced: damage by a crash of the machine is found by the checksum.
-  if (!failed) std::filesystem::rename(beside, path, failed);
-  if (failed) std::filesystem::remove(beside, ignored);
+  if (!failed) std::filesystem::rename(temporary, path, failed);
+  if (failed) std::filesystem::remove(temporary, ignored);
 }
 
 namespace {

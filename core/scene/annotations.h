@@ -28,7 +28,7 @@ struct LegendRequest {
   std::string file;     ///< path of a file with the legend alone; empty: none
   LegendStyle style;
 
-  bool asked() const { return within || !file.empty(); }
+  bool is_requested() const { return within || !file.empty(); }
 };
 
 /// The requested texts and marks of a picture, except for the legend.

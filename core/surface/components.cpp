@@ -212,8 +212,8 @@ class SideTest {
   // Returns the extent that a pole must exceed to matter: a convex pole that of the borders, a concave pole also that
   // of the convex poles.
   static double threshold(const Farthest& farthest, double Farthest::*which) {
-    const double beside = which == &Farthest::concave ? std::max(farthest.convex, farthest.border) : farthest.border;
-    return std::max(farthest.*which, beside);
+    const double others = which == &Farthest::concave ? std::max(farthest.convex, farthest.border) : farthest.border;
+    return std::max(farthest.*which, others);
   }
 
   // Finds the extents of the poles in one table of patches. `ball_of` returns the sphere of a patch, `without_pole` is
