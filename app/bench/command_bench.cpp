@@ -129,7 +129,7 @@ void run_paper(BenchCommand& command) {
   std::vector<PaperBenchMolecule> molecules;
   for (const std::string& file : command.files) {
     command.scene.molecule.file = file;
-    molecules.push_back({std::filesystem::path(file).filename().string(), balls_of(read_and_tell(command))});
+    molecules.push_back({std::filesystem::path(file).filename().string(), balls_of(read_and_log(command))});
   }
   print_paper_tables(molecules, settings);
 }
@@ -142,7 +142,7 @@ void run(BenchCommand& command) {
   std::vector<Row> rows;
   for (const std::string& file : command.files) {
     command.scene.molecule.file = file;
-    rows.push_back(measure(read_and_tell(command), command, progress));
+    rows.push_back(measure(read_and_log(command), command, progress));
   }
   print_table(rows);
 }

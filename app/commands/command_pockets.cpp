@@ -99,7 +99,7 @@ class PocketTables {
     const std::optional<FrameNote>& note = numbered.note;
     if (!hinted_)
       for (const std::string& hint : pocket_hints(report))
-        say(command_, note ? fmt::format("note: frame {}: {}", note->frame, hint) : "note: " + hint);
+        log_line(command_, note ? fmt::format("note: frame {}: {}", note->frame, hint) : "note: " + hint);
     hinted_ = true;
     MadeFrame made;
     write_mesh(report, numbered, made);
@@ -130,7 +130,7 @@ class PocketTables {
   void write_mesh(const PocketReport& report, const NumberedStructure& numbered, MadeFrame& made) const {
     if (command_.mesh.empty()) return;
     if (numbered.note && report.pockets.found.pockets.empty())
-      return say(command_, fmt::format("note: frame {} has no pockets, and so no mesh", numbered.note->frame));
+      return log_line(command_, fmt::format("note: frame {} has no pockets, and so no mesh", numbered.note->frame));
     made.files.push_back(path_of(command_.mesh, numbered));
     write_mesh_file(*mesh_format_of_path(command_.mesh), made.files.back(), command_.existing(),
                     pocket_file(pocket_mesh(report.pockets.found, command_.mesh_tolerance)));

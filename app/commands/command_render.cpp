@@ -44,24 +44,25 @@ double channel_bytes(const Scene& scene) {
   return 16.0 + (scene.image.aovs ? 72.0 : 0.0) + (scene.image.cryptomatte ? 144.0 : 0.0);
 }
 
-void tell_memory(const RenderCommand& command) {
+void log_memory(const RenderCommand& command) {
   constexpr double kManyPixels = 3e7, kMebibyte = 1 << 20;
   const Scene& scene = command.scene;
   const double pixels = static_cast<double>(scene.picture.width) * scene.picture.height;
   if (pixels < kManyPixels || !is_encoded_in_memory(scene.output)) return;
-  say(command,
+  log_line(
+      command,
       fmt::format("note: {} files are encoded in memory: up to {} MiB beside the picture's bands; .png, .jpg and .tif "
                   "are written as they come",
                   std::filesystem::path(scene.output).extension().string(),
                   with_thousands(static_cast<std::uint64_t>(pixels * channel_bytes(scene) / kMebibyte))));
 }
 
-void tell_hue_changes(const RenderCommand& command) {
+void warn_of_hue_changes(const RenderCommand& command) {
   const std::string changes = hue_changes(command.scene.look);
   if (changes.empty() ||
       hues_of(command.scene.molecule.color, command.scene.legend.is_requested(), false) != Hues::kept)
     return;
-  say(command, "warning: colours of the surface are not those of the legend: " + changes);
+  log_line(command, "warning: colours of the surface are not those of the legend: " + changes);
 }
 
 /// Sets the default output: the molecule's name, in the current folder.
@@ -80,7 +81,7 @@ void name_output(const CLI::App& program, RenderCommand& command) {
   files.write("--output", scene.output);
   if (!scene.legend.file.empty()) files.write("--legend-file", scene.legend.file);
   files.check();
-  say(command, "the picture goes to " + scene.output + "; -o PATH sends it elsewhere");
+  log_line(command, "the picture goes to " + scene.output + "; -o PATH sends it elsewhere");
 }
 
 /// Refuses layers and colour spaces that the format of the output cannot hold.
@@ -157,9 +158,9 @@ void draw_figures(FigureRun& run, const PictureLayout& layout, PictureSink& sink
     const FigureMotion motion{std::move(frame.velocities), run.next_camera(frame.place)};
     Annotations annotations = sink.annotations(picture, frame.figure.molecule.structure);
     std::vector<std::string> unseen;
-    const bool is_told = !run.is_run() && !run.command().reporting.quiet;
+    const bool is_logged = !run.is_run() && !run.command().reporting.quiet;
     const Survey survey = survey_of(run.scene(), frame.figure.molecule.structure, frame.camera, layout.size.size(),
-                                    annotations, is_told ? &unseen : nullptr);
+                                    annotations, is_logged ? &unseen : nullptr);
     const FinishFrame finish = sink.keep(picture, annotations, [&](const RenderSettings& settings) {
       if (blur) {
         Framebuffer drawn = blur->draw(frame.place, renderer, settings);
@@ -168,7 +169,7 @@ void draw_figures(FigureRun& run, const PictureLayout& layout, PictureSink& sink
       }
       return draw(renderer, std::move(frame.figure), run.scene().figure, frame.camera, settings, survey, &motion);
     });
-    for (const std::string& sentence : unseen) say(run.command(), "note: " + sentence);
+    for (const std::string& sentence : unseen) log_line(run.command(), "note: " + sentence);
     return finish;
   };
   // The estimate counts sums, samples and buffers of the look, and files.
@@ -201,7 +202,7 @@ void render_figures(const RenderCommand& command) {
   if (layout.legend_apart)
     write_legend_picture(command.scene.legend.file, *layout.legend_apart, image_settings(command));
   run.save_cameras();
-  if (!run.is_run()) say_times(command, device.renderer().device(), device.renderer().times());
+  if (!run.is_run()) log_times(command, device.renderer().device(), device.renderer().times());
 }
 
 /// True if surfaces are divided, or their pieces named or measured.
@@ -229,8 +230,8 @@ bool leave_missing(RenderCommand& command) {
     for (const std::uint64_t frame : frames) paths.push_back(pictures->at(frame));
   }
   const std::vector<std::size_t> missing = missing_pictures(paths, command.made_of, command.existing());
-  say(command, fmt::format("{} of {} pictures are there", with_thousands(paths.size() - missing.size()),
-                           with_thousands(paths.size())));
+  log_line(command, fmt::format("{} of {} pictures are there", with_thousands(paths.size() - missing.size()),
+                                with_thousands(paths.size())));
   std::vector<std::uint64_t> numbers;
   for (const std::size_t n : missing)
     if (is_run) numbers.push_back(frames[n]);
@@ -242,14 +243,14 @@ bool leave_missing(RenderCommand& command) {
 void run(RenderCommand command) {
   if (command.is_draft) make_draft(command.scene);
   command.keeps_scene = command.names_program && !command.scene.frames.is_requested();
-  tell_hue_changes(command);
+  warn_of_hue_changes(command);
   if (const std::string fault = scene_fault(command.scene); command.keeps_scene && !fault.empty()) {
     command.keeps_scene = false;
-    say(command, "note: the picture carries no scene: " + fault);
+    log_line(command, "note: the picture carries no scene: " + fault);
   }
   check_scene(command);
   check_files(command);
-  tell_memory(command);
+  log_memory(command);
   if (command.resumes && !leave_missing(command)) return;
   command.scene.molecule.surface.bordered = needs_borders(command.scene);
   command.scene.image.extent ? render_views(command) : render_figures(command);

@@ -24,11 +24,11 @@ namespace meniscus {
 
 NumberRun::NumberRun(const SceneCommand& command) : command_(command) {
   if (!command.scene.frames.is_requested()) {
-    molecule_ = read_and_tell(command);
+    molecule_ = read_and_log(command);
     return;
   }
   frames_ = std::make_unique<FrameRun>(command.scene.molecule, command.scene.frames);
-  tell_run(command, *frames_);
+  log_run(command, *frames_);
 }
 
 void NumberRun::make(std::uint64_t bytes_per_atom,
@@ -107,15 +107,15 @@ void FigureRun::open_run(Velocities velocities) {
   frames_ =
       std::make_unique<FrameRun>(molecule, command_.scene.frames, molecule.interface ? Velocities::none : velocities);
   shown_ = std::make_unique<ShownFrames>(molecule, *frames_);
-  tell_run(command_, *frames_);
+  log_run(command_, *frames_);
   measure_colors(molecule.color, *shown_);
 }
 
 void FigureRun::make_one_figure() {
-  Structure structure = read_and_tell(command_);
+  Structure structure = read_and_log(command_);
   aim_.emplace(command_.scene.picture, command_.scene.molecule.show, structure);
-  tell_if_unseen(command_, given_.still, structure);
-  figure_ = make_figure(build_and_tell(command_, std::move(structure)), command_.scene.figure);
+  warn_if_unseen(command_, given_.still, structure);
+  figure_ = make_figure(build_and_log(command_, std::move(structure)), command_.scene.figure);
 }
 
 void FigureRun::aim(const ViewRequest& picture, bool extent) {
@@ -133,7 +133,7 @@ void FigureRun::log_ineffective_cuts() const {
   const Camera& camera = framing_.cameras.front();
   if (!frames_) {
     for (const std::string& sentence : ineffective_cuts(scene().figure, *figure_, camera))
-      say(command_, "note: --clip " + sentence);
+      log_line(command_, "note: --clip " + sentence);
     return;
   }
   if (scene().figure.cuts.empty() || scene().figure.hides_surface) return;
@@ -142,7 +142,7 @@ void FigureRun::log_ineffective_cuts() const {
   if (!structure().instances.empty()) balls = reaching_balls(balls, structure().instances);
   const CutAtoms atoms = cut_atoms(scene().figure.cuts, structure());
   for (const std::string& sentence : ineffective_cuts(scene().figure.cuts, atoms, {camera, balls, balls}, balls))
-    say(command_, fmt::format("note: --clip {}, in the first frame of the run", sentence));
+    log_line(command_, fmt::format("note: --clip {}, in the first frame of the run", sentence));
 }
 
 void FigureRun::save_cameras() const {
@@ -168,7 +168,7 @@ void FigureRun::make(const FigureWork& work, const std::function<Sink()>& make_s
   if (!frames_) {
     const Camera& camera = framing_.cameras.front();
     if (make_sink()({0, 0, 0, std::nullopt, std::move(*figure_), camera, {}})().shows_nothing)
-      say(command_, kShowsNothing);
+      log_line(command_, kShowsNothing);
     return;
   }
   const std::uint64_t bytes = work.bytes_per_atom * structure().atoms.size() + work.bytes_per_frame;
@@ -182,7 +182,7 @@ void FigureRun::make(const FigureWork& work, const std::function<Sink()>& make_s
                    std::move(frame.velocities)});
     });
   run_frames(*frames_, command_, std::move(workers));
-  tell_beyond_map(command_, builders);
+  warn_beyond_map(command_, builders);
 }
 
 void merge_copies(std::vector<SurfaceObject>& objects, bool are_cut) {

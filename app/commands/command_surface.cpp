@@ -86,7 +86,7 @@ class SurfaceTables {
     return [this, builder](NumberedStructure numbered) -> FinishFrame {
       const std::optional<FrameNote> note = numbered.note;
       const Molecule molecule = builder->build(std::move(numbered.structure));
-      if (!note) tell_built(command_, molecule);
+      if (!note) log_surface(command_, molecule);
       auto numbers = std::make_shared<SurfaceNumbers>(numbers_of(molecule, numbered.together, note, *builder));
       return [this, numbers, note] { return finish(*numbers, note); };
     };

@@ -31,7 +31,7 @@ std::vector<glm::dvec3> placed_atoms(std::span<const SurfaceObject> objects, con
 // Returns the molecule of the first frame, which has the radii and colours of the run.
 Molecule first_molecule(const SceneCommand& command, const FrameRun* run) {
   if (!run) return load_molecule(command);
-  tell_run(command, *run);
+  log_run(command, *run);
   return MoleculeBuilder(command.scene.molecule).build(run->structure());
 }
 

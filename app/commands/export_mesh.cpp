@@ -58,23 +58,25 @@ void refuse_what_does_not_fit(const MeshFormat& format, const Figure& figure, co
         "{} holds one complete closed surface; leave --by, --cavities, --show and shapes out", format.word));
 }
 
-void tell(const SceneCommand& command, const MeshFormat& format, const MeshFileMaker& maker,
-          const MeshFineness& fineness) {
-  say(command,
-      fmt::format("{} triangles{} {}; {}", with_thousands(maker.triangle_count()),
-                  maker.further_places() > 0
-                      ? fmt::format(", shared with {} more copies,", with_thousands(maker.further_places()))
-                      : "",
-                  fineness_words(command.scene.mesh, fineness), scale_sentence(format, command.scene.mesh.scale)));
+void log_report(const SceneCommand& command, const MeshFormat& format, const MeshFileMaker& maker,
+                const MeshFineness& fineness) {
+  log_line(command,
+           fmt::format("{} triangles{} {}; {}", with_thousands(maker.triangle_count()),
+                       maker.further_places() > 0
+                           ? fmt::format(", shared with {} more copies,", with_thousands(maker.further_places()))
+                           : "",
+                       fineness_words(command.scene.mesh, fineness), scale_sentence(format, command.scene.mesh.scale)));
   if (maker.joined_edges() + maker.flipped_edges() > 0)
-    say(command, fmt::format("welded: {} edges shorter than {} Å, {}{} triangles without area",
-                             with_thousands(maker.joined_edges()), kFileStep,
-                             maker.fins() > 0 ? fmt::format("{} fins no thicker, ", with_thousands(maker.fins())) : "",
-                             with_thousands(maker.flipped_edges())));
+    log_line(command,
+             fmt::format("welded: {} edges shorter than {} Å, {}{} triangles without area",
+                         with_thousands(maker.joined_edges()), kFileStep,
+                         maker.fins() > 0 ? fmt::format("{} fins no thicker, ", with_thousands(maker.fins())) : "",
+                         with_thousands(maker.flipped_edges())));
   if (maker.flat_triangles() > 0)
-    say(command, fmt::format("warning: {} triangles have no area when rounded to thousandths of an Å, and could not be "
-                             "welded; try another --tolerance",
-                             with_thousands(maker.flat_triangles())));
+    log_line(command,
+             fmt::format("warning: {} triangles have no area when rounded to thousandths of an Å, and could not be "
+                         "welded; try another --tolerance",
+                         with_thousands(maker.flat_triangles())));
 }
 
 // Writes objects to files of their own, all or none of them.
@@ -103,7 +105,7 @@ FileMaterial material_of(const Scene& scene) {
 }
 
 /// Makes the mesh of one figure.
-MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFrame frame, bool is_told) {
+MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFrame frame, bool is_logged) {
   const Scene& scene = command.scene;
   Molecule& molecule = frame.figure.molecule;
   const ColoredShapes& extras = frame.figure.extras.shapes;
@@ -112,7 +114,7 @@ MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFr
   const MeshFineness fineness = fineness_of(scene.mesh, scene.mesh.even, scene.mesh.density, scene.picture.size(),
                                             frame.camera, frame.figure.balls());
   refuse_what_does_not_fit(format, frame.figure, fineness);
-  if (is_told)
+  if (is_logged)
     warn_of_many(command, expected_triangles(molecule.objects, fineness,
                                              format.places ? CopiesOfMesh::shared : CopiesOfMesh::own));
   const std::vector<Atom> atoms = shown_atoms(molecule.structure);
@@ -123,7 +125,7 @@ MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFr
                       about_line(kind_word(scene.molecule.surface.kind), scene.mesh.scale, fineness));
   for (SurfaceObject& object : molecule.objects) maker.add(std::exchange(object, {}));
   if (!extras.empty()) maker.add(shape_object(atoms, extras, fineness.tolerance));
-  if (is_told) tell(command, format, maker, fineness);
+  if (is_logged) log_report(command, format, maker, fineness);
   return maker.take();
 }
 
@@ -151,7 +153,7 @@ void export_to_mesh(const SceneCommand& asked) {
   if (one_file) check_one_file(format, asked.scene);
   const auto is_partial = [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; };
   if (!format.opacity && std::ranges::any_of(asked.scene.molecule.color.opacities, is_partial))
-    say(asked, fmt::format("note: --opacity: {} has none, so what is translucent is opaque there", format.title));
+    log_line(asked, fmt::format("note: --opacity: {} has none, so what is translucent is opaque there", format.title));
   FigureRun run(asked, one_file ? Velocities::central : Velocities::none);
   run.aim(asked.scene.picture, false);
   const SceneCommand& command = run.command();
@@ -180,7 +182,7 @@ void export_to_mesh(const SceneCommand& asked) {
   if (!one_file) return;
   write_mesh_run(format, command.scene.output, command.existing(), whole.frames, whole.times);
   if (std::ranges::any_of(whole.frames.front().objects, [](const FileObject& o) { return o.velocities.empty(); }))
-    say(command, "note: no velocities: they are known where a molecule is in one place and keeps its atoms");
+    log_line(command, "note: no velocities: they are known where a molecule is in one place and keeps its atoms");
   std::cout << escaped(command.scene.output) << "\n";
 }
 

@@ -60,7 +60,8 @@ void run(const SceneCommand& asked) {
       for (const path_tracers::SceneMesh& mesh : item.meshes) triangles += mesh.triangles.size();
     return [&, state, triangles, tolerance = made.tolerance] {
       if (!run.is_run())
-        say(command, fmt::format("{} triangles within {:.4g} Å of the surface", with_thousands(triangles), tolerance));
+        log_line(command,
+                 fmt::format("{} triangles within {:.4g} Å of the surface", with_thousands(triangles), tolerance));
       states.push_back(std::move(*state));
       return MadeFrame{};
     };
@@ -73,8 +74,9 @@ void run(const SceneCommand& asked) {
   file.write(archive);
   file.commit();
   if (static_cast<double>(archive.size()) > kLargeArchive)
-    say(command, fmt::format("warning: {} bytes, all of which viewers load; a larger --tolerance makes fewer triangles",
-                             with_thousands(archive.size())));
+    log_line(command,
+             fmt::format("warning: {} bytes, all of which viewers load; a larger --tolerance makes fewer triangles",
+                         with_thousands(archive.size())));
   run.save_cameras();
   std::cout << escaped(command.scene.output) << "\n";
 }

@@ -95,25 +95,25 @@ class PageRun {
   MadeFrame add(page::PackedFrame frame) {
     const std::size_t before = page_.bytes();
     page_.add(std::move(frame));
-    if (page_.frame_count() == 2) tell_size(before);
+    if (page_.frame_count() == 2) log_size(before);
     if (page_.frame_count() < frame_count_) return {};
     const std::string text = page_.text();
     check_size(text.size());
     OutputFile file(run_.scene().output, run_.command().existing());
     file.write(text);
     file.commit();
-    say(run_.command(), fmt::format("{} bytes", with_thousands(text.size())));
+    log_line(run_.command(), fmt::format("{} bytes", with_thousands(text.size())));
     if (static_cast<double>(text.size()) > kManyBytes)
-      say(run_.command(), "warning: readers load all of it; --show or --select make a smaller page" +
-                              std::string(run_.is_run() ? ", and so do fewer frames (--stride)" : ""));
+      log_line(run_.command(), "warning: readers load all of it; --show or --select make a smaller page" +
+                                   std::string(run_.is_run() ? ", and so do fewer frames (--stride)" : ""));
     return {{run_.scene().output}};
   }
 
   /// Prints the size before the other frames are made. of_first: bytes of the page with only the first frame.
-  void tell_size(std::size_t of_first) const {
+  void log_size(std::size_t of_first) const {
     const std::size_t all = of_first + (frame_count_ - 1) * (page_.bytes() - of_first);
-    say(run_.command(),
-        fmt::format("note: {} frames come to about {} bytes", with_thousands(frame_count_), with_thousands(all)));
+    log_line(run_.command(),
+             fmt::format("note: {} frames come to about {} bytes", with_thousands(frame_count_), with_thousands(all)));
     check_size(all);
   }
 

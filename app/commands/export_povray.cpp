@@ -117,13 +117,14 @@ void export_to_povray(const SceneCommand& command) {
   bool noted = false;
   const auto finish = [&](const povray::SceneReport& report, std::uint64_t number) {
     if (!sequence) {
-      say(command, fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));
+      log_line(command,
+               fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));
       render_command = report.command;
     }
     // Notes of later frames would differ only in their numbers.
     if (!noted)
       for (const std::string& note : report.notes)
-        say(command, sequence ? fmt::format("note: frame {}: {}", number, note) : "note: " + note);
+        log_line(command, sequence ? fmt::format("note: frame {}: {}", number, note) : "note: " + note);
     noted = noted || !report.notes.empty();
     return made_frame(report.files);
   };

@@ -44,9 +44,9 @@ double expected_triangles(std::span<const SurfaceObject> objects, const MeshFine
 
 void warn_of_many(const SceneCommand& command, double expected_triangles) {
   if (expected_triangles > kManyTriangles)
-    say(command, fmt::format("warning: about {:.0f} million triangles; a larger --tolerance or a smaller "
-                             "--density makes fewer",
-                             expected_triangles / 1e6));
+    log_line(command, fmt::format("warning: about {:.0f} million triangles; a larger --tolerance or a smaller "
+                                  "--density makes fewer",
+                                  expected_triangles / 1e6));
 }
 
 std::string fineness_words(const MeshRequest& request, const MeshFineness& fineness) {

@@ -204,12 +204,13 @@ class PovrayFilm : public FilmMaker {
 
   void make() {
     const FilmCommand& command = storyboard_.command();
-    storyboard_.tell_left_out(left_out_of_povray(storyboard_));
+    storyboard_.log_left_out(left_out_of_povray(storyboard_));
     storyboard_.play(*this, nullptr, 0);
     film_.rate = command.scene.film.frames_per_second;
     const povray::SceneReport report = sequence_.write_shared(&film_);
-    say(command, fmt::format("{} pictures, {:.1f} s, of {} that POV-Ray renders", with_thousands(film_.pictures.size()),
-                             static_cast<double>(film_.pictures.size()) / film_.rate, with_thousands(frames_)));
+    log_line(command,
+             fmt::format("{} pictures, {:.1f} s, of {} that POV-Ray renders", with_thousands(film_.pictures.size()),
+                         static_cast<double>(film_.pictures.size()) / film_.rate, with_thousands(frames_)));
     std::cout << escaped(report.command) << "\n";
   }
 
@@ -246,7 +247,7 @@ class PovrayFilm : public FilmMaker {
         sequence_.write_frame(place, {surface, povray_cut(shot.figure, asked, shot.camera), &shot.figure.extras.shapes,
                                       objects, names, asked.thickens});
     if (frames_++ == 0)
-      for (const std::string& note : report.notes) say(storyboard_.command(), "note: " + note);
+      for (const std::string& note : report.notes) log_line(storyboard_.command(), "note: " + note);
     return place + 1;
   }
 

@@ -125,13 +125,13 @@ struct Viewed {
   explicit Viewed(RenderCommand& command) : given(given_cameras(command.scene.picture, command.scene.run_camera)) {
     Scene& scene = command.scene;
     if (!scene.frames.is_requested()) {
-      atoms = colored_atoms(scene.molecule, color_of(scene.molecule), read_and_tell(command));
+      atoms = colored_atoms(scene.molecule, color_of(scene.molecule), read_and_log(command));
       aim.emplace(scene.picture, scene.molecule.show, atoms.molecule.structure);
       return;
     }
     run = std::make_unique<FrameRun>(scene.molecule, scene.frames);
     frames = std::make_unique<ShownFrames>(scene.molecule, *run);
-    tell_run(command, *run);
+    log_run(command, *run);
     measure_colors(scene.molecule.color, *frames);
   }
 
@@ -186,15 +186,15 @@ void render_views(const RenderCommand& asked) {
       };
     }});
   } else if (keep({.camera = cameras.front()})().shows_nothing) {
-    say(command, kShowsNothing);
+    log_line(command, kShowsNothing);
   }
   sink.finish();
-  tell_grown_radii(command, grown_by);
+  log_grown_radii(command, grown_by);
   if (layout.legend_apart) write_legend_picture(scene.legend.file, *layout.legend_apart, image_settings(asked));
   save_cameras(command, cameras, viewed.run ? std::span(viewed.run->numbers()) : std::span<const std::uint64_t>());
   if (viewed.run) return;
   if (command.stats) fmt::print(std::cerr, "{}", stats());
-  say_times(command, gl_words(context), renderer.times());
+  log_times(command, gl_words(context), renderer.times());
 }
 
 }  // namespace meniscus

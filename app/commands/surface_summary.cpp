@@ -189,8 +189,8 @@ class Summary {
     if (!command_.resumes) return;
     const std::size_t all = files_.size();
     std::erase_if(files_, [&](const std::string& file) { return done.contains(csv_cell(file)); });
-    say(command_,
-        fmt::format("--resume: {} of {} files are there", with_thousands(all - files_.size()), with_thousands(all)));
+    log_line(command_, fmt::format("--resume: {} of {} files are there", with_thousands(all - files_.size()),
+                                   with_thousands(all)));
   }
 
   std::size_t files_at_once() const {

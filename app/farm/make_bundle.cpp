@@ -242,7 +242,7 @@ MadeBundle described(const BundleOptions& options, const BundledCommand& given, 
   if (!scene.legend.file.empty()) check_image_path(scene.legend.file);
   const GivenCameras cameras = given_cameras(scene.picture, scene.run_camera);
   FrameRun frames(scene.molecule, scene.frames);
-  tell_run(command, frames);
+  log_run(command, frames);
   MadeBundle made;
   if (!frames.trajectory().cut_short().empty())
     made.notes.push_back(frames.trajectory().path() + ": " + frames.trajectory().cut_short());

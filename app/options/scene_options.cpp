@@ -347,14 +347,14 @@ void SceneOptions::take(const std::vector<std::string>& named) {
     if (note.is_refused) throw UsageError(note.text);
     sentences.push_back(std::move(note.text));
   }
-  if (std::string left_out = told_left_out(); !left_out.empty()) sentences.push_back(std::move(left_out));
+  if (std::string left_out = left_out_note(); !left_out.empty()) sentences.push_back(std::move(left_out));
   for (const std::string& sentence : sentences)
     if (!into_.reporting.quiet) std::cerr << "meniscus: " << escaped(sentence) << std::endl;
 }
 
 /// Returns a note about values of the scene file that affect the picture but that this command, which shows the
 /// molecule, does not show; empty if there are none.
-std::string SceneOptions::told_left_out() const {
+std::string SceneOptions::left_out_note() const {
   if (!has_option(property_of("surface.color"))) return "";
   const auto has_any_of = [&](std::string_view section) {
     return std::ranges::any_of(properties(), [&](const Property* property) {

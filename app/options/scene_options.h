@@ -114,7 +114,7 @@ class SceneOptions {
   void guard_files(std::span<const SceneSetting> settings) const;
   void take_setting(const SceneSetting& setting);
   bool has_option(const Property& property) const;
-  std::string told_left_out() const;
+  std::string left_out_note() const;
   void set(const Property& property, const std::vector<std::string>& texts);
   void check_table() const;
   void check_inputs() const;
