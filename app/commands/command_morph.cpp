@@ -55,8 +55,8 @@ struct PathFaults {
   double step = 0.0;     ///< longest step of an atom from a model to the next, Å
   double overlap = 0.0;  ///< largest Morph::overlap() of a model
 
-  void look(const Morph& morph, std::size_t stop, double share, const std::vector<glm::dvec3>& before,
-            const std::vector<glm::dvec3>& now) {
+  void include(const Morph& morph, std::size_t stop, double share, const std::vector<glm::dvec3>& before,
+               const std::vector<glm::dvec3>& now) {
     const std::size_t next = std::min(stop + 1, morph.stops() - 1);
     const auto length = [](const std::vector<glm::dvec3>& x, const Bond& bond) {
       return glm::distance(x[bond[0]], x[bond[1]]);
@@ -79,7 +79,7 @@ void run(const MorphCommand& command) {
   PathFaults faults;
   std::vector<glm::dvec3> before;
   const auto add = [&](std::size_t stop, double share, std::vector<glm::dvec3> now) {
-    faults.look(morph, stop, share, before, now);
+    faults.include(morph, stop, share, before, now);
     models.add(now);
     before = std::move(now);
   };

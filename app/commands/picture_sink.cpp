@@ -62,17 +62,17 @@ void warn_of_small_letters(const RenderCommand& command, const PictureLayout& la
   const AnnotationRequest& asked = scene.annotations;
   double least = kLeast;
   std::vector<std::string> small;
-  const auto look_at = [&](bool is_there, const char* what, int pixels) {
+  const auto check_height = [&](bool is_there, const char* what, int pixels) {
     const double points = pixels * kPointsPerInch / scene.picture.dots_per_inch;
     if (!is_there || points >= kLeast - 0.05) return;
     least = std::min(least, points);
     small.emplace_back(what);
   };
-  if (layout.legend) look_at(true, "the legend", layout.legend->font().height());
-  look_at(!asked.labels.empty(), "labels", heights.labels);
-  look_at(asked.scale_bar, "the scale bar", heights.scale_bar);
-  look_at(!asked.panel.empty(), "the panel", heights.panel);
-  look_at(asked.time_stamp && scene.frames.is_requested(), "the time", heights.usual);
+  if (layout.legend) check_height(true, "the legend", layout.legend->font().height());
+  check_height(!asked.labels.empty(), "labels", heights.labels);
+  check_height(asked.scale_bar, "the scale bar", heights.scale_bar);
+  check_height(!asked.panel.empty(), "the panel", heights.panel);
+  check_height(asked.time_stamp && scene.frames.is_requested(), "the time", heights.usual);
   if (small.empty()) return;
   log_line(command,
            fmt::format("warning: letters of {} are as small as {:.1f} pt on paper; most journals ask for {:g} pt; add "

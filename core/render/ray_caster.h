@@ -92,10 +92,10 @@ class TileLists {
   /// Counting::later they get the memory that they needed last time and some more.
   void build(const GpuPack& scene, const PictureFrame& frame, const PictureBlock& block,
              Counting counting = Counting::now);
-  /// For Counting::later, ask() queues the reading of the counts that the host needs. Once they have been read,
-  /// settle() returns whether the memory was sufficient.
-  void ask(Readback& readback);
-  bool settle();
+  /// For Counting::later, request_counts() queues the reading of the counts that the host needs. Once they have been
+  /// read, take_counts() returns whether the memory was sufficient.
+  void request_counts(Readback& readback);
+  bool take_counts();
 
   glm::ivec2 tiles() const { return tiles_; }  ///< columns, rows
   /// Returns one uint32 for each slice of spheres and of tori of each tile, row by row: the end of its primitives in
@@ -155,11 +155,11 @@ class RayCaster {
   void set_shade_map(const std::vector<float>& depths) { look_pass_.set_shade_map(depths); }
 
   /// True if the next block may be cast with Counting::later: the last block had the same size, and the loops of its
-  /// kernels ran to completion. Such a block is valid only if settle() returns true after the counts that ask() queued
-  /// have been read.
+  /// kernels ran to completion. Such a block is valid only if take_counts() returns true after the counts that
+  /// request_counts() queued have been read.
   bool can_trust(const PictureBlock& block) const { return known_size_ == block.size; }
-  void ask(Readback& readback);
-  bool settle();
+  void request_counts(Readback& readback);
+  bool take_counts();
 
   /// Returns the pixels of the last block, row by row from the top: one vec4 per pixel, the sum of its samples, linear
   /// and premultiplied.

@@ -215,7 +215,7 @@ void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
       shade_map_ = samples_.depth;
       if (task.scene.content().shows_through) front_shade_map_ = front_.depth;
     }
-    look_at(first, task, interruption);
+    apply_look(first, task, interruption);
   }
 }
 
@@ -241,7 +241,7 @@ void CpuRenderer::cast_samples(int first, int count, const BlockTask& task, Inte
   });
 }
 
-void CpuRenderer::look_at(int sample, const BlockTask& block, Interruption& interruption) {
+void CpuRenderer::apply_look(int sample, const BlockTask& block, Interruption& interruption) {
   const auto stage = clock_.stage("look");
   const glm::ivec2 picture_size = block.settings.size;
   const Look& look = block.settings.look;
@@ -253,7 +253,7 @@ void CpuRenderer::look_at(int sample, const BlockTask& block, Interruption& inte
   task.samples = samples_.lanes(look.traces_sky());
   task.shade_map = shade_map_.data();
   task.sums = sums_.data();
-  if (block.scene.content().shows_through) look_at_front(sample, task, look, interruption);
+  if (block.scene.content().shows_through) apply_front_look(sample, task, look, interruption);
   find_shade(samples_, sample, look, task, interruption);
   for_each_until(interruption, task.view.size.y, [&](int y) { kernels_.finish_row(task, y); });
 }
@@ -280,7 +280,7 @@ void CpuRenderer::find_shade(BlockSamples& samples, int sample, const Look& look
 
 /// Finishes the first transparent point along each ray: shade, depth cue and lines are written to samples_.over, each
 /// premultiplied by the opacity there.
-void CpuRenderer::look_at_front(int sample, LaneLook task, const Look& look, Interruption& interruption) {
+void CpuRenderer::apply_front_look(int sample, LaneLook task, const Look& look, Interruption& interruption) {
   const glm::ivec2 size = task.view.size;
   const std::size_t pixel_count = static_cast<std::size_t>(size.x) * size.y;
   front_sums_.assign(pixel_count, glm::vec4(0.0f));
