@@ -152,7 +152,7 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
   static_cast<PreviewFigure&>(view) = figure_of(shown.scene, shown.scene.molecule.color);
   view.copies_apart = command.scene.molecule.division.instances == InstanceMode::exact;
   view.size = command.scene.picture.size();
-  view.wishes = command.wishes;
+  view.export_options = command.export_options;
   SessionContext context;
   context.scene = command.scene;
   context.read_shown = ShownReader(command);

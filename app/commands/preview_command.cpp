@@ -106,10 +106,10 @@ void take_preview(DeclaredPreview& declared, const std::vector<std::string>& nam
                  scene.molecule.reading.added.empty();
   state.aims = is_scene || scene.picture.direction || scene.picture.zoom_to || !scene.picture.turns.empty();
   if (is_scene || options.is_given("image.size") || options.is_given("image.width") || options.is_given("image.height"))
-    state.wishes.size = scene.picture.size();
-  if (is_scene || options.is_given("image.samples")) state.wishes.samples = scene.image.samples;
-  state.wishes.transparent = !scene.image.background;
-  state.wishes.dots_per_inch = scene.picture.dots_per_inch;
+    state.export_options.size = scene.picture.size();
+  if (is_scene || options.is_given("image.samples")) state.export_options.samples = scene.image.samples;
+  state.export_options.transparent = !scene.image.background;
+  state.export_options.dots_per_inch = scene.picture.dots_per_inch;
 }
 
 namespace {
@@ -251,7 +251,7 @@ OpenedScene SceneOpener::operator()(const std::filesystem::path& path) const {
         "open: {} has other atoms, frames or numbers than {}, which is shown; start another preview with --scene",
         escaped(path.string()), escaped(begun_.molecule.file)));
   const ColorScheme color = color_of(opened.scene.molecule);
-  OpenedScene scene{figure_of(opened.scene, color), opened.wishes, 0};
+  OpenedScene scene{figure_of(opened.scene, color), opened.export_options, 0};
   scene.figure.camera = aimed_camera(opened.scene, given_camera(opened.scene.picture), color,
                                      ShownReader(opened)(opened.scene.figure, 0));
   scene.figure.overview = false;

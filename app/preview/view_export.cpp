@@ -116,24 +116,24 @@ nlohmann::json ExportJob::result() {
   }
 }
 
-nlohmann::json ExportJob::told() {
-  nlohmann::json told{{"path", shared_->path}};
+nlohmann::json ExportJob::state() {
+  nlohmann::json state{{"path", shared_->path}};
   if (running()) {
     const std::scoped_lock lock(shared_->mutex);
-    told.update({{"running", true}, {"stage", shared_->stage}, {"share", shared_->share}});
+    state.update({{"running", true}, {"stage", shared_->stage}, {"share", shared_->share}});
   } else {
     try {
-      told.update(result());
+      state.update(result());
     } catch (const Error& error) {
-      told["error"] = escaped(error.what());
+      state["error"] = escaped(error.what());
     } catch (const std::bad_alloc&) {
-      told["error"] = "not enough memory";
+      state["error"] = "not enough memory";
     }
-    told["running"] = false;
+    state["running"] = false;
   }
-  const auto end = told["running"].get<bool>() ? Shared::Clock::now() : shared_->end;
-  told["seconds"] = std::chrono::duration<double>(end - shared_->begin).count();
-  return told;
+  const auto end = state["running"].get<bool>() ? Shared::Clock::now() : shared_->end;
+  state["seconds"] = std::chrono::duration<double>(end - shared_->begin).count();
+  return state;
 }
 
 namespace {

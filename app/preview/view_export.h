@@ -53,7 +53,7 @@ class ExportJob {
   /// and where it was cancelled.
   nlohmann::json result();
   /// {"running", "path", "seconds"}, while it runs "stage" and "share"; then the reply, or "error".
-  nlohmann::json told();
+  nlohmann::json state();
 
  private:
   struct Shared;
@@ -113,7 +113,7 @@ std::filesystem::path export_path(const std::filesystem::path& folder, const std
 /// A figure that a scene file says, of the molecule that is shown.
 struct OpenedScene {
   PreviewFigure figure;
-  ExportWishes wishes;
+  ExportOptions export_options;
   int frame = 0;  ///< of a file of several models, from 0
 };
 
