@@ -167,12 +167,12 @@ void add_bench(CLI::App& command) {
   options.add("bench.paper", state.paper);
   declared->options.option("image.size")->description("With --paper: size of the frames in pixels [1024x768]");
   command.callback([declared] {
-    BenchCommand& asked = declared->state;
-    asked.scene.molecule.surface.timing = StageTiming::exact;
+    BenchCommand& requested = declared->state;
+    requested.scene.molecule.surface.timing = StageTiming::exact;
     declared->options.take();
     if (!declared->options.is_given("image.size"))
-      std::tie(asked.scene.picture.width, asked.scene.picture.height) = std::pair(1024, 768);
-    run(asked);
+      std::tie(requested.scene.picture.width, requested.scene.picture.height) = std::pair(1024, 768);
+    run(requested);
   });
 }
 

@@ -53,8 +53,8 @@ std::string path_of(const std::string& path, const NumberedStructure& numbered) 
 }
 
 /// Returns the command's scene for a single frame.
-Scene scene_of(const Scene& asked, const std::optional<FrameNote>& note) {
-  Scene scene = asked;
+Scene scene_of(const Scene& requested, const std::optional<FrameNote>& note) {
+  Scene scene = requested;
   if (!note) return scene;
   RunRequest& frames = scene.frames;
   frames.frames = std::to_string(note->frame);
@@ -156,8 +156,8 @@ class PocketTables {
 
 }  // namespace
 
-void print_pockets(const PocketsCommand& asked) {
-  PocketsCommand command = asked;
+void print_pockets(const PocketsCommand& requested) {
+  PocketsCommand command = requested;
   freeze_selections(command.scene, {&command.ligand});
   if (const std::string fault = scene_fault(command.scene); !fault.empty() && !command.figure.empty())
     throw UsageError("--figure: " + fault);
@@ -257,10 +257,10 @@ void add_pockets(CLI::App& command) {
   options.add("pockets.tolerance", state.mesh_tolerance);
   command.callback([declared] {
     declared->options.take();
-    PocketsCommand& asked = declared->state;
-    asked.pockets.probe_radius = asked.scene.molecule.surface.probe_radius;
-    check_request(asked);
-    print_pockets(asked);
+    PocketsCommand& requested = declared->state;
+    requested.pockets.probe_radius = requested.scene.molecule.surface.probe_radius;
+    check_request(requested);
+    print_pockets(requested);
   });
 }
 

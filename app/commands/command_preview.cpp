@@ -59,9 +59,9 @@ struct Shown {
 };
 
 Shown read_run(PreviewCommand& command) {
-  const MoleculeRequest& asked = command.scene.molecule;
+  const MoleculeRequest& requested = command.scene.molecule;
   // Numbers per frame belong to a run, in which models have the atoms of the first one.
-  if (command.models && asked.color.uses_file() && color_of(asked).uses_frames()) {
+  if (command.models && requested.color.uses_file() && color_of(requested).uses_frames()) {
     command.scene.frames.frames = "all";
     command.models = false;
   }

@@ -211,9 +211,9 @@ class SurfaceTables {
 
 }  // namespace
 
-void print_surface(const SurfaceCommand& asked) {
-  check_outputs(asked);
-  SurfaceCommand command = asked;
+void print_surface(const SurfaceCommand& requested) {
+  check_outputs(requested);
+  SurfaceCommand command = requested;
   command.scene.frames.context = command.context;
   freeze_selections(command.scene);
   SurfaceTables(command).make();
@@ -331,12 +331,12 @@ void add_surface(CLI::App& command) {
     declared->options.take();
     // Parts of surfaces are cut out by planes, and rays meet patches within them.
     const Division& division = declared->state.scene.molecule.division;
-    SurfaceCommand& asked = declared->state;
-    MoleculeRequest& molecule = asked.scene.molecule;
-    molecule.surface.drawn = division.components || division.cavities != Cavities::keep || asked.open_sky;
+    SurfaceCommand& requested = declared->state;
+    MoleculeRequest& molecule = requested.scene.molecule;
+    molecule.surface.drawn = division.components || division.cavities != Cavities::keep || requested.open_sky;
     molecule.surface.bordered =
-        molecule.surface.drawn || molecule.patches || !asked.cavity_csv.empty() || !asked.gradient_csv.empty();
-    asked.summary_csv.empty() ? print_surface(asked) : print_summary(asked);
+        molecule.surface.drawn || molecule.patches || !requested.cavity_csv.empty() || !requested.gradient_csv.empty();
+    requested.summary_csv.empty() ? print_surface(requested) : print_summary(requested);
   });
 }
 

@@ -35,8 +35,8 @@ Molecule first_molecule(const SceneCommand& command, const FrameRun* run) {
   return MoleculeBuilder(command.scene.molecule).build(run->structure());
 }
 
-void export_atoms(const SceneCommand& asked) {
-  SceneCommand command = asked;
+void export_atoms(const SceneCommand& requested) {
+  SceneCommand command = requested;
   if (command.scene.molecule.color.by == ColorScheme::By::volume)
     throw UsageError("--color-map-file colours points of a surface, not atoms; leave it out");
   if (command.scene.molecule.color.by == ColorScheme::By::lipophilicity)

@@ -71,12 +71,12 @@ void log_size(const SceneCommand& command, const FigureMeshes& meshes, const Mes
 
 // Writes a file of one molecule, or one for each frame of the chunk and a manifest for the whole run, which is the same
 // from every chunk.
-void export_to_blender(const SceneCommand& asked) {
-  check_blender(asked.scene);
-  check_saved_camera(asked);
-  const blender::SurfaceNumbers numbers = blender::parse_surface_numbers(asked.scene.mesh.attributes);
-  FigureRun run(asked, Velocities::central);
-  run.aim(asked.scene.picture, true);
+void export_to_blender(const SceneCommand& requested) {
+  check_blender(requested.scene);
+  check_saved_camera(requested);
+  const blender::SurfaceNumbers numbers = blender::parse_surface_numbers(requested.scene.mesh.attributes);
+  FigureRun run(requested, Velocities::central);
+  run.aim(requested.scene.picture, true);
   const SceneCommand& command = run.command();
   const Scene& scene = command.scene;
   std::optional<Sequence> sequence;

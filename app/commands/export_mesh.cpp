@@ -145,17 +145,18 @@ void check_one_file(const MeshFormat& format, const Scene& scene) {
                                  in_quotes(numbered_name(scene.output))));
 }
 
-void export_to_mesh(const SceneCommand& asked) {
-  const MeshFormat& format = format_of(asked.scene);
-  if (format.numbers) parse_vertex_numbers(asked.scene.mesh.attributes);
-  const auto numbered = NumberedPath::parse(asked.scene.output);
-  const bool one_file = asked.scene.frames.is_requested() && !numbered;
-  if (one_file) check_one_file(format, asked.scene);
+void export_to_mesh(const SceneCommand& requested) {
+  const MeshFormat& format = format_of(requested.scene);
+  if (format.numbers) parse_vertex_numbers(requested.scene.mesh.attributes);
+  const auto numbered = NumberedPath::parse(requested.scene.output);
+  const bool one_file = requested.scene.frames.is_requested() && !numbered;
+  if (one_file) check_one_file(format, requested.scene);
   const auto is_partial = [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; };
-  if (!format.opacity && std::ranges::any_of(asked.scene.molecule.color.opacities, is_partial))
-    log_line(asked, fmt::format("note: --opacity: {} has none, so what is translucent is opaque there", format.title));
-  FigureRun run(asked, one_file ? Velocities::central : Velocities::none);
-  run.aim(asked.scene.picture, false);
+  if (!format.opacity && std::ranges::any_of(requested.scene.molecule.color.opacities, is_partial))
+    log_line(requested,
+             fmt::format("note: --opacity: {} has none, so what is translucent is opaque there", format.title));
+  FigureRun run(requested, one_file ? Velocities::central : Velocities::none);
+  run.aim(requested.scene.picture, false);
   const SceneCommand& command = run.command();
   OneFile whole{{}, {{}, command.scene.film.frames_per_second}};
   const auto make = [&](FigureFrame frame) -> FinishFrame {

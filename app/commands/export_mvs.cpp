@@ -45,10 +45,10 @@ void check(const SceneCommand& command) {
 
 std::string title_of(const Scene& scene) { return text_of_path(path_of_text(scene.molecule.file).filename()); }
 
-void run(const SceneCommand& asked) {
-  check(asked);
-  FigureRun run(asked);
-  run.aim(asked.scene.picture, true);
+void run(const SceneCommand& requested) {
+  check(requested);
+  FigureRun run(requested);
+  run.aim(requested.scene.picture, true);
   const SceneCommand& command = run.command();
   std::vector<mvs::State> states;
   const auto make = [&](FigureFrame frame) -> FinishFrame {

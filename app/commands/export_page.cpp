@@ -136,13 +136,13 @@ class PageRun {
   double longest_ = 0.0;  // ps
 };
 
-void export_page(const PageCommand& asked, bool trusts_scenes) {
-  page::check_scene(asked.scene);
-  check_output(asked.scene.output, asked.existing());
-  check_saved_camera(asked);
-  NamedViews views(asked.named_views, asked, trusts_scenes);
-  FigureRun run(asked);
-  run.aim(asked.scene.picture, true);
+void export_page(const PageCommand& requested, bool trusts_scenes) {
+  page::check_scene(requested.scene);
+  check_output(requested.scene.output, requested.existing());
+  check_saved_camera(requested);
+  NamedViews views(requested.named_views, requested, trusts_scenes);
+  FigureRun run(requested);
+  run.aim(requested.scene.picture, true);
   views.aim(run);
   PageRun page(run, views);
   run.make({kSurfaceBytesPerAtom},

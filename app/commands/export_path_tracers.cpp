@@ -67,7 +67,7 @@ void run(const PathTracerCommand& command) {
   check(command);
   FigureRun run(command);
   run.aim(command.scene.picture, true);
-  const Scene& asked = run.scene();
+  const Scene& requested = run.scene();
   if (run.is_run()) run.save_cameras();
   const auto make = [&](FigureFrame frame) -> FinishFrame {
     const std::uint64_t number = frame.number;
@@ -81,7 +81,7 @@ void run(const PathTracerCommand& command) {
     };
   };
   run.make({kMeshBytesPerAtom}, [&]() -> FigureRun::Sink { return make; });
-  if (std::ranges::any_of(asked.figure.objects, [](const auto& object) { return !object.material.empty(); }))
+  if (std::ranges::any_of(requested.figure.objects, [](const auto& object) { return !object.material.empty(); }))
     log_line(command, "note: materials of --object are those of render; here they are all --material");
   if (!run.is_run()) run.save_cameras();
   std::cout << escaped(render_command(command, run.is_run())) << "\n";

@@ -44,8 +44,8 @@ void log_report(const VdbCommand& command, const DistanceBand& band) {
                        with_thousands(band.blocks.size()), command.voxel, band.reach, command.scene.mesh.scale));
 }
 
-void export_to_vdb(const VdbCommand& asked) {
-  VdbCommand command = asked;
+void export_to_vdb(const VdbCommand& requested) {
+  VdbCommand command = requested;
   const Scene& scene = command.scene;
   const auto numbered = NumberedPath::parse(scene.output);
   if (scene.frames.is_requested() && !numbered)

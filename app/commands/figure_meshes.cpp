@@ -159,12 +159,12 @@ void add_more(const SceneCommand& command, const Figure& figure, const Camera& c
   for (std::size_t n = 0; n < figure.extras.objects.size(); ++n) {
     const FigureObject& object = figure.extras.objects[n];
     if (!object.surface && object.shapes.empty()) continue;
-    const PictureObject asked = picture_object(object, command.scene.figure.objects[n], camera, balls);
+    const PictureObject requested = picture_object(object, command.scene.figure.objects[n], camera, balls);
     std::vector<std::uint32_t> cap_plane;
     if (!object.surface) {
       made.push_back(shape_object(shown.atoms, object.shapes, tolerance));
     } else {
-      CappedMesh capped = capped_mesh(*object.surface, asked.clip, asked.cap.color.has_value(), tolerance);
+      CappedMesh capped = capped_mesh(*object.surface, requested.clip, requested.cap.color.has_value(), tolerance);
       cap_plane = std::move(capped.cap_plane);
       made.push_back({*object.surface, std::move(capped.mesh)});
     }
@@ -176,10 +176,10 @@ void add_more(const SceneCommand& command, const Figure& figure, const Camera& c
                        std::move(mesh),
                        blender::atom_attributes(shown, own.atom),
                        {},
-                       asked.thickens,
+                       requested.thickens,
                        std::move(cap_plane),
-                       blender::CutFile{asked.clip, asked.cap},
-                       asked.material});
+                       blender::CutFile{requested.clip, requested.cap},
+                       requested.material});
   }
 }
 
@@ -256,16 +256,17 @@ path_tracers::SceneItem item_of(const SurfaceObject& object, std::span<const Cli
   return path_tracers::surface_item(object, shown.mesh, origin, caps);
 }
 
-void add_surface(const Scene& asked, Figure figure, double tolerance, path_tracers::PathTracerScene& scene) {
+void add_surface(const Scene& requested, Figure figure, double tolerance, path_tracers::PathTracerScene& scene) {
   std::vector<SurfaceObject>& objects = figure.molecule.objects;
-  const std::vector<ClipPlane> planes = surface_planes(asked.figure, figure.extras.cut_atoms, scene.camera, objects);
+  const std::vector<ClipPlane> planes =
+      surface_planes(requested.figure, figure.extras.cut_atoms, scene.camera, objects);
   merge_copies(objects, !planes.empty());
   for (const SurfaceObject& object : objects)
-    scene.items.push_back(item_of(object, planes, asked.figure.cap, tolerance, scene.origin));
+    scene.items.push_back(item_of(object, planes, requested.figure.cap, tolerance, scene.origin));
 }
 
 // Adds objects with materials of their own.
-void add_more(const Scene& asked, const Figure& figure, std::span<const Atom> atoms, double tolerance,
+void add_more(const Scene& requested, const Figure& figure, std::span<const Atom> atoms, double tolerance,
               path_tracers::PathTracerScene& scene) {
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
   for (std::size_t n = 0; n < figure.extras.objects.size(); ++n) {
@@ -275,7 +276,7 @@ void add_more(const Scene& asked, const Figure& figure, std::span<const Atom> at
       scene.items.push_back(path_tracers::shapes_item(atoms, object.shapes, scene.origin));
       continue;
     }
-    const PictureObject shown = picture_object(object, asked.figure.objects[n], scene.camera, balls);
+    const PictureObject shown = picture_object(object, requested.figure.objects[n], scene.camera, balls);
     scene.items.push_back(item_of(*object.surface, shown.clip, shown.cap, tolerance, scene.origin));
   }
 }
@@ -287,19 +288,19 @@ TakenProperties traced_properties() {
 }
 
 TracedFigure traced_figure(const FigureRun& run, FigureFrame frame) {
-  const Scene& asked = run.scene();
+  const Scene& requested = run.scene();
   Figure& figure = frame.figure;
   const std::vector<Ball> balls = run.is_run() ? standing_balls(run.structure()) : figure.balls();
-  const double tolerance = tolerance_of(asked.mesh, asked.picture.size(), run.camera(0), balls);
+  const double tolerance = tolerance_of(requested.mesh, requested.picture.size(), run.camera(0), balls);
   path_tracers::PathTracerScene scene;
   scene.origin = run.is_run() ? run.framing().origin() : rounded_center(balls);
   scene.camera = frame.camera;
-  scene.width = asked.picture.width;
-  scene.height = asked.picture.height;
+  scene.width = requested.picture.width;
+  scene.height = requested.picture.height;
   const std::vector<Atom> atoms = shown_atoms(figure.molecule.structure);
   scene.items.push_back(path_tracers::shapes_item(atoms, figure.extras.shapes, scene.origin));
-  add_more(asked, figure, atoms, tolerance, scene);
-  if (!asked.figure.hides_surface) add_surface(asked, std::move(figure), tolerance, scene);
+  add_more(requested, figure, atoms, tolerance, scene);
+  if (!requested.figure.hides_surface) add_surface(requested, std::move(figure), tolerance, scene);
   return {std::move(scene), tolerance};
 }
 

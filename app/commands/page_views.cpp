@@ -84,13 +84,13 @@ std::vector<page::PageView> NamedViews::of(const Scene& page, const Figure& figu
   for (const View& view : views_) {
     page::PageView& made = shown.emplace_back(page::PageView{view.name, view.camera.value()});
     if (page.figure.hides_surface) continue;
-    const FigureRequest& asked = view.scene.figure;
+    const FigureRequest& requested = view.scene.figure;
     named(view.name, [&] {
-      made.clip =
-          surface_planes(asked, cut_atoms(asked.cuts, figure.molecule.structure), made.camera, figure.molecule.objects);
+      made.clip = surface_planes(requested, cut_atoms(requested.cuts, figure.molecule.structure), made.camera,
+                                 figure.molecule.objects);
     });
     made.opacity = opacity_of(view.scene);
-    made.looks_inside = uses_atoms(asked.cuts);
+    made.looks_inside = uses_atoms(requested.cuts);
   }
   return shown;
 }

@@ -59,7 +59,7 @@ void warn_of_small_letters(const RenderCommand& command, const PictureLayout& la
   if (!scene_values::has_lengths_of_sides(scene) || scene.picture.dots_per_inch <= 0.0) return;
   const glm::ivec2 size = layout.size.size() + glm::ivec2(0, layout.strips.top + layout.strips.bottom);
   const LetterHeights heights(scene.annotations.letters, size);
-  const AnnotationRequest& asked = scene.annotations;
+  const AnnotationRequest& requested = scene.annotations;
   double least = kLeast;
   std::vector<std::string> small;
   const auto check_height = [&](bool is_there, const char* what, int pixels) {
@@ -69,10 +69,10 @@ void warn_of_small_letters(const RenderCommand& command, const PictureLayout& la
     small.emplace_back(what);
   };
   if (layout.legend) check_height(true, "the legend", layout.legend->font().height());
-  check_height(!asked.labels.empty(), "labels", heights.labels);
-  check_height(asked.scale_bar, "the scale bar", heights.scale_bar);
-  check_height(!asked.panel.empty(), "the panel", heights.panel);
-  check_height(asked.time_stamp && scene.frames.is_requested(), "the time", heights.usual);
+  check_height(!requested.labels.empty(), "labels", heights.labels);
+  check_height(requested.scale_bar, "the scale bar", heights.scale_bar);
+  check_height(!requested.panel.empty(), "the panel", heights.panel);
+  check_height(requested.time_stamp && scene.frames.is_requested(), "the time", heights.usual);
   if (small.empty()) return;
   log_line(command,
            fmt::format("warning: letters of {} are as small as {:.1f} pt on paper; most journals ask for {:g} pt; add "

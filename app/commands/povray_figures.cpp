@@ -120,9 +120,9 @@ povray::Run shared_by(Storyboard& storyboard) {
   all.surface = false;
   for (std::size_t n = 0; n < storyboard.size(); ++n) {
     FilmScene& scene = storyboard.scene(n);
-    const Scene& asked = scene.run.scene();
-    check_povray(asked);
-    if (scene.run.is_run() && asked.molecule.color.by == ColorScheme::By::lipophilicity) all.maps_change = true;
+    const Scene& requested = scene.run.scene();
+    check_povray(requested);
+    if (scene.run.is_run() && requested.molecule.color.by == ColorScheme::By::lipophilicity) all.maps_change = true;
     if (auto map = map_of(scene)) {
       if (all.map) all.maps_change = true;
       all.map = std::move(map);
@@ -130,11 +130,11 @@ povray::Run shared_by(Storyboard& storyboard) {
     const Box box = extent_of(scene);
     all.extent.include(box.low);
     all.extent.include(box.high);
-    all.surface = all.surface || !asked.figure.hides_surface;
-    all.caps = all.caps || (!asked.figure.hides_surface && !asked.figure.cuts.empty());
-    all.shapes = all.shapes || !asked.figure.representations.empty();
-    all.translucent = all.translucent || sees_through(asked.molecule.color.opacities);
-    for (const FigureObjectRequest& object : asked.figure.objects) {
+    all.surface = all.surface || !requested.figure.hides_surface;
+    all.caps = all.caps || (!requested.figure.hides_surface && !requested.figure.cuts.empty());
+    all.shapes = all.shapes || !requested.figure.representations.empty();
+    all.translucent = all.translucent || sees_through(requested.molecule.color.opacities);
+    for (const FigureObjectRequest& object : requested.figure.objects) {
       all.objects.push_back({!object.shapes, false});
       if (!object.material.empty()) all.materials.push_back(object.material);
       all.translucent = all.translucent || sees_through(object.opacities);
@@ -237,15 +237,15 @@ class PovrayFilm : public FilmMaker {
   /// Returns the number of the frame. scene: the scene of the shot.
   std::uint64_t write(const MoleculeShot& shot, std::size_t scene) {
     const Look& look = shot.settings.look;
-    const FigureRequest& asked = shot.scene.figure;
+    const FigureRequest& requested = shot.scene.figure;
     const std::size_t place = sequence_.add_frame(shot.camera, {look.background, look.shadows, look.shadow_softness});
     const std::vector<povray::SceneObject> objects = objects_of(storyboard_, scene, shot);
     const std::vector<std::string> names = comment_names(shot.scene, shot.figure.molecule.structure);
     std::span<const SurfaceObject> surface = shot.figure.molecule.objects;
-    if (asked.hides_surface) surface = {};
+    if (requested.hides_surface) surface = {};
     const povray::SceneReport report =
-        sequence_.write_frame(place, {surface, povray_cut(shot.figure, asked, shot.camera), &shot.figure.extras.shapes,
-                                      objects, names, asked.thickens});
+        sequence_.write_frame(place, {surface, povray_cut(shot.figure, requested, shot.camera),
+                                      &shot.figure.extras.shapes, objects, names, requested.thickens});
     if (frames_++ == 0)
       for (const std::string& note : report.notes) log_line(storyboard_.command(), "note: " + note);
     return place + 1;

@@ -150,15 +150,15 @@ struct Viewed {
 
 }  // namespace
 
-void render_views(const RenderCommand& asked) {
-  check_view_options(asked.scene.molecule);
-  RenderCommand command = asked;
+void render_views(const RenderCommand& requested) {
+  check_view_options(requested.scene.molecule);
+  RenderCommand command = requested;
   Scene& scene = command.scene;
   freeze_selections(scene);
   Viewed viewed(command);
   const PictureLayout layout(scene, viewed.key(scene));
   const std::vector<Camera> cameras = viewed.cameras(scene, layout.size);
-  PictureSink sink(asked, layout, viewed.run.get());
+  PictureSink sink(requested, layout, viewed.run.get());
   if (viewed.run) sink.check(cameras, viewed.frames->first_shown());
   const EglContext context(scene.molecule.surface.gl);
   ViewPipeline pipeline;
@@ -190,7 +190,7 @@ void render_views(const RenderCommand& asked) {
   }
   sink.finish();
   log_grown_radii(command, grown_by);
-  if (layout.legend_apart) write_legend_picture(scene.legend.file, *layout.legend_apart, image_settings(asked));
+  if (layout.legend_apart) write_legend_picture(scene.legend.file, *layout.legend_apart, image_settings(requested));
   save_cameras(command, cameras, viewed.run ? std::span(viewed.run->numbers()) : std::span<const std::uint64_t>());
   if (viewed.run) return;
   if (command.stats) fmt::print(std::cerr, "{}", stats());

@@ -285,8 +285,8 @@ void check_summary(const SurfaceCommand& command) {
 
 }  // namespace
 
-void print_summary(const SurfaceCommand& asked) {
-  SurfaceCommand command = asked;
+void print_summary(const SurfaceCommand& requested) {
+  SurfaceCommand command = requested;
   std::vector<std::string> files{std::exchange(command.scene.molecule.file, {})};
   std::vector<std::string>& more = command.scene.frames.trajectories;
   files.insert(files.end(), more.begin(), more.end());

@@ -170,12 +170,12 @@ Framebuffer finished_picture(Framebuffer molecule, const Annotations& annotation
   return layout.legend ? layout.legend->add_to(molecule, background) : molecule;
 }
 
-SceneFigure made_figure(const Scene& asked, const EglContext* context) {
-  if (asked.frames.is_requested())
+SceneFigure made_figure(const Scene& requested, const EglContext* context) {
+  if (requested.frames.is_requested())
     throw RequestError("frames: this makes the picture of one molecule; `meniscus render` makes those of a run");
-  if (asked.image.extent)
+  if (requested.image.extent)
     throw RequestError("image.extent: this draws the complete surface; `meniscus render` draws without it");
-  Scene scene = prepared_scene(asked);
+  Scene scene = prepared_scene(requested);
   freeze_selections(scene);
   scene.molecule.surface.cpu = context == nullptr;
   const GivenCameras given = given_cameras(scene.picture, scene.run_camera);
@@ -185,9 +185,9 @@ SceneFigure made_figure(const Scene& asked, const EglContext* context) {
   return {std::move(scene), given, std::move(aim), std::move(figure)};
 }
 
-Framebuffer scene_picture(const Scene& asked, StillRenderer& renderer, const EglContext* context) {
-  check_picture(asked);
-  auto [scene, given, aim, figure] = made_figure(asked, context);
+Framebuffer scene_picture(const Scene& requested, StillRenderer& renderer, const EglContext* context) {
+  check_picture(requested);
+  auto [scene, given, aim, figure] = made_figure(requested, context);
   const PictureLayout layout(scene, key_of(figure.molecule, scene.figure, figure.extras));
   const Camera camera = aim.camera(layout.size, given.still, aim.viewed(figure));
   Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);

@@ -89,7 +89,8 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
   using Axes = ViewDirection::Frame;
   if (request.direction && request.direction->frame == Axes::open && !request.zoom_to)
     throw RequestError(message("@view open@ looks at the atoms of @zoom-to@; add it"));
-  if (!request.direction || (request.direction->frame != Axes::symmetry && request.direction->frame != Axes::beside))
+  if (!request.direction ||
+      (request.direction->frame != Axes::symmetry && request.direction->frame != Axes::symmetry_side))
     return;
   symmetry_ = symmetry_axis(copy_motions(structure));
   if (!symmetry_)

@@ -207,13 +207,13 @@ void check_scene(const Scene& scene) {
                                    option_name("clip"), kMostPlanes, scene.figure.cuts.size()));
 }
 
-std::vector<OtherColors> other_colors(const Structure& structure, const ColorScheme& asked,
+std::vector<OtherColors> other_colors(const Structure& structure, const ColorScheme& requested,
                                       const std::function<void(ColorScheme&)>& measure) {
   std::vector<OtherColors> others;
   for (const char* const word :
        {"element", "chain", "residue", "secondary", "kind", "hydrophobicity", "bfactor", "charge", "rainbow"}) {
     ColorScheme scheme = parse_color_scheme(word).value();
-    if (scheme.by == asked.by && asked.rules.empty()) continue;
+    if (scheme.by == requested.by && requested.rules.empty()) continue;
     try {
       if (measure) measure(scheme);
       ColorKey key = color_key(structure, scheme);
@@ -267,9 +267,9 @@ PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& fra
   return pack_frame(shown);
 }
 
-std::string scene_page(const Scene& asked) {
-  check_scene(asked);
-  SceneFigure made = made_figure(asked, nullptr);
+std::string scene_page(const Scene& requested) {
+  check_scene(requested);
+  SceneFigure made = made_figure(requested, nullptr);
   const Camera camera = made.aim.camera(made.scene.picture, made.given.still, made.aim.viewed(made.figure));
   const Molecule& molecule = made.figure.molecule;
   const SceneFrame frame{camera,
