@@ -137,7 +137,7 @@ void print_structure(const SceneCommand& command, Trajectory* trajectory) {
   print_classes_and_chains(structure);
   print_radii(structure);
   print_assemblies(structure);
-  say_warnings(command, structure);
+  log_warnings(command, structure);
 }
 
 void run(const SceneCommand& command, const std::string& trajectory_path) {

@@ -19,7 +19,7 @@ namespace meniscus {
 struct PreviewCommand : SceneCommand {
   bool models = false;                ///< true if each model of the file is a frame
   bool aims = false;                  ///< true if the scene sets the first camera
-  ExportWishes wishes;                ///< for exported pictures
+  ExportOptions export_options;       ///< for exported pictures
   std::optional<std::uint16_t> port;  ///< the value of --serve
   std::string record, commands, token_file, output_folder = ".";
 

@@ -155,7 +155,7 @@ Look look_of(LookRequest request, glm::ivec2 picture_size, const std::optional<g
   look.background = background.value_or(glm::vec3(1.0f));
   take(request.light_direction, look.light_direction);
   for (const LookNumber& number : look_numbers())
-    if (number.in) take(*number.asked(request), number.in(look));
+    if (number.in) take(*number.requested(request), number.in(look));
   if (request.silhouettes) {
     look.silhouettes = *request.silhouettes;
     look.outer_lines = look.inner_lines = look.part_lines = {};

@@ -155,8 +155,8 @@ struct LookRequest : LookNumbers<std::optional<float>, MaterialRequest> {
 
 /// The description of a number of a look.
 struct LookNumber {
-  std::string_view key;                                  ///< key of its property (core/properties)
-  std::optional<float>* (*asked)(LookRequest& request);  ///< returns the number's place in the request, never null
+  std::string_view key;                                      ///< key of its property (core/properties)
+  std::optional<float>* (*requested)(LookRequest& request);  ///< returns the number's place in the request, never null
   /// Returns the number in the look; null for the widths of lines, which look_of() copies itself.
   float& (*in)(Look& look);
 };

@@ -78,8 +78,8 @@ std::optional<Curve> curve_of(const AnnotationRequest& request, std::span<const 
   return curve;
 }
 
-LegendStyle legend_style(const LegendStyle& asked, const LetterStyle& letters) {
-  LegendStyle style = asked;
+LegendStyle legend_style(const LegendStyle& requested, const LetterStyle& letters) {
+  LegendStyle style = requested;
   if (!style.letters) style.letters = letters.all;
   style.color = letters.color;
   return style;

@@ -51,7 +51,7 @@ ColorScheme scheme_of(const FigureObjectRequest& request, const Structure& struc
   ColorScheme own = request.color ? *request.color : scheme;
   if (request.color && own.uses_file()) own.set_numbers(scheme.file);
   if (!request.color)
-    own = request.shapes ? scheme_beside(structure, shown, std::move(own))
+    own = request.shapes ? extras_scheme(structure, shown, std::move(own))
                          : with_scale_of(structure, shown, std::move(own));
   own.opacities = request.opacities;
   return own;
@@ -71,7 +71,7 @@ void color_surface(const FigureObjectRequest& request, const Structure& all, con
 
 }  // namespace
 
-void ask_for(std::span<const FigureObjectRequest> objects, ReadOptions& reading) {
+void mark_atoms(std::span<const FigureObjectRequest> objects, ReadOptions& reading) {
   if (!objects.empty() && reading.copy_mode == CopyMode::instances)
     throw RequestError(message("@instances@: copies of one surface cannot be drawn with other objects; leave it out"));
   if (reading.shown.size() + objects.size() > kMostShown)

@@ -46,10 +46,10 @@ struct FigureObject {
 
 /// Makes read_structure mark the atoms of the objects, after the sets that it already marks. Throws RequestError for
 /// more sets than it can mark, and for copies as instances.
-void ask_for(std::span<const FigureObjectRequest> objects, ReadOptions& reading);
+void mark_atoms(std::span<const FigureObjectRequest> objects, ReadOptions& reading);
 
-/// Returns one object per request. structure: read with ask_for(). first_mark: number of sets of atoms that are marked
-/// for other purposes. scheme: the molecule's colours. Surfaces are computed on the CPU. Throws InputError for a
+/// Returns one object per request. structure: read with mark_atoms(). first_mark: number of sets of atoms that are
+/// marked for other purposes. scheme: the molecule's colours. Surfaces are computed on the CPU. Throws InputError for a
 /// surface without atoms and for colours by a number that the atoms do not have, and the errors of computing a surface
 /// (surface_objects).
 std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> objects, const Structure& structure,

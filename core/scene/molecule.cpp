@@ -19,7 +19,7 @@
 #include "core/queries/surface_parts.h"
 #include "core/scene/area_columns.h"
 #include "core/scene/hidden_atoms.h"
-#include "core/scene/map_reach.h"
+#include "core/scene/map_coverage.h"
 #include "core/scene/surface_objects.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/residues.h"

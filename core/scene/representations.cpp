@@ -23,7 +23,7 @@ using By = ColorScheme::By;
 
 }  // namespace
 
-void Representations::ask_for(ReadOptions& reading) const {
+void Representations::mark_atoms(ReadOptions& reading) const {
   if (!empty() && reading.copy_mode == CopyMode::instances)
     throw RequestError(
         message("@instances@: copies of one surface cannot be drawn with sticks, balls or spheres; leave it out"));
@@ -85,7 +85,7 @@ ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorSc
   return scheme;
 }
 
-ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorScheme scheme) {
+ColorScheme extras_scheme(const Structure& structure, std::size_t shown, ColorScheme scheme) {
   if (scheme.by == By::kind || scheme.by == By::component || scheme.of_points()) scheme.by = By::element;
   scheme.opacities.clear();  // opacities apply to the surface only, which is transparent to show what is in it
   return with_scale_of(structure, shown, std::move(scheme));
@@ -121,7 +121,7 @@ ColoredShapes shown_shapes(const Structure& structure, const Representations& re
   for (std::size_t bit = 0; bit < representations.requests.size(); ++bit)
     append(shown.shapes, shapes_of_atoms(all, representations.requests[bit].kind, marked_atoms(all, bit),
                                          *structure.shown_bonds, representations));
-  shown.coloring = color_atoms(all, scheme_beside(structure, all.atoms.size(), scheme));
+  shown.coloring = color_atoms(all, extras_scheme(structure, all.atoms.size(), scheme));
   return shown;
 }
 

@@ -39,7 +39,7 @@ struct Representations : ShapeRadii {
   bool empty() const { return requests.empty(); }
   /// Makes read_structure mark the atoms, keep atoms that the surface leaves out, and find their bonds. Bonds are found
   /// once, at the positions that are read, so that they are the same in all frames of a run.
-  void ask_for(ReadOptions& reading) const;
+  void mark_atoms(ReadOptions& reading) const;
 };
 
 /// Returns the structure's atoms, followed by the atoms drawn in addition to the surface. The `atom` of a shape is a
@@ -61,12 +61,12 @@ Shapes shapes_of_atoms(const Structure& all, RepresentationRequest::Kind kind, c
 ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorScheme scheme);
 
 /// Returns with_scale_of() for shapes: opaque, and by element if the scheme applies to surfaces only.
-ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorScheme scheme);
+ColorScheme extras_scheme(const Structure& structure, std::size_t shown, ColorScheme scheme);
 
 /// Returns the shapes of shown_atoms() at the positions of the structure, with the colours of the surface: chains have
 /// the same colours, numbers the same scale. A scheme for surfaces only (patch kinds, components) is replaced by
-/// elements. structure: as read with ask_for(). Throws InputError for colours by a number that the atoms do not have,
-/// and RequestError for an assembly of instances.
+/// elements. structure: as read with mark_atoms(). Throws InputError for colours by a number that the atoms do not
+/// have, and RequestError for an assembly of instances.
 ColoredShapes shown_shapes(const Structure& structure, const Representations& representations,
                            const ColorScheme& scheme);
 
