@@ -57,7 +57,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kCamera),
 
     text("image.size", "--size", "WxH", "Size of the picture in pixels")
-        .initially("1280x960")
+        .initially("1280x960; film 1920x1080, .gif 960x540")
         .in(kPicture, kShared | live | in_short_help),
     text("image.width", "--width", "LENGTH", "Width of the picture: 85mm, 8.5cm, 3.5in or 1000px")
         .in(kPicture, kShared | live | in_short_help)

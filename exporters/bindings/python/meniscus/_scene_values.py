@@ -75,7 +75,7 @@ class SurfaceValues(TypedDict, total=False):
     comments: bool
     #: WORD: Projection of the camera: perspective or orthographic [perspective]
     projection: Literal["perspective", "orthographic"]
-    #: WxH: Size of the picture in pixels [1280x960]
+    #: WxH: Size of the picture in pixels [1280x960; film 1920x1080, .gif 960x540]
     size: Text
     #: LENGTH: Width of the picture: 85mm, 8.5cm, 3.5in or 1000px
     width: Text
