@@ -126,6 +126,8 @@ void FigureRun::aim(const ViewRequest& picture, bool extent) {
   } else {
     framing_.cameras = run_cameras(picture, scene().run_camera, given_, *shown_);
   }
+  if (const std::string sentence = far_places(scene().picture, structure()); !sentence.empty())
+    say(command_, "note: " + sentence);
   tell_idle_cuts();
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <unordered_set>
@@ -188,6 +189,8 @@ class Evaluation {
     }
   }
 
+  void operator()(FirstStep) { top() = first_place(atoms_, top()); }
+
   void operator()(const FixedTest& test) {
     stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) {
       return test.atoms->contains({test.compares_copies ? atom.copy : 0, atom.index});
@@ -288,6 +291,31 @@ std::vector<bool> Selection::names(std::span<const Atom> atoms) const {
   });
 }
 
+std::vector<bool> first_place(std::span<const Atom> atoms, const std::vector<bool>& selected) {
+  using Residue = std::pair<std::uint32_t, std::uint32_t>;
+  const auto residue_of = [&](std::size_t n) { return Residue{atoms[n].copy, atoms[n].residue}; };
+  std::optional<std::size_t> first;
+  for (std::size_t n = 0; n < atoms.size(); ++n)
+    if (selected[n] && (!first || std::pair(atoms[n].copy, atoms[n].index) < std::pair(atoms[*first].copy, atoms[*first].index)))
+      first = n;
+  std::vector<bool> place(atoms.size());
+  std::set<Residue> reached;
+  if (first) reached.insert(residue_of(*first));
+  while (!reached.empty()) {
+    std::vector<glm::dvec3> points;
+    for (std::size_t n = 0; n < atoms.size(); ++n) {
+      if (!selected[n] || place[n] || !reached.contains(residue_of(n))) continue;
+      place[n] = true;
+      points.push_back(atoms[n].position);
+    }
+    const PointTree tree(std::move(points));
+    reached.clear();
+    for (std::size_t n = 0; n < atoms.size(); ++n)
+      if (selected[n] && !place[n] && tree.any_within(atoms[n].position, kWidestGap)) reached.insert(residue_of(n));
+  }
+  return place;
+}
+
 std::string Selection::why_none(std::span<const Atom> atoms) const {
   std::vector<std::string> chains = chains_of(atoms);
   for (std::string& chain : chains) chain = chain.empty() ? "''" : escaped(chain);
@@ -324,7 +352,8 @@ bool Selection::uses_radius() const { return steps_->compare({AtomField::radius}
 
 bool Selection::uses_positions() const {
   return std::ranges::any_of(steps_->steps, [](const SelectionStep& step) {
-    return is_of_coordinates(step) || is_of_backbone(step) || std::holds_alternative<WithinStep>(step);
+    return is_of_coordinates(step) || is_of_backbone(step) || std::holds_alternative<WithinStep>(step) ||
+           std::holds_alternative<FirstStep>(step);
   });
 }
 
@@ -343,6 +372,9 @@ Selection::PossibleAtoms Selection::possible(std::span<const Atom> atoms) const 
         perhaps.top()[n] = within->includes_set || !certain.top()[n];
         certain.top()[n] = within->includes_set && certain.top()[n];
       }
+    } else if (std::holds_alternative<FirstStep>(step)) {
+      for (std::size_t n = 0; n < atoms.size(); ++n) possible.measured[n] = possible.measured[n] || perhaps.top()[n];
+      certain.top().assign(atoms.size(), false);
     } else {
       std::visit(certain, step);
       std::visit(perhaps, step);
