@@ -3,6 +3,8 @@
 #include "app/commands/command_run.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,9 +18,11 @@
 #include "core/scene/context_areas.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/figure_key.h"
+#include "core/scene/representations.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/settled_selections.h"
 #include "core/scene/surface_computer.h"
+#include "core/structure/selection/places.h"
 
 namespace meniscus {
 
@@ -126,8 +130,10 @@ void FigureRun::aim(const ViewRequest& picture, bool extent) {
   } else {
     framing_.cameras = run_cameras(picture, scene().run_camera, given_, *shown_);
   }
-  if (const std::string sentence = far_places(scene().picture, structure()); !sentence.empty())
-    say(command_, "note: " + sentence);
+  if (const std::optional<Selection>& zoom_to = scene().picture.zoom_to) {
+    const std::string sentence = several_places(*zoom_to, shown_atoms(structure()));
+    if (!sentence.empty()) say(command_, "note: " + sentence);
+  }
   tell_idle_cuts();
 }
 

@@ -90,6 +90,14 @@ void add_option(CLI::App& command, const Property& property) {
   if (!words.empty()) option->check(proposes(words));
 }
 
+/// Gives a film the size of a screen, or a GIF half of it.
+void size_film(Scene& scene) {
+  if (!is_film_path(scene.output)) return;
+  const bool is_gif = scene.film.codec == "gif" || std::filesystem::path(scene.output).extension() == ".gif";
+  scene.picture.width = is_gif ? 960 : 1920;
+  scene.picture.height = is_gif ? 540 : 1080;
+}
+
 bool is_path(const Property& property) {
   return property.type == ValueType::file || property.type == ValueType::new_file || property.type == ValueType::camera;
 }
@@ -334,7 +342,9 @@ void SceneOptions::take(const std::vector<std::string>& named) {
   check_table();
   check_inputs();
   turn_one_molecule();
-  size_film();
+  if (taken_.has("frames.codec") && file_.empty() && !is_given("image.size") && !is_given("image.width") &&
+      !is_given("image.height"))
+    size_film(into_.scene);
   into_.scene.molecule.surface.check = check_by_mesh;
   try {
     complete(into_.scene);
@@ -373,17 +383,6 @@ std::string SceneOptions::told_left_out() const {
   }
   return names.empty() ? ""
                        : fmt::format("note: {} does not show what the scene says of {}", command_path(command_), names);
-}
-
-/// Gives a film the size of a screen, or a GIF half of it, unless a size is given or a scene file sets the picture.
-void SceneOptions::size_film() {
-  ViewRequest& picture = into_.scene.picture;
-  if (!taken_.has("frames.codec") || !is_film_path(into_.scene.output) || !file_.empty() || is_given("image.size") ||
-      is_given("image.width") || is_given("image.height"))
-    return;
-  const bool is_gif = into_.scene.film.codec == "gif" || std::filesystem::path(into_.scene.output).extension() == ".gif";
-  picture.width = is_gif ? 960 : 1920;
-  picture.height = is_gif ? 540 : 1080;
 }
 
 /// Makes a film of some seconds of a camera that turns around one molecule, unless the number of pictures is given.

@@ -119,7 +119,6 @@ class SceneOptions {
   void check_table() const;
   void check_inputs() const;
   void turn_one_molecule();
-  void size_film();
   [[noreturn]] void refuse(std::string_view key, const std::string& what) const;
 
   CLI::App& command_;

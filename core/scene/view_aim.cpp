@@ -4,12 +4,7 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
-#include <string_view>
 #include <unordered_map>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -146,40 +141,6 @@ std::vector<Ball> ViewAim::framed(const Structure& structure) const {
   const std::vector<Ball> beside = framed_beside(structure);
   balls.insert(balls.end(), beside.begin(), beside.end());
   return balls;
-}
-
-std::string far_places(const ViewRequest& request, const Structure& structure) {
-  if (!request.zoom_to) return {};
-  constexpr std::string_view kFirst = "first ";
-  std::string text = request.zoom_to->text();
-  const bool shows_first = text.starts_with(kFirst);
-  if (shows_first) text = text.substr(kFirst.size());
-  if (text.starts_with('(') && text.ends_with(')') && text.find(')') + 1 == text.size())
-    text = text.substr(1, text.size() - 2);
-  const std::vector<Atom> atoms = shown_atoms(structure);
-  std::vector<bool> rest = parse_selection(text).evaluate(atoms);
-  const auto keeps = [&](std::size_t n) { return !rest[n] || atoms[n].kind == AtomClass::ligand; };
-  const auto numbers = std::views::iota(std::size_t{0}, atoms.size());
-  if (!shows_first && !std::ranges::all_of(numbers, keeps)) return {};
-  std::string name;
-  std::vector<glm::dvec3> middles;
-  for (int turn = 0; turn < 2; ++turn) {
-    const std::vector<bool> place = first_place(atoms, rest);
-    const auto head = std::ranges::find(place, true);
-    if (head == place.end()) return {};
-    const Atom& atom = atoms[static_cast<std::size_t>(head - place.begin())];
-    name = fmt::format("resid {}", atom.residue_number);
-    if (!atom.chain.empty()) name += " and chain " + atom.chain;
-    glm::dvec3 sum(0.0);
-    for (const std::size_t n : numbers) {
-      if (place[n]) sum += atoms[n].position;
-      rest[n] = rest[n] && !place[n];
-    }
-    middles.push_back(sum / static_cast<double>(std::ranges::count(place, true)));
-  }
-  return fmt::format("{} is at several places, the first two {:.0f} Å apart, and {}; name one, such as {}",
-                     in_quotes(text), glm::distance(middles[0], middles[1]),
-                     shows_first ? "the first is shown" : "the picture has all of them", in_quotes(name));
 }
 
 bool sees_nothing(const Camera& camera, double aspect, const Structure& structure, double probe) {

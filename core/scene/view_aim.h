@@ -4,7 +4,6 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -57,10 +56,6 @@ class ViewAim {
   bool frames_all_ = true;            ///< true if no atoms were selected to fill the picture
   std::optional<glm::dvec3> symmetry_;
 };
-
-/// Returns a sentence about the atoms of request.zoom_to if it selects residues at places that are far apart
-/// (first_place), of which `first` shows one; otherwise an empty text. Without `first` only ligands are reported.
-std::string far_places(const ViewRequest& request, const Structure& structure);
 
 /// True if it is certain, before any surface is computed, that a picture by this camera shows nothing of the structure.
 /// probe: the greatest distance of a surface from its atoms, Å.

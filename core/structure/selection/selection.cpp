@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <set>
 #include <string_view>
 #include <unordered_set>
@@ -15,6 +14,7 @@
 #include "core/base/text.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/point_tree.h"
+#include "core/structure/selection/places.h"
 #include "core/structure/selection/selection_steps.h"
 #include "core/structure/structure.h"
 
@@ -289,31 +289,6 @@ std::vector<bool> Selection::names(std::span<const Atom> atoms) const {
            std::any_of(steps_->steps.begin(), steps_->steps.end(),
                        [&](const SelectionStep& step) { return names_by(step, atom, names_of_others); });
   });
-}
-
-std::vector<bool> first_place(std::span<const Atom> atoms, const std::vector<bool>& selected) {
-  using Residue = std::pair<std::uint32_t, std::uint32_t>;
-  const auto residue_of = [&](std::size_t n) { return Residue{atoms[n].copy, atoms[n].residue}; };
-  std::optional<std::size_t> first;
-  for (std::size_t n = 0; n < atoms.size(); ++n)
-    if (selected[n] && (!first || std::pair(atoms[n].copy, atoms[n].index) < std::pair(atoms[*first].copy, atoms[*first].index)))
-      first = n;
-  std::vector<bool> place(atoms.size());
-  std::set<Residue> reached;
-  if (first) reached.insert(residue_of(*first));
-  while (!reached.empty()) {
-    std::vector<glm::dvec3> points;
-    for (std::size_t n = 0; n < atoms.size(); ++n) {
-      if (!selected[n] || place[n] || !reached.contains(residue_of(n))) continue;
-      place[n] = true;
-      points.push_back(atoms[n].position);
-    }
-    const PointTree tree(std::move(points));
-    reached.clear();
-    for (std::size_t n = 0; n < atoms.size(); ++n)
-      if (selected[n] && !place[n] && tree.any_within(atoms[n].position, kWidestGap)) reached.insert(residue_of(n));
-  }
-  return place;
 }
 
 std::string Selection::why_none(std::span<const Atom> atoms) const {

@@ -65,13 +65,6 @@ class Selection {
 /// kDeepestSelection levels of nesting. Throws SelectionError.
 Selection parse_selection(std::string_view text);
 
-/// The widest gap between two residues of one place, Å. Pockets are about as wide.
-inline constexpr double kWidestGap = 10.0;
-
-/// Returns the selected atoms of the first residue in the order of the file, and of the residues that gaps of at most
-/// kWidestGap between selected atoms join to it.
-std::vector<bool> first_place(std::span<const Atom> atoms, const std::vector<bool>& selected);
-
 /// Returns the expression "(a) or (b)".
 Selection either(const Selection& a, const Selection& b);
 

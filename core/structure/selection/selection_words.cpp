@@ -78,7 +78,8 @@ constexpr SelectionWord kWords[] = {
     {"exwithin around", WordKind::distance, 0, "exwithin 5 of (EXPR)", "the same without EXPR itself"},
     {"byres byresidue", WordKind::group, 0, "byres (EXPR)", "whole residues that have an atom in EXPR"},
     {"bychain", WordKind::group, 1, "bychain (EXPR)", "whole chains that have an atom in EXPR"},
-    {"first", WordKind::group, 2, "first (EXPR)", "its first residue, and those of EXPR with gaps of at most 10 Å to it"},
+    {"first", WordKind::group, 2, "first (EXPR)",
+     "its first residue, and those of EXPR with gaps of at most 10 Å to it"},
     {"same", WordKind::same, 0, "same residue as (EXPR)", "the same as byres; 'same chain as' is bychain"},
 
     {"not", WordKind::operation, 0, "not EXPR", "or !; binds most tightly"},
