@@ -3,6 +3,8 @@
 #include "app/commands/command_run.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,8 +19,10 @@
 #include "core/scene/copied_atoms.h"
 #include "core/scene/figure_key.h"
 #include "core/scene/frozen_selections.h"
+#include "core/scene/representations.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/surface_computer.h"
+#include "core/structure/selection/places.h"
 
 namespace meniscus {
 
@@ -125,6 +129,10 @@ void FigureRun::aim(const ViewRequest& picture, bool extent) {
     framing_ = run_framing(picture, scene().run_camera, given_, *shown_);
   } else {
     framing_.cameras = run_cameras(picture, scene().run_camera, given_, *shown_);
+  }
+  if (const std::optional<Selection>& zoom_to = scene().picture.zoom_to) {
+    const std::string sentence = several_places(*zoom_to, shown_atoms(structure()));
+    if (!sentence.empty()) log_line(command_, "note: " + sentence);
   }
   log_ineffective_cuts();
 }

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/film/film.h"
 #include "app/options/command_tree.h"
 #include "app/options/named_files.h"
 #include "app/options/property_options.h"
@@ -87,6 +88,14 @@ void add_option(CLI::App& command, const Property& property) {
   std::vector<std::string> words = proposed_words(property.key);
   if (words.empty()) words = words_of(property);
   if (!words.empty()) option->check(proposes(words));
+}
+
+/// Gives a film the size of a screen, or a GIF half of it.
+void size_film(Scene& scene) {
+  if (!is_film_path(scene.output)) return;
+  const bool is_gif = scene.film.codec == "gif" || std::filesystem::path(scene.output).extension() == ".gif";
+  scene.picture.width = is_gif ? 960 : 1920;
+  scene.picture.height = is_gif ? 540 : 1080;
 }
 
 bool is_path(const Property& property) {
@@ -333,6 +342,9 @@ void SceneOptions::take(const std::vector<std::string>& named) {
   check_table();
   check_inputs();
   turn_one_molecule();
+  if (taken_.has("frames.codec") && file_.empty() && !is_given("image.size") && !is_given("image.width") &&
+      !is_given("image.height"))
+    size_film(into_.scene);
   into_.scene.molecule.surface.check = check_by_mesh;
   try {
     complete(into_.scene);

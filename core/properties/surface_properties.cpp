@@ -143,7 +143,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kBeside, in_bundle | live | repeatable | in_short_help),
     text("figure.tube", "--tube", "EXPR",
          "Draw the backbone of these atoms as a cartoon: tubes, ribbons, arrows. Helices are ribbons, strands are "
-         "arrows")
+         "arrows, nucleic acids are bands with filled bases")
         .in(kBeside, in_bundle | live | repeatable | in_short_help),
     text("figure.bases", "--bases", "EXPR",
          "Draw the bases of these nucleotides as filled rings. Rungs lead to the tube")
@@ -157,7 +157,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kBeside, kSeen | live),
     number("shapes.tube_radius", "--tube-radius", "Å", "Radius of tubes in Å. Ribbons and arrows scale with it")
         .from(0.001, 10)
-        .initially("0.3")
+        .initially("0.45")
         .in(kBeside, kSeen | live),
     text("figure.object", "--object", "JSON",
          "Draw one more object with its own look, as JSON of a scene file. Such as '{\"representation\": "

@@ -94,8 +94,9 @@ std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> obje
     const std::vector<bool> selected = marked_atoms(all, first_mark + n);
     FigureObject& object = made.emplace_back();
     if (request.shapes)
-      object.shapes.shapes =
-          shapes_of_atoms(all, *request.shapes, selected, *structure.shown_bonds, {request.radius, request.radius});
+      object.shapes.shapes = shapes_of_atoms(
+          all, *request.shapes, selected, *structure.shown_bonds,
+          {*request.shapes == RepresentationRequest::Kind::backbone ? std::nullopt : request.radius, request.radius});
     else
       object.surface = surface_of(request, all, selected);
     object.cut_atoms = cut_atoms(request.cuts, structure);

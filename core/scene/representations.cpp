@@ -50,13 +50,14 @@ Shapes found(const Structure& all, Shapes shapes, const std::vector<bool>& selec
 
 Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>& selected,
                        const std::vector<Bond>& bonds, const ShapeRadii& radii) {
+  const double tube = radii.tube_radius.value_or(kTubeRadius);
   switch (kind) {
     case Kind::sticks:
       return sticks(all, selected, bonds, radii.stick_radius.value_or(kStickRadius));
     case Kind::balls_and_sticks:
       return balls_and_sticks(all, selected, bonds, kBallShare, radii.stick_radius.value_or(kThinStickRadius));
     case Kind::backbone:
-      return backbone(all, selected, radii.tube_radius.value_or(kTubeRadius));
+      return cartoon(all, selected, tube, radii.stick_radius.value_or(kStickRadius * tube / kTubeRadius));
     case Kind::bases:
       return found(all, bases(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, kind, "base");
     case Kind::sugar_symbols:
@@ -118,9 +119,17 @@ ColoredShapes shown_shapes(const Structure& structure, const Representations& re
   ColoredShapes shown;
   if (representations.empty()) return shown;
   const Structure all = structure_of_shown(structure);
-  for (std::size_t bit = 0; bit < representations.requests.size(); ++bit)
-    append(shown.shapes, shapes_of_atoms(all, representations.requests[bit].kind, marked_atoms(all, bit),
-                                         *structure.shown_bonds, representations));
+  const std::vector<RepresentationRequest>& requests = representations.requests;
+  unsigned tubes = 0;
+  for (std::size_t bit = 0; bit < requests.size(); ++bit)
+    if (requests[bit].kind == Kind::backbone) tubes |= 1u << bit;
+  for (std::size_t bit = 0; bit < requests.size(); ++bit) {
+    std::vector<bool> marked = marked_atoms(all, bit);
+    // Tubes have the bases of polymers already.
+    for (std::size_t n = 0; requests[bit].kind == Kind::bases && n < marked.size(); ++n)
+      if ((all.atoms[n].shown & tubes) != 0 && all.atoms[n].kind == AtomClass::polymer) marked[n] = false;
+    append(shown.shapes, shapes_of_atoms(all, requests[bit].kind, marked, *structure.shown_bonds, representations));
+  }
   shown.coloring = color_atoms(all, extras_scheme(structure, all.atoms.size(), scheme));
   return shown;
 }

@@ -75,7 +75,7 @@ class SurfaceValues(TypedDict, total=False):
     comments: bool
     #: WORD: Projection of the camera: perspective or orthographic [perspective]
     projection: Literal["perspective", "orthographic"]
-    #: WxH: Size of the picture in pixels [1280x960]
+    #: WxH: Size of the picture in pixels [1280x960; film 1920x1080, .gif 960x540]
     size: Text
     #: LENGTH: Width of the picture: 85mm, 8.5cm, 3.5in or 1000px
     width: Text
@@ -280,7 +280,7 @@ class SceneValues(SurfaceValues, total=False):
     #: EXPR: Draw these atoms as spheres of their van der Waals radii
     spheres: Union[Text, Sequence[Text]]
     #: EXPR: Draw the backbone of these atoms as a cartoon: tubes, ribbons, arrows. Helices are ribbons, strands
-    #: are arrows
+    #: are arrows, nucleic acids are bands with filled bases
     tube: Union[Text, Sequence[Text]]
     #: EXPR: Draw the bases of these nucleotides as filled rings. Rungs lead to the tube
     bases: Union[Text, Sequence[Text]]
@@ -289,7 +289,7 @@ class SceneValues(SurfaceValues, total=False):
     glycans: Union[Text, Sequence[Text]]
     #: Å: Radius of sticks in Å, also of bases and between glycans [0.25; 0.15 between balls]
     stick_radius: float
-    #: Å: Radius of tubes in Å. Ribbons and arrows scale with it [0.3]
+    #: Å: Radius of tubes in Å. Ribbons and arrows scale with it [0.45]
     tube_radius: float
     #: JSON: Draw one more object with its own look, as JSON of a scene file. Such as '{"representation":
     #: "surface", "selection": "chain B", "color": "red"}'. Repeatable
