@@ -246,7 +246,7 @@ class PageTest(PageCase):
     async def test_a_png_has_any_size_and_no_seams(self):
         part = self.part_of(UBIQUITIN, 1, 15)
         async with self.browser((420, 240)) as page:
-            await self.load(page, self.export(part, "--color", "residue", "--label", "resid 5=Val 5", "--background", "white"))
+            await self.load(page, self.export(part, "--color", "residue", "--label", "resid 5=Val 5", "--background", "white", "--ambient-occlusion", "0.9"))
             await page.evaluate("meniscus.figure.samples.length = 2")
             own = {"whole": 2048, "tile": 1024, "map": 1024}
             small, large = await self.png(page, 1, own), await self.png(page, 3, own)
