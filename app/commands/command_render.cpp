@@ -58,8 +58,7 @@ void tell_memory(const RenderCommand& command) {
 
 void tell_hue_changes(const RenderCommand& command) {
   const std::string changes = hue_changes(command.scene.look);
-  if (changes.empty() || hues_of(command.scene.molecule.color, command.scene.legend.asked(), false) != Hues::kept)
-    return;
+  if (changes.empty() || hues_of(command.scene.molecule.color, false) != Hues::kept) return;
   say(command, "warning: colours of the surface are not those of the legend: " + changes);
 }
 

@@ -69,6 +69,7 @@ Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>&
 }
 
 ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorScheme scheme) {
+  scheme.by = settled_scheme(structure, scheme.by);
   for (ColorRule& rule : scheme.rules) rule.paint = with_scale_of(structure, shown, std::move(rule.paint));
   if (!scheme.has_scale() || scheme.of_points()) return scheme;
   const ColorScale scale = color_scale(structure, scheme);
@@ -85,7 +86,13 @@ ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorSc
   return scheme;
 }
 
-ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorScheme scheme) {
+ColorScheme::By scheme_of_shapes(By scheme, Kind kind) {
+  if (scheme != By::automatic) return scheme;
+  return kind == Kind::backbone ? By::chain : By::chain_element;
+}
+
+ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorScheme scheme, Kind kind) {
+  scheme.by = scheme_of_shapes(scheme.by, kind);
   if (scheme.by == By::kind || scheme.by == By::component || scheme.of_points()) scheme.by = By::element;
   scheme.opacities.clear();  // opacities apply to the surface only, which is transparent to show what is in it
   return with_scale_of(structure, shown, std::move(scheme));
@@ -118,10 +125,20 @@ ColoredShapes shown_shapes(const Structure& structure, const Representations& re
   ColoredShapes shown;
   if (representations.empty()) return shown;
   const Structure all = structure_of_shown(structure);
-  for (std::size_t bit = 0; bit < representations.requests.size(); ++bit)
-    append(shown.shapes, shapes_of_atoms(all, representations.requests[bit].kind, marked_atoms(all, bit),
-                                         *structure.shown_bonds, representations));
-  shown.coloring = color_atoms(all, scheme_beside(structure, all.atoms.size(), scheme));
+  std::vector<std::uint32_t> of_backbones;
+  for (std::size_t bit = 0; bit < representations.requests.size(); ++bit) {
+    const Kind kind = representations.requests[bit].kind;
+    const Shapes own = shapes_of_atoms(all, kind, marked_atoms(all, bit), *structure.shown_bonds, representations);
+    if (kind == Kind::backbone) of_backbones.insert(of_backbones.end(), own.mesh.atoms.begin(), own.mesh.atoms.end());
+    append(shown.shapes, own);
+  }
+  const auto colors = [&](Kind kind) {
+    return color_atoms(all, scheme_beside(structure, all.atoms.size(), scheme, kind));
+  };
+  shown.coloring = colors(Kind::sticks);
+  if (scheme.by != By::automatic || of_backbones.empty()) return shown;
+  const Coloring by_chain = colors(Kind::backbone);
+  for (const std::uint32_t atom : of_backbones) shown.coloring.atom[atom] = by_chain.atom[atom];
   return shown;
 }
 
