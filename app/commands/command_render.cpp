@@ -59,9 +59,7 @@ void log_memory(const RenderCommand& command) {
 
 void warn_of_hue_changes(const RenderCommand& command) {
   const std::string changes = hue_changes(command.scene.look);
-  if (changes.empty() ||
-      hues_of(command.scene.molecule.color, command.scene.legend.is_requested(), false) != Hues::kept)
-    return;
+  if (changes.empty() || hues_of(command.scene.molecule.color, false) != Hues::kept) return;
   log_line(command, "warning: colours of the surface are not those of the legend: " + changes);
 }
 

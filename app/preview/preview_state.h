@@ -50,10 +50,10 @@ struct PreviewFigure {
   /// What its light may do to them.
   Hues hues() const {
     const bool looks_inside = uses_atoms(figure.cuts);
-    if (!patch_kinds || legend) return hues_of(color, legend, looks_inside);
+    if (!patch_kinds) return hues_of(color, looks_inside);
     ColorScheme kinds;
     kinds.opacities = color.opacities;
-    return hues_of(kinds, false, looks_inside);
+    return hues_of(kinds, looks_inside);
   }
   /// How far from the atoms' balls something may be and still change their surface, Å.
   double probe_reach() const { return growth_of(kind, probe_radius) + rolling_probe(kind, probe_radius); }

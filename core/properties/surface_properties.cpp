@@ -63,14 +63,14 @@ constexpr auto kTable = std::to_array<Property>({
     flag("surface.verify", "--verify", "Compute on GPU and CPU, and report every difference").in(kDevice, in_bundle),
 
     text("surface.color", "--color", "SCHEME",
-         "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker), "
-         "chain, copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's "
-         "confidence), snfg (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor, "
+         "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: auto (chain, or element for "
+         "small molecules), element, element-cpk (darker), chain, chain-element, chain-okabe-ito, copy (of an "
+         "assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's confidence), snfg (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor, "
          "occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), "
          "relative-accessibility, index, rainbow (along each chain), radial (for capsids). EXPR=COLOR colours some "
          "atoms, as in 'ligand=orange'; 'ligand=orange:ATP' names them in the legend. Repeatable; the last one "
          "counts. meniscus colors explains the schemes")
-        .initially("element")
+        .initially("auto")
         .in(kColour, kSeen | live | repeatable | of_objects | in_short_help),
     file("surface.color_by_file", "--color-by-file", "NUMBERS",
          "Colour by numbers from a file. One number per atom of FILE or per atom used; lines of chain, residue and "

@@ -13,6 +13,7 @@ namespace meniscus {
 namespace {
 
 using By = ColorScheme::By;
+using Kind = RepresentationRequest::Kind;
 
 bool any_of(const std::vector<bool>& atoms) { return std::ranges::find(atoms, true) != atoms.end(); }
 
@@ -53,17 +54,27 @@ ColorKey figure_key(const Structure& structure, const ColorScheme& scheme, Drawn
   if (extras.empty()) return color_key(structure, scheme, drawn);
   const Structure all = structure_of_shown(structure);
   const std::size_t count = all.atoms.size();
-  std::vector<bool> shapes(count, false);
+  std::vector<bool> shapes(count, false), backbones = shapes;
   drawn.atoms.resize(count, false);
   if (!extras.shapes.empty()) mark(extras.shapes, shapes);
-  for (std::size_t n = 0; n < extras.objects.size(); ++n)
-    if (!request.objects[n].color)
-      mark(extras.objects[n], request.objects[n], request.objects[n].shapes ? shapes : drawn.atoms);
-  const bool of_surfaces = scheme.by == By::kind || scheme.by == By::component || scheme.of_points();
-  for (std::size_t a = 0; !of_surfaces && a < count; ++a) drawn.atoms[a] = drawn.atoms[a] || shapes[a];
+  if (scheme.by == By::automatic)
+    for (const std::uint32_t atom : extras.shapes.shapes.mesh.atoms) {  // of bases, too, which are carbon
+      if (!shapes[atom] || all.atoms[atom].kind != AtomClass::polymer) continue;
+      backbones[atom] = true;
+      shapes[atom] = false;
+    }
+  for (std::size_t n = 0; n < extras.objects.size(); ++n) {
+    if (request.objects[n].color) continue;
+    const auto& kind = request.objects[n].shapes;
+    mark(extras.objects[n], request.objects[n], !kind ? drawn.atoms : kind == Kind::backbone ? backbones : shapes);
+  }
+  const bool of_surfaces =
+      scheme.by == By::automatic || scheme.by == By::kind || scheme.by == By::component || scheme.of_points();
+  for (std::size_t a = 0; !of_surfaces && a < count; ++a) drawn.atoms[a] = drawn.atoms[a] || shapes[a] || backbones[a];
   ColorKey key = color_key(all, with_scale_of(structure, count, scheme), drawn);
-  if (of_surfaces && any_of(shapes))
-    add_key(key, color_key(all, extras_scheme(structure, count, scheme), {.atoms = shapes}), "beside");
+  for (const auto& [kind, atoms] : {std::pair(Kind::backbone, &backbones), std::pair(Kind::sticks, &shapes)})
+    if (of_surfaces && any_of(*atoms))
+      add_key(key, color_key(all, extras_scheme(structure, count, scheme, kind), {.atoms = *atoms}), "beside");
   for (std::size_t n = 0; n < extras.objects.size(); ++n) {
     if (!request.objects[n].color) continue;
     std::vector<bool> own(count, false);

@@ -50,8 +50,9 @@ ColorScheme scheme_of(const FigureObjectRequest& request, const Structure& struc
                       const ColorScheme& scheme) {
   ColorScheme own = request.color ? *request.color : scheme;
   if (request.color && own.uses_file()) own.set_numbers(scheme.file);
+  if (request.color && request.shapes) own.by = scheme_of_shapes(own.by, *request.shapes);
   if (!request.color)
-    own = request.shapes ? extras_scheme(structure, shown, std::move(own))
+    own = request.shapes ? extras_scheme(structure, shown, std::move(own), *request.shapes)
                          : with_scale_of(structure, shown, std::move(own));
   own.opacities = request.opacities;
   return own;

@@ -70,6 +70,7 @@ Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>&
 }
 
 ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorScheme scheme) {
+  scheme.by = resolved_scheme(structure, scheme.by);
   for (ColorRule& rule : scheme.rules) rule.paint = with_scale_of(structure, shown, std::move(rule.paint));
   if (!scheme.has_scale() || scheme.of_points()) return scheme;
   const ColorScale scale = color_scale(structure, scheme);
@@ -86,7 +87,13 @@ ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorSc
   return scheme;
 }
 
-ColorScheme extras_scheme(const Structure& structure, std::size_t shown, ColorScheme scheme) {
+ColorScheme::By scheme_of_shapes(By scheme, Kind kind) {
+  if (scheme != By::automatic) return scheme;
+  return kind == Kind::backbone ? By::chain : By::chain_element;
+}
+
+ColorScheme extras_scheme(const Structure& structure, std::size_t shown, ColorScheme scheme, Kind kind) {
+  scheme.by = scheme_of_shapes(scheme.by, kind);
   if (scheme.by == By::kind || scheme.by == By::component || scheme.of_points()) scheme.by = By::element;
   scheme.opacities.clear();  // opacities apply to the surface only, which is transparent to show what is in it
   return with_scale_of(structure, shown, std::move(scheme));
@@ -123,14 +130,24 @@ ColoredShapes shown_shapes(const Structure& structure, const Representations& re
   unsigned tubes = 0;
   for (std::size_t bit = 0; bit < requests.size(); ++bit)
     if (requests[bit].kind == Kind::backbone) tubes |= 1u << bit;
+  std::vector<std::uint32_t> of_backbones;
   for (std::size_t bit = 0; bit < requests.size(); ++bit) {
+    const Kind kind = requests[bit].kind;
     std::vector<bool> marked = marked_atoms(all, bit);
     // Tubes have the bases of polymers already.
-    for (std::size_t n = 0; requests[bit].kind == Kind::bases && n < marked.size(); ++n)
+    for (std::size_t n = 0; kind == Kind::bases && n < marked.size(); ++n)
       if ((all.atoms[n].shown & tubes) != 0 && all.atoms[n].kind == AtomClass::polymer) marked[n] = false;
-    append(shown.shapes, shapes_of_atoms(all, requests[bit].kind, marked, *structure.shown_bonds, representations));
+    const Shapes own = shapes_of_atoms(all, kind, marked, *structure.shown_bonds, representations);
+    if (kind == Kind::backbone) of_backbones.insert(of_backbones.end(), own.mesh.atoms.begin(), own.mesh.atoms.end());
+    append(shown.shapes, own);
   }
-  shown.coloring = color_atoms(all, extras_scheme(structure, all.atoms.size(), scheme));
+  const auto colors = [&](Kind kind) {
+    return color_atoms(all, extras_scheme(structure, all.atoms.size(), scheme, kind));
+  };
+  shown.coloring = colors(Kind::sticks);
+  if (scheme.by != By::automatic || of_backbones.empty()) return shown;
+  const Coloring by_chain = colors(Kind::backbone);
+  for (const std::uint32_t atom : of_backbones) shown.coloring.atom[atom] = by_chain.atom[atom];
   return shown;
 }
 

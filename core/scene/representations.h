@@ -57,11 +57,17 @@ Shapes shapes_of_atoms(const Structure& all, RepresentationRequest::Kind kind, c
 
 /// Returns the scheme for all shown atoms with the ranges that it has for the surface's atoms, so that a number has one
 /// colour on everything that is drawn. shown: number of shown atoms. Numbers that are known for the surface's atoms
-/// only are missing for others. Throws RequestError for a map that gives each number its own colour.
+/// only are missing for others. By::automatic becomes resolved_scheme(). Throws RequestError for a map that gives each
+/// number its own colour.
 ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorScheme scheme);
 
-/// Returns with_scale_of() for shapes: opaque, and by element if the scheme applies to surfaces only.
-ColorScheme extras_scheme(const Structure& structure, std::size_t shown, ColorScheme scheme);
+/// Returns the scheme that By::automatic means for shapes: `chain` for backbones, else `chain_element`. Returns any
+/// other scheme as it is.
+ColorScheme::By scheme_of_shapes(ColorScheme::By scheme, RepresentationRequest::Kind kind);
+
+/// Returns with_scale_of() for shapes of one kind: opaque, and by element if the scheme applies to surfaces only.
+ColorScheme extras_scheme(const Structure& structure, std::size_t shown, ColorScheme scheme,
+                          RepresentationRequest::Kind kind);
 
 /// Returns the shapes of shown_atoms() at the positions of the structure, with the colours of the surface: chains have
 /// the same colours, numbers the same scale. A scheme for surfaces only (patch kinds, components) is replaced by

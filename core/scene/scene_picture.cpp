@@ -145,9 +145,9 @@ RenderSettings render_settings(const Scene& scene, const PictureLayout& layout) 
   settings.samples = scene.image.samples;
   settings.aovs = scene.image.aovs;
   settings.mattes = scene.image.cryptomatte;
-  settings.look = look_of(scene.look, scene.picture.size(), scene.image.background,
-                          hues_of(scene.molecule.color, scene.legend.is_requested(), uses_atoms(scene.figure.cuts)),
-                          scene.molecule.patches.has_value());
+  settings.look =
+      look_of(scene.look, scene.picture.size(), scene.image.background,
+              hues_of(scene.molecule.color, uses_atoms(scene.figure.cuts)), scene.molecule.patches.has_value());
   return settings;
 }
 

@@ -213,7 +213,7 @@ std::vector<OtherColors> other_colors(const Structure& structure, const ColorSch
   for (const char* const word :
        {"element", "chain", "residue", "secondary", "kind", "hydrophobicity", "bfactor", "charge", "rainbow"}) {
     ColorScheme scheme = parse_color_scheme(word).value();
-    if (scheme.by == requested.by && requested.rules.empty()) continue;
+    if (scheme.by == resolved_scheme(structure, requested.by) && requested.rules.empty()) continue;
     try {
       if (measure) measure(scheme);
       ColorKey key = color_key(structure, scheme);
@@ -240,8 +240,7 @@ PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& fra
   // Colours by a scale are those of its legend, so that a scheme may have a look of its own.
   const auto look_by = [&](ColorScheme scheme) {
     scheme.opacities = scene.molecule.color.opacities;
-    return look_of(scene.look, shown.size, scene.image.background,
-                   hues_of(scheme, scene.legend.is_requested(), uses_atoms(scene.figure.cuts)),
+    return look_of(scene.look, shown.size, scene.image.background, hues_of(scheme, uses_atoms(scene.figure.cuts)),
                    scene.molecule.patches.has_value());
   };
   shown.look = look_by(scene.molecule.color);
@@ -257,7 +256,8 @@ PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& fra
   const Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);
   shown.labels = annotations.labels;
   shown.atoms = atoms;
-  const ColorScheme& scheme = figure.molecule.color;
+  ColorScheme scheme = figure.molecule.color;
+  scheme.by = resolved_scheme(figure.molecule.structure, scheme.by);
   shown.scheme = scheme.by == ColorScheme::By::fixed || !scheme.rules.empty() ? "given" : scheme_word(scheme);
   add_schemes(frame.others, figure, scene.figure, surface, shown);
   for (std::size_t n = 0; n < frame.others.size(); ++n)
@@ -305,12 +305,12 @@ std::string surface_page(const Surface& surface, const Coloring& colors, const S
   shown.fades_always = look.look.depth_cue.has_value();
   shown.scheme = "given";
   if (structure)
-    for (const OtherColors& other : other_colors(*structure, {})) {
+    for (const OtherColors& other : other_colors(*structure, {.by = ColorScheme::By::element})) {
       shown.more_schemes.push_back(scheme_at(
           other, {&colors}, [&] { return std::vector{color_object(*structure, object.atom, other.scheme, 0)}; }));
       if (other.scheme.uses_scale())
         shown.more_schemes.back().look =
-            look_of(look.look, shown.size, look.image.background, hues_of(other.scheme, false, false));
+            look_of(look.look, shown.size, look.image.background, hues_of(other.scheme, false));
     }
   std::vector<PictureObject> objects(1);
   objects.front().surface = &object.surface;

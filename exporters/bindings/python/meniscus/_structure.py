@@ -284,7 +284,7 @@ class Structure:
         [1.8, 1.8, 1.8]"""
         return self._column(header.STRUCTURE_HYDROPATHIES)
 
-    def colors(self, scheme: str = "element") -> Singles:
+    def colors(self, scheme: str = "auto") -> Singles:
         """Returns the colours of the atoms by one of the program's schemes: sRGB in [0, 1], (n, 3), as render() and
         save() take them.
 
