@@ -45,6 +45,16 @@ void mark(const FigureObject& object, const FigureObjectRequest& request, std::v
     mark(object.shapes, atoms);
 }
 
+/// Keeps the atoms that rules colour. A legend does not explain the elements of companions.
+void keep_ruled(const ColorScheme& scheme, const Structure& structure, std::vector<bool>& atoms) {
+  std::vector<bool> ruled(atoms.size(), false);
+  for (const ColorRule& rule : scheme.rules) {
+    const std::vector<bool> selected = rule.atoms.evaluate(structure.atoms);
+    for (std::size_t a = 0; a < ruled.size(); ++a) ruled[a] = ruled[a] || selected[a];
+  }
+  for (std::size_t a = 0; a < atoms.size(); ++a) atoms[a] = atoms[a] && ruled[a];
+}
+
 }  // namespace
 
 ColorKey figure_key(const Structure& structure, const ColorScheme& scheme, DrawnAtoms drawn,
@@ -56,20 +66,21 @@ ColorKey figure_key(const Structure& structure, const ColorScheme& scheme, Drawn
   std::vector<bool> shapes(count, false);
   drawn.atoms.resize(count, false);
   if (!extras.shapes.empty()) mark(extras.shapes, shapes);
+  const std::vector<FigureObjectRequest> requests = all_requests(request.objects, structure);
   for (std::size_t n = 0; n < extras.objects.size(); ++n)
-    if (!request.objects[n].color)
-      mark(extras.objects[n], request.objects[n], request.objects[n].shapes ? shapes : drawn.atoms);
+    if (!requests[n].has_own_colors()) mark(extras.objects[n], requests[n], requests[n].shapes ? shapes : drawn.atoms);
   const bool of_surfaces = scheme.by == By::kind || scheme.by == By::component || scheme.of_points();
   for (std::size_t a = 0; !of_surfaces && a < count; ++a) drawn.atoms[a] = drawn.atoms[a] || shapes[a];
   ColorKey key = color_key(all, with_scale_of(structure, count, scheme), drawn);
   if (of_surfaces && any_of(shapes))
     add_key(key, color_key(all, extras_scheme(structure, count, scheme), {.atoms = shapes}), "beside");
   for (std::size_t n = 0; n < extras.objects.size(); ++n) {
-    if (!request.objects[n].color) continue;
+    if (!requests[n].has_own_colors()) continue;
     std::vector<bool> own(count, false);
-    mark(extras.objects[n], request.objects[n], own);
-    const ColorScheme color = scheme_of(request.objects[n], structure, count, scheme);
-    const std::string name = request.objects[n].atoms.text();
+    mark(extras.objects[n], requests[n], own);
+    const ColorScheme color = scheme_of(requests[n], structure, count, scheme);
+    const std::string name = requests[n].atoms.text();
+    if (requests[n].is_companion) keep_ruled(color, all, own);
     if (!any_of(own)) continue;
     if (color.by == By::fixed && color.rules.empty())
       key.classes.push_back({name, color.fixed});
