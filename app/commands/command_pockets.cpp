@@ -259,6 +259,7 @@ void add_pockets(CLI::App& command) {
     declared->options.take();
     PocketsCommand& requested = declared->state;
     requested.pockets.probe_radius = requested.scene.molecule.surface.probe_radius;
+    requested.scene.molecule.reading.takes_ligands = true;  // --ligand says what is taken out
     check_request(requested);
     print_pockets(requested);
   });

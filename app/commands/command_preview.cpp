@@ -123,7 +123,8 @@ Shown read_inputs(PreviewCommand& command, const std::function<void(const std::s
   if (!command.aims) return shown;
   // Everything drawn counts; a scene's picture is framed as render frames it.
   const FigureRequest& figure = shown.scene.figure;
-  const bool reads_again = !figure.representations.empty() || !figure.objects.empty();
+  const bool reads_again = !figure.representations.empty() || !figure.objects.empty() ||
+                           (shown.structure.companions != Companions::none && command.scene.molecule.file != "-");
   shown.camera =
       aimed_camera(shown.scene, camera, color, reads_again ? ShownReader(command)(figure, 0) : shown.structure);
   return shown;

@@ -302,9 +302,11 @@ void add_surface(CLI::App& command) {
       "  meniscus surface adk.psf adk.dcd --superpose 'name CA' --csv-cavities cavities.csv   each cavity over time\n"
       "  meniscus surface adk.psf adk.dcd --json                one line of JSON per frame\n"
       "  meniscus surface *.cif.gz --csv-summary all.csv        one row for each of many molecules",
-      "The surface is that of the polymers and ligands of the first model, with the most occupied conformer of "
-      "each\nresidue; water and free ions are left out. A line reports what was read, left out and used. Radii are "
-      "Bondi's\n(`meniscus info` lists them), or the file's own (PQR, XYZR). The surface is closed and includes all "
+      "The surface is that of the polymers of the first model, or of all of a file without one, with the most "
+      "occupied\nconformer of each residue; water and free ions are left out. A line reports what was read, left out "
+      "and "
+      "used. Radii\nare Bondi's (`meniscus info` lists them), or the file's own (PQR, XYZR). The surface is closed and "
+      "includes all "
       "cavities; areas\nand volumes are exact, in closed form. `volume` is that of the solid, without its cavities; "
       "the volume of a cavity is\npositive. The area of an atom is the part of the surface that has the atom's colour "
       "in pictures: its contact patch,\nand those parts of the patches around that are nearer to its contact with the "
@@ -333,6 +335,7 @@ void add_surface(CLI::App& command) {
     const Division& division = declared->state.scene.molecule.division;
     SurfaceCommand& requested = declared->state;
     MoleculeRequest& molecule = requested.scene.molecule;
+    molecule.reading.companions = Companions::hidden;  // --patches 'within 5 of ligand' sees them
     molecule.surface.drawn = division.components || division.cavities != Cavities::keep || requested.open_sky;
     molecule.surface.bordered =
         molecule.surface.drawn || molecule.patches || !requested.cavity_csv.empty() || !requested.gradient_csv.empty();

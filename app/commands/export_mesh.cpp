@@ -155,7 +155,9 @@ void export_to_mesh(const SceneCommand& requested) {
   if (!format.opacity && std::ranges::any_of(requested.scene.molecule.color.opacities, is_partial))
     log_line(requested,
              fmt::format("note: --opacity: {} has none, so what is translucent is opaque there", format.title));
-  FigureRun run(requested, one_file ? Velocities::central : Velocities::none);
+  SceneCommand bare = requested;
+  bare.scene.figure.bare = true;  // a mesh is that of the surface
+  FigureRun run(bare, one_file ? Velocities::central : Velocities::none);
   run.aim(requested.scene.picture, false);
   const SceneCommand& command = run.command();
   OneFile whole{{}, {{}, command.scene.film.frames_per_second}};

@@ -85,7 +85,7 @@ void declare_mvs(CLI::App& command) {
   describe(
       command,
       "  meniscus export mvs 1tii.pdb -o 1tii.mvsx --color chain     then drop it into https://molstar.org/viewer\n"
-      "  meniscus export mvs 1hpv.pdb -o pocket.mvsx --look-into ligand --sticks ligand\n"
+      "  meniscus export mvs 1hpv.pdb -o pocket.mvsx --look-into ligand\n"
       "  meniscus export mvs adk.psf adk.dcd --frames 0-90:10 -o adk.mvsx     a state for each frame",
       "The view has the mesh in the colours of the figure, cut with its caps, what is drawn beside it, and the camera. "
       "Viewers light it\nin their own way, and shade each triangle flat.");

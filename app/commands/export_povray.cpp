@@ -32,7 +32,9 @@ namespace {
 // needs a table of its own, because colours change from frame to frame, or objects have colours of their own.
 std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& requested, const ColorScheme& scheme,
                                                              const Structure& possible, const Coloring& extras) {
-  if (scheme.changes_with_frames() || requested.figure.hides_surface || !requested.figure.objects.empty()) return {};
+  if (scheme.changes_with_frames() || requested.figure.hides_surface || !requested.figure.objects.empty() ||
+      possible.companions == Companions::drawn)
+    return {};
   const std::vector<glm::vec3> colors = run_colors(possible, scheme, extras);
   povray::ColorTable all;
   const auto add = [&](const povray::SceneColor& color) {
@@ -72,7 +74,7 @@ povray::SequenceScene sequence_of(FigureRun& run, povray::SceneOptions options) 
   shared.translucent = std::ranges::any_of(scheme.opacities, sees_through);
   shared.map = scheme.volume;
   shared.maps_change = scheme.by == ColorScheme::By::lipophilicity;
-  for (const FigureObjectRequest& object : figure.objects) {
+  for (const FigureObjectRequest& object : all_requests(figure.objects, possible)) {
     shared.objects.push_back({!object.shapes, false});
     if (!object.material.empty()) shared.materials.push_back(object.material);
     shared.translucent = shared.translucent || std::ranges::any_of(object.opacities, sees_through);

@@ -159,7 +159,8 @@ void add_more(const SceneCommand& command, const Figure& figure, const Camera& c
   for (std::size_t n = 0; n < figure.extras.objects.size(); ++n) {
     const FigureObject& object = figure.extras.objects[n];
     if (!object.surface && object.shapes.empty()) continue;
-    const PictureObject requested = picture_object(object, command.scene.figure.objects[n], camera, balls);
+    const FigureObjectRequest& request = request_of(command.scene.figure.objects, n);
+    const PictureObject requested = picture_object(object, request, camera, balls);
     std::vector<std::uint32_t> cap_plane;
     if (!object.surface) {
       made.push_back(shape_object(shown.atoms, object.shapes, tolerance));
@@ -169,7 +170,7 @@ void add_more(const SceneCommand& command, const Figure& figure, const Camera& c
       made.push_back({*object.surface, std::move(capped.mesh)});
     }
     SurfaceObject& own = made.back().object;
-    own.name = fmt::format("object {}", n + 1);
+    own.name = request.is_companion ? "ligands and ions" : fmt::format("object {}", n + 1);
     TriangleMesh& mesh = made.back().mesh;
     if (!object.surface && own.coloring.hides_some()) mesh = shown_part(std::move(mesh), own.coloring);
     objects.push_back({own,
@@ -276,7 +277,7 @@ void add_more(const Scene& requested, const Figure& figure, std::span<const Atom
       scene.items.push_back(path_tracers::shapes_item(atoms, object.shapes, scene.origin));
       continue;
     }
-    const PictureObject shown = picture_object(object, requested.figure.objects[n], scene.camera, balls);
+    const PictureObject shown = picture_object(object, request_of(requested.figure.objects, n), scene.camera, balls);
     scene.items.push_back(item_of(*object.surface, shown.clip, shown.cap, tolerance, scene.origin));
   }
 }

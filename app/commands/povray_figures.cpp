@@ -58,7 +58,7 @@ std::vector<povray::SceneObject> povray_objects(const Figure& figure, const Figu
   for (std::size_t n = 0; n < figure.extras.objects.size(); ++n) {
     const FigureObject& object = figure.extras.objects[n];
     if (!keeps_empty && !object.surface && object.shapes.empty()) continue;
-    const PictureObject shown = picture_object(object, request.objects[n], camera, balls);
+    const PictureObject shown = picture_object(object, request_of(request.objects, n), camera, balls);
     povray::SceneObject& made = more.emplace_back();
     if (object.surface)
       made.surface = &*object.surface;
@@ -134,7 +134,7 @@ povray::Run shared_by(Storyboard& storyboard) {
     all.caps = all.caps || (!requested.figure.hides_surface && !requested.figure.cuts.empty());
     all.shapes = all.shapes || !requested.figure.representations.empty();
     all.translucent = all.translucent || sees_through(requested.molecule.color.opacities);
-    for (const FigureObjectRequest& object : requested.figure.objects) {
+    for (const FigureObjectRequest& object : all_requests(requested.figure.objects, scene.run.structure())) {
       all.objects.push_back({!object.shapes, false});
       if (!object.material.empty()) all.materials.push_back(object.material);
       all.translucent = all.translucent || sees_through(object.opacities);
@@ -187,7 +187,8 @@ std::vector<povray::SceneObject> objects_of(Storyboard& storyboard, std::size_t 
       objects.insert(objects.end(), own.begin(), own.end());
       continue;
     }
-    for (const FigureObjectRequest& object : storyboard.scene(n).run.scene().figure.objects)
+    const FigureRun& run = storyboard.scene(n).run;
+    for (const FigureObjectRequest& object : all_requests(run.scene().figure.objects, run.structure()))
       objects.emplace_back().material = object.material;
   }
   return objects;

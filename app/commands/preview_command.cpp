@@ -137,8 +137,15 @@ Structure ShownReader::operator()(const FigureRequest& figure, std::size_t frame
     wanted.reading.model.number = static_cast<int>(frame) + 1;
   }
   if (!frames_.is_requested()) return read_molecule(wanted);
-  FrameRun run(wanted, frames_);
-  return run.at(run.chunk()[frame]);
+  std::string marks = wanted.reading.secondary_structure ? "secondary" : "";
+  for (const ShownAtoms& shown : wanted.reading.shown)
+    marks += fmt::format("\n{} {} {}", shown.option, shown.each_is_drawn, shown.atoms.text());
+  marks += fmt::format("\n{}", wanted.reading.companions == Companions::drawn);
+  if (!open_->run || open_->marks != marks) {
+    open_->run = std::make_unique<FrameRun>(wanted, frames_);
+    open_->marks = std::move(marks);
+  }
+  return open_->run->at(open_->run->chunk()[frame]);
 }
 
 Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, const ColorScheme& color,

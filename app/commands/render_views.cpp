@@ -83,7 +83,7 @@ ColoredAtoms colored_atoms(const MoleculeRequest& request, const ColorScheme& co
   std::iota(all.begin(), all.end(), 0u);
   atoms.coloring = color_object(structure, all, atoms.molecule.color, 0);
   if (request.show) atoms.coloring.hidden = hidden_atoms(*request.show, structure);
-  if (request.patches) atoms.coloring.in_patch = patch_atoms(*request.patches, structure.atoms);
+  if (request.patches) atoms.coloring.in_patch = patch_atoms(*request.patches, structure);
   return atoms;
 }
 

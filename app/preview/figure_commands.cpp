@@ -95,7 +95,7 @@ Outcome set_patches(const CommandReader& command, PreviewState state, const Surr
     state.patches.reset();
   if (command.has("selection")) {
     state.patches = command.selection();
-    command.naming([&] { return patch_atoms(*state.patches, around.molecule.frame_structure().atoms); });
+    command.naming([&] { return patch_atoms(*state.patches, around.molecule.annotated_structure()); });
   }
   return {std::move(state), Renewal::colors};
 }

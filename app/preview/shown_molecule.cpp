@@ -191,10 +191,11 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
   if (!structure_.instances.empty() && !(figure.figure.plain() && figure.color.opacities.empty()))
     throw RequestError("copies of one surface (--instances) are shown whole and opaque; leave --instances out");
   require_colors_shared(structure_, figure.color);
-  if (renewal >= Renewal::colors) made.coloring = color_atoms(structure_, figure.color);
   if (renewal >= Renewal::shapes) {
     made.marked.reset();
-    if (!figure.figure.representations.empty() || !figure.figure.objects.empty()) {
+    const bool has_companions =
+        structure_.companions != Companions::none && read_shown_ && structure_.file != "standard input";
+    if (!figure.figure.representations.empty() || !figure.figure.objects.empty() || has_companions) {
       if (!read_shown_)
         throw RequestError("this molecule cannot be read again, so nothing can be drawn beside its surface");
       Structure marked = read_shown_(figure.figure, frame);
@@ -204,6 +205,9 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
         throw InputError(structure_.file, 0, "has other atoms than when the preview began; start the preview again");
     }
   }
+  // Rules such as "within 4 of ligand" see the atoms beside the surface, unless the file has several models.
+  const bool is_whole = made.marked && made.marked->atoms.size() == structure_.atoms.size();
+  if (renewal >= Renewal::colors) made.coloring = color_atoms(is_whole ? *made.marked : structure_, figure.color);
   if (!made.marked)
     made.extras.reset();
   else if (renewal >= Renewal::colors)
@@ -277,7 +281,7 @@ Coloring ShownMolecule::coloring(const PreviewFigure& figure) const {
 
 std::vector<bool> ShownMolecule::patch_marks(const PreviewFigure& figure) const {
   if (!figure.patches) return {};
-  std::vector<bool> marks = figure.patches->evaluate(frame_structure().atoms);
+  std::vector<bool> marks = figure.patches->evaluate(annotated_structure());
   if (figure.least_patch <= 0.0 || std::ranges::find(marks, true) == marks.end()) return marks;
   std::vector<AtomGroup> groups(1);  // that have a surface each: all, or what is copied together
   for (std::uint32_t a = 0; a < balls_.size(); ++a) groups[0].atoms.push_back(a);

@@ -218,7 +218,13 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target, 
   options.shadows = view.figure.look.shadows.value_or(0.0f);
   options.shadow_softness = look_of(view.figure.look, view.size, std::nullopt, Hues::free).shadow_softness;
   options.colors = view.colors;
-  if (view.extras) options.shapes = &view.extras->shapes;
+  std::vector<povray::SceneObject> companions;
+  if (view.extras) {
+    options.shapes = &view.extras->shapes;
+    for (const FigureObject& object : view.extras->objects)
+      if (!object.shapes.empty()) companions.emplace_back().shapes = &object.shapes;
+  }
+  options.objects = companions;
   options.film = figure.thickens;
   options.cut.style = figure.cap;
   const std::vector<SurfaceObject> surfaces = complete_surfaces(view, watch).first;

@@ -81,7 +81,7 @@ std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& 
 void paint(const Structure& structure, std::span<const std::uint32_t> atom, const std::vector<ColorRule>& rules,
            Coloring& coloring) {
   for (const ColorRule& rule : rules) {
-    const std::vector<bool> meant = rule.atoms.evaluate(structure.atoms);
+    const std::vector<bool> meant = rule.atoms.evaluate(structure);
     if (std::ranges::none_of(meant, std::identity())) continue;
     const std::vector<glm::vec3> colors = colors_of(structure, rule.paint);
     for (std::size_t n = 0; n < atom.size(); ++n)
@@ -100,7 +100,7 @@ std::vector<float> opacities_of(const Structure& structure, const std::vector<Op
     opacities.resize(structure.atoms.size(), 1.0f);
     if (!rule.atoms) std::ranges::fill(opacities, rule.opacity);
     if (!rule.atoms) continue;
-    const std::vector<bool> meant = rule.atoms->evaluate(structure.atoms);
+    const std::vector<bool> meant = rule.atoms->evaluate(structure);
     for (std::size_t a = 0; a < opacities.size(); ++a)
       if (meant[a]) opacities[a] = rule.opacity;
   }

@@ -78,7 +78,7 @@ std::vector<std::vector<bool>> painted_atoms(const Structure& structure, const s
     const Selection& atoms = rules[rule].atoms;
     const bool changes = drawn.in_a_run && atoms.uses_positions();
     std::vector<bool>& own = painted[rule + 1];
-    own = changes ? atoms.possible(structure.atoms).selected : atoms.evaluate(structure.atoms);
+    own = changes ? atoms.possible(structure.atoms).selected : atoms.evaluate(structure);
     for (std::size_t a = 0; a < own.size(); ++a) {
       own[a] = own[a] && left[a];
       if (!changes) left[a] = left[a] && !own[a];

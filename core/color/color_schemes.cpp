@@ -188,15 +188,15 @@ ColorRule parse_color_rule(std::string_view text) {
 
 std::vector<std::string> rules_without_atoms(const Structure& structure, const ColorScheme& scheme) {
   std::vector<std::string> texts;
-  const auto means_some = [](const Selection& atoms, std::span<const Atom> among) {
+  const auto means_some = [](const Selection& atoms, const auto& among) {
     return std::ranges::any_of(atoms.evaluate(among), std::identity());
   };
   // Opacity applies only to the surface; sticks and other shapes have colours, too.
   for (const ColorRule& rule : scheme.rules)
-    if (!means_some(rule.atoms, structure.atoms) && !means_some(rule.atoms, structure.extra_atoms))
+    if (!means_some(rule.atoms, structure) && !means_some(rule.atoms, structure.extra_atoms))
       texts.push_back(rule.atoms.text());
   for (const OpacityRule& rule : scheme.opacities)
-    if (rule.atoms && !means_some(*rule.atoms, structure.atoms)) texts.push_back(rule.atoms->text());
+    if (rule.atoms && !means_some(*rule.atoms, structure)) texts.push_back(rule.atoms->text());
   return texts;
 }
 

@@ -151,6 +151,9 @@ constexpr auto kTable = std::to_array<Property>({
     text("figure.glycans", "--glycans", "EXPR",
          "Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours: @color snfg@")
         .in(kBeside, in_bundle | live | repeatable | in_short_help),
+    flag("shapes.bare", "--bare",
+         "Draw no ligands and ions beside the surface of a polymer. Objects that are named stay")
+        .in(kFigure, kSeen | live),
     number("shapes.stick_radius", "--stick-radius", "Å", "Radius of sticks in Å, also of bases and between glycans")
         .from(0.001, 10)
         .initially("0.25; 0.15 between balls")

@@ -98,6 +98,7 @@ std::vector<Ball> Figure::balls() const {
 void FigureRequest::mark_atoms(ReadOptions& reading) const {
   representations.mark_atoms(reading);
   meniscus::mark_atoms(objects, reading);
+  reading.companions = bare ? Companions::hidden : Companions::drawn;
 }
 
 void FigureRequest::check() const {
@@ -161,7 +162,7 @@ std::vector<std::string> ineffective_cuts(const FigureRequest& request, const Fi
     const FigureObject& object = figure.extras.objects[n];
     if (!object.surface || object.surface->surface.atoms.empty()) continue;
     const std::vector<Ball> shown = shown_balls({&*object.surface, 1});
-    for (const std::string& sentence : ineffective_cuts(request.objects[n].cuts, object.cut_atoms,
+    for (const std::string& sentence : ineffective_cuts(request_of(request.objects, n).cuts, object.cut_atoms,
                                                         {camera, balls, shown}, object.surface->surface.atoms))
       sentences.push_back(fmt::format("{}, of object {}", sentence, n + 1));
   }
@@ -195,7 +196,7 @@ std::vector<PictureObject> picture_objects(const Surface& surface, const Colorin
   for (std::size_t n = 0; extras && n < extras->objects.size(); ++n) {
     const FigureObject& object = extras->objects[n];
     if (object.surface || !object.shapes.empty())
-      shown.push_back(picture_object(object, request.objects[n], camera, atoms));
+      shown.push_back(picture_object(object, request_of(request.objects, n), camera, atoms));
   }
   if (shown.empty()) throw RequestError(kNothingShown);
   if (request.cuts_all)

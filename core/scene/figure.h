@@ -67,10 +67,11 @@ struct FigureRequest {
   CapStyle cap;                     ///< the look of cut faces
   bool thickens = false;            ///< PictureObject::thickens
   bool hides_surface = false;       ///< true: the surface is not drawn, only what is drawn in addition to it
+  bool bare = false;                ///< true: companions (read_structure.h) are not drawn
   Representations representations;  ///< drawn in addition to the surface
   std::vector<FigureObjectRequest> objects;
 
-  /// Makes read_structure mark and keep the atoms of everything drawn in addition to the surface.
+  /// Makes read_structure mark and keep the atoms of everything drawn in addition to the surface, and companions.
   void mark_atoms(ReadOptions& reading) const;
 
   /// Throws RequestError if the surface is hidden and nothing else is drawn.
@@ -86,7 +87,7 @@ struct FigureRequest {
 /// Atoms are places in shown_atoms().
 struct FigureExtras {
   ColoredShapes shapes;               ///< shapes of FigureRequest::representations
-  std::vector<FigureObject> objects;  ///< one per FigureRequest::objects
+  std::vector<FigureObject> objects;  ///< one per FigureRequest::objects, and one for companions if there are any
   CutAtoms cut_atoms;                 ///< atoms of FigureRequest::cuts
 
   bool empty() const { return shapes.empty() && objects.empty(); }

@@ -46,6 +46,16 @@ void mark(const FigureObject& object, const FigureObjectRequest& request, std::v
     mark(object.shapes, atoms);
 }
 
+/// Keeps the atoms that rules colour. A legend does not explain the elements of companions.
+void keep_ruled(const ColorScheme& scheme, const Structure& structure, std::vector<bool>& atoms) {
+  std::vector<bool> ruled(atoms.size(), false);
+  for (const ColorRule& rule : scheme.rules) {
+    const std::vector<bool> selected = rule.atoms.evaluate(structure.atoms);
+    for (std::size_t a = 0; a < ruled.size(); ++a) ruled[a] = ruled[a] || selected[a];
+  }
+  for (std::size_t a = 0; a < atoms.size(); ++a) atoms[a] = atoms[a] && ruled[a];
+}
+
 }  // namespace
 
 ColorKey figure_key(const Structure& structure, const ColorScheme& scheme, DrawnAtoms drawn,
@@ -63,10 +73,11 @@ ColorKey figure_key(const Structure& structure, const ColorScheme& scheme, Drawn
       backbones[atom] = true;
       shapes[atom] = false;
     }
+  const std::vector<FigureObjectRequest> requests = all_requests(request.objects, structure);
   for (std::size_t n = 0; n < extras.objects.size(); ++n) {
-    if (request.objects[n].color) continue;
-    const auto& kind = request.objects[n].shapes;
-    mark(extras.objects[n], request.objects[n], !kind ? drawn.atoms : kind == Kind::backbone ? backbones : shapes);
+    if (requests[n].has_own_colors()) continue;
+    const auto& kind = requests[n].shapes;
+    mark(extras.objects[n], requests[n], !kind ? drawn.atoms : kind == Kind::backbone ? backbones : shapes);
   }
   const bool of_surfaces =
       scheme.by == By::automatic || scheme.by == By::kind || scheme.by == By::component || scheme.of_points();
@@ -76,11 +87,12 @@ ColorKey figure_key(const Structure& structure, const ColorScheme& scheme, Drawn
     if (of_surfaces && any_of(*atoms))
       add_key(key, color_key(all, extras_scheme(structure, count, scheme, kind), {.atoms = *atoms}), "beside");
   for (std::size_t n = 0; n < extras.objects.size(); ++n) {
-    if (!request.objects[n].color) continue;
+    if (!requests[n].has_own_colors()) continue;
     std::vector<bool> own(count, false);
-    mark(extras.objects[n], request.objects[n], own);
-    const ColorScheme color = scheme_of(request.objects[n], structure, count, scheme);
-    const std::string name = request.objects[n].atoms.text();
+    mark(extras.objects[n], requests[n], own);
+    const ColorScheme color = scheme_of(requests[n], structure, count, scheme);
+    const std::string name = requests[n].atoms.text();
+    if (requests[n].is_companion) keep_ruled(color, all, own);
     if (!any_of(own)) continue;
     if (color.by == By::fixed && color.rules.empty())
       key.classes.push_back({name, color.fixed});

@@ -71,6 +71,11 @@ const std::vector<Need>& needs_of_scenes() {
       {{"surface.cap_color", "surface.cap_hatching", "surface.clip_all"},
        {"surface.clip", "camera.look_into"},
        "nothing is cut; add @clip PLANE@"},
+      {{"shapes.bare"},
+       [](const GivenScene& given) {
+         return !given.any({"molecule.select", "molecule.instances", "surface.interface"});
+       },
+       "beside atoms that are selected, and copies of one surface, only what is named is drawn"},
       {{"surface.film_opacity"}, {"surface.opacity"}, "all of the surface is opaque; add @opacity@"},
       {{"shapes.stick_radius"},
        {"figure.sticks", "figure.balls", "figure.bases", "figure.glycans"},

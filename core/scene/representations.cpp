@@ -28,7 +28,7 @@ void Representations::mark_atoms(ReadOptions& reading) const {
     throw RequestError(
         message("@instances@: copies of one surface cannot be drawn with sticks, balls or spheres; leave it out"));
   for (const RepresentationRequest& request : requests) {
-    reading.shown.push_back({shape_word(request.kind), request.atoms});
+    reading.shown.push_back({shape_word(request.kind), request.atoms, draws_each_atom(request.kind)});
     // It is found for all atoms of the file, because hydrogen bonds lead to residues that are not shown.
     if (request.kind == Kind::backbone) reading.secondary_structure = true;
   }
@@ -74,7 +74,8 @@ ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorSc
   for (ColorRule& rule : scheme.rules) rule.paint = with_scale_of(structure, shown, std::move(rule.paint));
   if (!scheme.has_scale() || scheme.of_points()) return scheme;
   const ColorScale scale = color_scale(structure, scheme);
-  if (scale.map == ColorMap::categorical && shown > structure.atoms.size())
+  const auto has_number = [](const Atom& atom) { return (atom.shown & ~kCompanionBits) != 0; };
+  if (scale.map == ColorMap::categorical && std::ranges::any_of(structure.extra_atoms, has_number))
     throw RequestError(
         message("@map categorical@: atoms beside the surface may have numbers that it has no colour for; choose "
                 "another @map@"));

@@ -26,6 +26,12 @@ struct RepresentationRequest {
 inline constexpr const char* kShapeWords[] = {"sticks", "balls", "spheres", "tube", "bases", "glycans"};
 constexpr const char* shape_word(RepresentationRequest::Kind kind) { return kShapeWords[static_cast<int>(kind)]; }
 
+/// True if a shape shows every atom, or the whole sugar, that it is made of.
+constexpr bool draws_each_atom(RepresentationRequest::Kind kind) {
+  using Kind = RepresentationRequest::Kind;
+  return kind != Kind::backbone && kind != Kind::bases;
+}
+
 /// Radii of shapes, Å; nothing: the default radii.
 struct ShapeRadii {
   std::optional<double> stick_radius;  ///< of bases, too; default: kStickRadius, with balls kThinStickRadius

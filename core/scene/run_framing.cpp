@@ -108,6 +108,16 @@ glm::dvec3 mean_center(std::span<const Ball> balls) {
   return sum / static_cast<double>(balls.size());
 }
 
+/// Returns the balls of some atoms. followed: one value for each of shown_atoms().
+std::vector<Ball> followed_balls(const Structure& structure, const std::vector<bool>& followed) {
+  const auto beside = followed.begin() + static_cast<std::ptrdiff_t>(structure.atoms.size());
+  std::vector<Ball> balls = standing_balls(structure, {followed.begin(), beside});
+  for (std::size_t n = 0; n < structure.extra_atoms.size() && structure.atoms.size() + n < followed.size(); ++n)
+    if (beside[static_cast<std::ptrdiff_t>(n)])
+      balls.push_back({structure.extra_atoms[n].position, structure.extra_atoms[n].radius});
+  return balls;
+}
+
 /// The differences between the camera of each frame and the camera that the run starts with.
 class CameraCourse {
  public:
@@ -122,14 +132,14 @@ class CameraCourse {
                   "show it N times"));
     if (!motion.follow) return;
     followed_ = followed_of(frames.first());
-    start_ = mean_center(standing_balls(frames.first_shown(), followed_));
+    start_ = mean_center(followed_balls(frames.first_shown(), followed_));
     follows_others_ = run.atoms_change() || motion.follow->uses_positions();
   }
 
   bool follows() const { return !followed_.empty(); }
   glm::dvec3 shift(const Structure& read, const Structure& shown) const {
     if (!follows()) return glm::dvec3(0.0);
-    return mean_center(standing_balls(shown, follows_others_ ? followed_of(read) : followed_)) - start_;
+    return mean_center(followed_balls(shown, follows_others_ ? followed_of(read) : followed_)) - start_;
   }
   double angle(std::uint64_t place) const {
     return 2.0 * std::numbers::pi * motion_.turns * static_cast<double>(place) / count_;
@@ -138,7 +148,7 @@ class CameraCourse {
 
  private:
   std::vector<bool> followed_of(const Structure& structure) const {
-    std::vector<bool> followed = motion_.follow->evaluate(structure.atoms);
+    std::vector<bool> followed = motion_.follow->evaluate(shown_atoms(structure));
     if (std::ranges::find(followed, true) == followed.end())
       throw RequestError(message("@follow {}@: selects none of the {} atoms of the surface{}",
                                  in_quotes(motion_.follow->text()), with_thousands(followed.size()),
@@ -184,7 +194,8 @@ void include(const Structure& structure, RunExtent& extent) {
   };
   for (const Ball& ball : standing_balls(structure))
     for (Box* const box : {&extent.surface, &extent.shown}) include_ball(ball, *box);
-  for (const Atom& atom : structure.extra_atoms) include_ball({atom.position, atom.radius}, extent.shown);
+  for (const Atom& atom : structure.extra_atoms)
+    if (is_drawn_beside(atom)) include_ball({atom.position, atom.radius}, extent.shown);
 }
 
 }  // namespace

@@ -189,6 +189,7 @@ Written write_objects(const Property&, const Scene& scene) {
 
 constexpr auto kSurfaceRows = std::to_array<SceneValue>({
     plain("surface.shown", [](auto& s) { return &s.figure.hides_surface; }),
+    plain("shapes.bare", [](auto& s) { return &s.figure.bare; }),
     coded<parse_interface, interface_text>("surface.interface", [](auto& s) { return &s.molecule.interface; }),
     worded<SurfaceKind::ses, SurfaceKind::sas, SurfaceKind::vdw>("surface.kind",
                                                                  [](auto& s) { return &s.molecule.surface.kind; }),

@@ -71,8 +71,8 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
     shown_.flip();
   }
   framed_ = shown_;
-  for (std::size_t a = 0; a < framed_.size(); ++a) framed_[a] = framed_[a] || structure.atoms[a].shown != 0;
-  frames_extra_.assign(structure.extra_atoms.size(), true);
+  for (std::size_t a = 0; a < framed_.size(); ++a) framed_[a] = framed_[a] || is_drawn_beside(structure.atoms[a]);
+  for (const Atom& atom : structure.extra_atoms) frames_extra_.push_back(is_drawn_beside(atom));
   frames_all_ = !request.zoom_to;
   if (request.zoom_to) {
     const std::vector<Atom> atoms = shown_atoms(structure);

@@ -118,7 +118,7 @@ void place_objects(const std::vector<PictureObject>& objects, const SurfaceObjec
     const auto own = std::ranges::find_if(extras.objects, same);
     if (own != extras.objects.end())
       made = {own->surface ? &*own->surface : nullptr, own->surface ? nullptr : &own->shapes,
-              request.objects[static_cast<std::size_t>(own - extras.objects.begin())].color.has_value()};
+              request_of(request.objects, static_cast<std::size_t>(own - extras.objects.begin())).has_own_colors()};
     else
       made = {object->surface ? &whole : nullptr, object->shapes ? &extras.shapes : nullptr, false};
     if (object->surface && object->surface->probe_radius > 0.0) {

@@ -279,6 +279,15 @@ std::vector<bool> Selection::evaluate(std::span<const Atom> atoms) const {
   return evaluation.pop();
 }
 
+std::vector<bool> Selection::evaluate(const Structure& structure) const {
+  if (structure.extra_atoms.empty()) return evaluate(structure.atoms);
+  std::vector<Atom> atoms = structure.atoms;
+  atoms.insert(atoms.end(), structure.extra_atoms.begin(), structure.extra_atoms.end());
+  std::vector<bool> selected = evaluate(atoms);
+  selected.resize(structure.atoms.size());
+  return selected;
+}
+
 std::vector<bool> Selection::names(std::span<const Atom> atoms) const {
   std::set<std::string> names_of_others;
   for (const Atom& atom : atoms) {

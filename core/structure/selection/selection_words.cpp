@@ -133,6 +133,10 @@ Water and free ions:
   selects them, unless @keep-water@ or @keep-ions@ is given or the expression names them: water by the
   keyword or its residue name; ions by the keyword, residue name, element or atom name (a name that other
   atoms of the file also have, such as CA, does not name an ion). Then the expression decides.
+
+Without @select@:
+  The surface is that of the polymers of the file, with modified residues and bound sugars. Files without
+  a polymer are taken whole. @select all@ takes ligands and lipids, too.
 )";
 
 }  // namespace
