@@ -103,7 +103,7 @@ strip() {
   /usr/bin/python3 - docs/gallery "$work/strip.png" <<'EOF'
 import sys
 from PIL import Image
-PARTS = {"potential": (0, 60, 690, 615), "cut": (20, 30, 780, 640), "film": (602, 243, 898, 479), "blender": (95, 0, 805, 675)}
+PARTS = {"potential": (0, 60, 690, 615), "pocket": (0, 0, 900, 675), "film": (602, 243, 898, 479), "blender": (95, 0, 805, 675)}
 strip = Image.new("RGB", (1600, 322), "white")
 for place, (name, part) in enumerate(PARTS.items()):
     image = Image.open(f"{sys.argv[1]}/{name}.jpg").crop(part)

@@ -129,7 +129,7 @@ void run_paper(BenchCommand& command) {
   std::vector<PaperBenchMolecule> molecules;
   for (const std::string& file : command.files) {
     command.scene.molecule.file = file;
-    molecules.push_back({std::filesystem::path(file).filename().string(), balls_of(read_and_tell(command))});
+    molecules.push_back({std::filesystem::path(file).filename().string(), balls_of(read_and_log(command))});
   }
   print_paper_tables(molecules, settings);
 }
@@ -142,7 +142,7 @@ void run(BenchCommand& command) {
   std::vector<Row> rows;
   for (const std::string& file : command.files) {
     command.scene.molecule.file = file;
-    rows.push_back(measure(read_and_tell(command), command, progress));
+    rows.push_back(measure(read_and_log(command), command, progress));
   }
   print_table(rows);
 }
@@ -167,12 +167,12 @@ void add_bench(CLI::App& command) {
   options.add("bench.paper", state.paper);
   declared->options.option("image.size")->description("With --paper: size of the frames in pixels [1024x768]");
   command.callback([declared] {
-    BenchCommand& asked = declared->state;
-    asked.scene.molecule.surface.timing = StageTiming::exact;
+    BenchCommand& requested = declared->state;
+    requested.scene.molecule.surface.timing = StageTiming::exact;
     declared->options.take();
     if (!declared->options.is_given("image.size"))
-      std::tie(asked.scene.picture.width, asked.scene.picture.height) = std::pair(1024, 768);
-    run(asked);
+      std::tie(requested.scene.picture.width, requested.scene.picture.height) = std::pair(1024, 768);
+    run(requested);
   });
 }
 

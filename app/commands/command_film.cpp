@@ -84,9 +84,9 @@ class PictureFilm : public FilmMaker {
     constexpr std::uint64_t kBytesPerPixel = 100;  // as in `meniscus render`
     storyboard_.play(*this, device_.context(), kBytesPerPixel);
     pictures_.finish();
-    say(command_, fmt::format("{} pictures, {:.1f} s: {}", with_thousands(pictures_.count()),
-                              static_cast<double>(pictures_.count()) / command_.scene.film.frames_per_second,
-                              command_.scene.output));
+    log_line(command_, fmt::format("{} pictures, {:.1f} s: {}", with_thousands(pictures_.count()),
+                                   static_cast<double>(pictures_.count()) / command_.scene.film.frames_per_second,
+                                   command_.scene.output));
   }
 
  private:

@@ -21,6 +21,7 @@
 #include "core/base/text.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
+#include "core/structure/outside_polymer.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 
 namespace meniscus {
@@ -80,16 +81,22 @@ void print_radii(const Structure& structure) {
   }
 }
 
-/// Returns the number of atoms that a surface would use: water and ions only if they are requested or named.
+/// Returns the number of atoms that a surface would use: water and ions only if they are requested or named, and
+/// ligands of a file with a polymer only if atoms are selected.
 std::size_t count_taken(const Structure& structure, const ReadOptions& options) {
   std::vector<bool> named(structure.atoms.size());
-  if (options.selection) named = options.selection->names(structure.atoms);
+  OutsidePolymer outside;
+  if (options.selection)
+    named = options.selection->names(structure.atoms);
+  else
+    outside = outside_polymer(structure.atoms, {});
   std::size_t taken = 0;
   for (std::size_t n = 0; n < structure.atoms.size(); ++n) {
     const AtomClass kind = structure.atoms[n].kind;
     const bool unwanted =
         (kind == AtomClass::water && !options.keep_water) || (kind == AtomClass::ion && !options.keep_ions);
-    taken += unwanted && !named[n] ? 0 : 1;
+    const bool is_outside = !outside.part.empty() && outside.part[n] != OutsidePolymer::Part::inside;
+    taken += (unwanted && !named[n]) || is_outside ? 0 : 1;
   }
   return taken;
 }
@@ -118,7 +125,7 @@ void print_ranges(const Structure& structure) {
 /// The atoms of a topology have the positions of the first frame.
 void print_structure(const SceneCommand& command, Trajectory* trajectory) {
   ReadOptions everything = command.scene.molecule.reading;
-  everything.keep_water = everything.keep_ions = true;
+  everything.keep_water = everything.keep_ions = everything.takes_ligands = true;
   if (everything.unknown_element == UnknownElement::halt) everything.unknown_element = UnknownElement::guess;
   everything.list_assemblies = true;
   if (trajectory) {
@@ -137,7 +144,7 @@ void print_structure(const SceneCommand& command, Trajectory* trajectory) {
   print_classes_and_chains(structure);
   print_radii(structure);
   print_assemblies(structure);
-  say_warnings(command, structure);
+  log_warnings(command, structure);
 }
 
 void run(const SceneCommand& command, const std::string& trajectory_path) {

@@ -36,16 +36,16 @@ CommonAtoms read_common(const MorphCommand& command) {
   std::vector<std::vector<bool>> fitted;
   for (const std::string& file : command.files) {
     reading.scene.molecule.file = file;
-    structures.push_back(read_and_tell(reading));
+    structures.push_back(read_and_log(reading));
     const std::vector<Atom>& atoms = structures.back().atoms;
     fitted.push_back(superposed ? superposed->evaluate(atoms) : std::vector<bool>(atoms.size(), true));
   }
   CommonAtoms common = common_atoms(structures, fitted);
   for (std::size_t n = 0; n < common.fits.size(); ++n)
-    say(command, fmt::format("{} is superposed on {} by {} atoms with an RMSD of {:.3f} Å", command.files[n + 1],
-                             command.files.front(), with_thousands(common.fits[n].atoms), common.fits[n].rmsd));
-  say(command, fmt::format("{} of {} atoms are in all structures", with_thousands(common.atoms.size()),
-                           with_thousands(structures.front().atoms.size())));
+    log_line(command, fmt::format("{} is superposed on {} by {} atoms with an RMSD of {:.3f} Å", command.files[n + 1],
+                                  command.files.front(), with_thousands(common.fits[n].atoms), common.fits[n].rmsd));
+  log_line(command, fmt::format("{} of {} atoms are in all structures", with_thousands(common.atoms.size()),
+                                with_thousands(structures.front().atoms.size())));
   return common;
 }
 
@@ -55,8 +55,8 @@ struct PathFaults {
   double step = 0.0;     ///< longest step of an atom from a model to the next, Å
   double overlap = 0.0;  ///< largest Morph::overlap() of a model
 
-  void look(const Morph& morph, std::size_t stop, double share, const std::vector<glm::dvec3>& before,
-            const std::vector<glm::dvec3>& now) {
+  void include(const Morph& morph, std::size_t stop, double share, const std::vector<glm::dvec3>& before,
+               const std::vector<glm::dvec3>& now) {
     const std::size_t next = std::min(stop + 1, morph.stops() - 1);
     const auto length = [](const std::vector<glm::dvec3>& x, const Bond& bond) {
       return glm::distance(x[bond[0]], x[bond[1]]);
@@ -79,7 +79,7 @@ void run(const MorphCommand& command) {
   PathFaults faults;
   std::vector<glm::dvec3> before;
   const auto add = [&](std::size_t stop, double share, std::vector<glm::dvec3> now) {
-    faults.look(morph, stop, share, before, now);
+    faults.include(morph, stop, share, before, now);
     models.add(now);
     before = std::move(now);
   };
@@ -90,10 +90,10 @@ void run(const MorphCommand& command) {
   }
   add(ways, 0.0, morph.at(ways));
   models.commit();
-  say(command,
-      fmt::format("{} models; bonds are within {:.3f} Å of lengths between those at both ends; from a model to "
-                  "the next no atom moves by more than {:.2f} Å",
-                  with_thousands(count), faults.bonds, faults.step));
+  log_line(command,
+           fmt::format("{} models; bonds are within {:.3f} Å of lengths between those at both ends; from a model to "
+                       "the next no atom moves by more than {:.2f} Å",
+                       with_thousands(count), faults.bonds, faults.step));
 }
 
 }  // namespace

@@ -17,11 +17,11 @@
 #include "core/base/progress.h"
 #include "core/base/text.h"
 #include "core/render/image_output.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/panel_page.h"
 #include "core/scene/picture_device.h"
 #include "core/scene/scene_lengths.h"
 #include "core/scene/scene_values.h"
-#include "core/scene/settled_selections.h"
 #include "core/structure/superposition.h"
 
 namespace meniscus {
@@ -48,16 +48,16 @@ std::vector<std::string> words_of_panels(const DeclaredPanels& page) {
 
 SceneCommand read_panel(const std::string& path, const std::vector<std::string>& words, const SceneCommand& page) {
   SceneCommand command = read_scene_file(path, words, page.reporting);
-  command.scene = readied(command.scene);
-  settle_selections(command.scene);
+  command.scene = prepared_scene(command.scene);
+  freeze_selections(command.scene);
   return command;
 }
 
 Structure read_structure(const SceneCommand& command, const std::string& path) {
   const Scene& scene = command.scene;
-  if (!scene.frames.asked()) return read_and_tell(command);
+  if (!scene.frames.is_requested()) return read_and_log(command);
   FrameRun run(scene.molecule, scene.frames);
-  tell_run(command, run);
+  log_run(command, run);
   if (run.numbers().size() != 1)
     throw UsageError(
         fmt::format("{}: a panel shows one frame, and this scene has {}; make a picture of one "
@@ -88,8 +88,8 @@ void superpose(const PanelsCommand& page, std::span<const SceneCommand> panels, 
     const Superposition fit = superposition(first.atoms, moved.atoms, pairs);
     for (std::vector<Atom>* const atoms : {&moved.atoms, &moved.extra_atoms})
       for (Atom& atom : *atoms) atom.position = fit.motion(atom.position);
-    say(page, fmt::format("{} is superposed on {} by {} atoms with an RMSD of {:.3f} Å", page.files[n],
-                          page.files.front(), with_thousands(pairs.size()), fit.rmsd));
+    log_line(page, fmt::format("{} is superposed on {} by {} atoms with an RMSD of {:.3f} Å", page.files[n],
+                               page.files.front(), with_thousands(pairs.size()), fit.rmsd));
   }
 }
 
@@ -108,7 +108,7 @@ std::vector<Panel> read_panels(const PanelsCommand& page, std::span<SceneCommand
     command.scene = scenes[n];
     const std::optional<Camera> given = given_camera(command.scene.picture);
     ViewAim aim(command.scene.picture, command.scene.molecule.show, structures[n]);
-    Figure figure = make_figure(build_and_tell(command, std::move(structures[n])), command.scene.figure);
+    Figure figure = make_figure(build_and_log(command, std::move(structures[n])), command.scene.figure);
     made.push_back({std::move(scenes[n]), std::move(figure), std::move(aim), given});
   }
   return made;
@@ -145,7 +145,7 @@ void run(const DeclaredPanels& declared) {
   }
   check_output(page.scene.output, page.existing());
   PanelPage made(read_panels(page, panels), arrangement);
-  if (!made.conflicts().empty()) say(page, "warning: " + made.conflicts());
+  if (!made.conflicts().empty()) log_line(page, "warning: " + made.conflicts());
   SurfaceRequest request = panels.front().scene.molecule.surface;
   for (const SceneCommand& panel : panels) request.cpu = request.cpu || picture_request(panel.scene).cpu;
   PictureDevice device(request);
@@ -154,8 +154,8 @@ void run(const DeclaredPanels& declared) {
   image.dots_per_inch = first.picture.dots_per_inch;
   Progress progress(progress_on_stderr(page), "panels", panels.size());
   made.write(page.scene.output, device.renderer(), image, [&] { progress.advance(); });
-  say(page,
-      fmt::format("{} panels in {} x {} pixels: {}", panels.size(), made.size().x, made.size().y, page.scene.output));
+  log_line(page, fmt::format("{} panels in {} x {} pixels: {}", panels.size(), made.size().x, made.size().y,
+                             page.scene.output));
 }
 
 }  // namespace

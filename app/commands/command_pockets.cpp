@@ -24,9 +24,9 @@
 #include "core/base/output_file.h"
 #include "core/base/text.h"
 #include "core/queries/cavity_tracks.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/molecule_pockets.h"
 #include "core/scene/scene_paths.h"
-#include "core/scene/settled_selections.h"
 #include "exporters/mesh_files/mesh_file_maker.h"
 #include "exporters/mesh_files/mesh_formats.h"
 
@@ -53,8 +53,8 @@ std::string path_of(const std::string& path, const NumberedStructure& numbered) 
 }
 
 /// Returns the command's scene for a single frame.
-Scene scene_of(const Scene& asked, const std::optional<FrameNote>& note) {
-  Scene scene = asked;
+Scene scene_of(const Scene& requested, const std::optional<FrameNote>& note) {
+  Scene scene = requested;
   if (!note) return scene;
   RunRequest& frames = scene.frames;
   frames.frames = std::to_string(note->frame);
@@ -70,7 +70,7 @@ class PocketTables {
 
   void make() {
     NumberRun run(command_);
-    takes_out_anew_ = run.is_run() && (run.frames().atoms_change() || command_.ligand.uses_positions());
+    removes_per_frame_ = run.is_run() && (run.frames().atoms_change() || command_.ligand.uses_positions());
     left_out_ = taken_out(command_, run.structure());
     if (run.is_run() && !command_.json && command_.csv != "-") std::cout << pocket_row_header();
     run.make(
@@ -88,7 +88,7 @@ class PocketTables {
       const auto numbered = std::make_shared<NumberedStructure>(std::move(given));
       const Structure& structure = numbered->structure;
       const auto pockets = std::make_shared<MoleculePockets>(
-          computer->compute(structure, takes_out_anew_ ? taken_out(command_, structure) : left_out_));
+          computer->compute(structure, removes_per_frame_ ? taken_out(command_, structure) : left_out_));
       return [this, numbered, pockets, computer] {
         return finish({numbered->structure, *pockets, computer->device()}, *numbered);
       };
@@ -99,7 +99,7 @@ class PocketTables {
     const std::optional<FrameNote>& note = numbered.note;
     if (!hinted_)
       for (const std::string& hint : pocket_hints(report))
-        say(command_, note ? fmt::format("note: frame {}: {}", note->frame, hint) : "note: " + hint);
+        log_line(command_, note ? fmt::format("note: frame {}: {}", note->frame, hint) : "note: " + hint);
     hinted_ = true;
     MadeFrame made;
     write_mesh(report, numbered, made);
@@ -130,7 +130,7 @@ class PocketTables {
   void write_mesh(const PocketReport& report, const NumberedStructure& numbered, MadeFrame& made) const {
     if (command_.mesh.empty()) return;
     if (numbered.note && report.pockets.found.pockets.empty())
-      return say(command_, fmt::format("note: frame {} has no pockets, and so no mesh", numbered.note->frame));
+      return log_line(command_, fmt::format("note: frame {} has no pockets, and so no mesh", numbered.note->frame));
     made.files.push_back(path_of(command_.mesh, numbered));
     write_mesh_file(*mesh_format_of_path(command_.mesh), made.files.back(), command_.existing(),
                     pocket_file(pocket_mesh(report.pockets.found, command_.mesh_tolerance)));
@@ -141,14 +141,14 @@ class PocketTables {
     made.files.push_back(path_of(command_.figure, numbered));
     const Scene scene = scene_of(command_.scene, numbered.note);
     OutputFile file(made.files.back(), command_.existing());
-    file.write(pocket_figure(report, scene_text_beside(scene, made.files.back()), command_.ligand.text()));
+    file.write(pocket_figure(report, scene_text_for(scene, made.files.back()), command_.ligand.text()));
     file.commit();
   }
 
   const PocketsCommand& command_;
   GrowingTable rows_;
   CavityTracks tracks_;
-  bool takes_out_anew_ = false;  ///< true if the selection is evaluated in each frame
+  bool removes_per_frame_ = false;  ///< true if the selection is evaluated in each frame
   std::vector<bool> left_out_;
   bool hinted_ = false;
   std::string held_;  ///< for a single molecule: printed once its table is complete
@@ -156,9 +156,9 @@ class PocketTables {
 
 }  // namespace
 
-void print_pockets(const PocketsCommand& asked) {
-  PocketsCommand command = asked;
-  settle_selections(command.scene, {&command.ligand});
+void print_pockets(const PocketsCommand& requested) {
+  PocketsCommand command = requested;
+  freeze_selections(command.scene, {&command.ligand});
   if (const std::string fault = scene_fault(command.scene); !fault.empty() && !command.figure.empty())
     throw UsageError("--figure: " + fault);
   PocketTables(command).make();
@@ -205,7 +205,7 @@ void check_request(const PocketsCommand& command) {
     throw UsageError(
         "--figure: a scene is of a frame of the trajectory, not of one in between; leave --interpolate out");
   std::vector<std::string> paths{command.csv};
-  if (command.scene.frames.asked())
+  if (command.scene.frames.is_requested())
     check_run(command);
   else
     paths.insert(paths.end(), {command.mesh, command.figure});
@@ -257,10 +257,11 @@ void add_pockets(CLI::App& command) {
   options.add("pockets.tolerance", state.mesh_tolerance);
   command.callback([declared] {
     declared->options.take();
-    PocketsCommand& asked = declared->state;
-    asked.pockets.probe_radius = asked.scene.molecule.surface.probe_radius;
-    check_request(asked);
-    print_pockets(asked);
+    PocketsCommand& requested = declared->state;
+    requested.pockets.probe_radius = requested.scene.molecule.surface.probe_radius;
+    requested.scene.molecule.reading.takes_ligands = true;  // --ligand says what is taken out
+    check_request(requested);
+    print_pockets(requested);
   });
 }
 

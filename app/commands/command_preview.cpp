@@ -34,11 +34,11 @@
 #include "core/gpu/egl_context.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/frame_run.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/molecule.h"
 #include "core/scene/picture_device.h"
 #include "core/scene/renderers.h"
 #include "core/scene/run_framing.h"
-#include "core/scene/settled_selections.h"
 #include "core/scene/view_aim.h"
 
 namespace meniscus {
@@ -59,26 +59,26 @@ struct Shown {
 };
 
 Shown read_run(PreviewCommand& command) {
-  const MoleculeRequest& asked = command.scene.molecule;
+  const MoleculeRequest& requested = command.scene.molecule;
   // Numbers per frame belong to a run, in which models have the atoms of the first one.
-  if (command.models && asked.color.uses_file() && color_of(asked).uses_frames()) {
+  if (command.models && requested.color.uses_file() && color_of(requested).uses_frames()) {
     command.scene.frames.frames = "all";
     command.models = false;
   }
   Scene scene = command.scene;
-  if (!scene.frames.asked()) {
+  if (!scene.frames.is_requested()) {
     // Copies belong to one model: of several models the first is shown.
     if (scene.molecule.division.instances != InstanceMode::none) command.models = false;
     SceneCommand reading = command;
     reading.scene.molecule = command.read_molecule_request();
-    return {std::move(scene), read_and_tell(reading), {}, {}};
+    return {std::move(scene), read_and_log(reading), {}, {}};
   }
-  Scene settled = scene;
-  settle_selections(settled);
-  const auto frames = std::make_shared<FrameRun>(settled.molecule, scene.frames);
-  scene.figure = settled.figure;
-  scene.picture = settled.picture;
-  tell_run(command, *frames);
+  Scene frozen = scene;
+  freeze_selections(frozen);
+  const auto frames = std::make_shared<FrameRun>(frozen.molecule, scene.frames);
+  scene.figure = frozen.figure;
+  scene.picture = frozen.picture;
+  log_run(command, *frames);
   if (scene.molecule.division.instances != InstanceMode::none && frames->atoms_change())
     throw UsageError(
         "--instances: copies in the preview have the same atoms in all frames, but --select chooses others in each; "
@@ -109,8 +109,8 @@ std::string reading_line(const std::string& file) {
   return unknown ? "Reading " + name : fmt::format("Reading {}, {:.1f} MB", name, 1e-6 * static_cast<double>(bytes));
 }
 
-Shown read_inputs(PreviewCommand& command, const std::function<void(const std::string&)>& tell) {
-  tell(reading_line(command.scene.molecule.file));
+Shown read_inputs(PreviewCommand& command, const std::function<void(const std::string&)>& show_status) {
+  show_status(reading_line(command.scene.molecule.file));
   const std::optional<Camera> camera = given_camera(command.scene.picture);
   Shown shown = read_run(command);
   shown.camera = camera;
@@ -119,11 +119,12 @@ Shown read_inputs(PreviewCommand& command, const std::function<void(const std::s
     throw UsageError("--color-map-file is for render and export mesh; leave it out");
   color = color_of(shown.scene.molecule);
   require_previewed(color);
-  tell(fmt::format("Preparing {} atoms", with_thousands(shown.structure.atoms.size())));
+  show_status(fmt::format("Preparing {} atoms", with_thousands(shown.structure.atoms.size())));
   if (!command.aims) return shown;
   // Everything drawn counts; a scene's picture is framed as render frames it.
   const FigureRequest& figure = shown.scene.figure;
-  const bool reads_again = !figure.representations.empty() || !figure.objects.empty();
+  const bool reads_again = !figure.representations.empty() || !figure.objects.empty() ||
+                           (shown.structure.companions != Companions::none && command.scene.molecule.file != "-");
   shown.camera =
       aimed_camera(shown.scene, camera, color, reads_again ? ShownReader(command)(figure, 0) : shown.structure);
   return shown;
@@ -139,9 +140,9 @@ std::unique_ptr<PreviewRenderer> make_renderer(const PreviewCommand& command, co
   if (on_gl && apart && placed_count(copies) <= kMostOnGl)
     return make_placed_atoms_renderer(copies, make_gl_preview_renderer());
   if (on_gl)
-    say(command, fmt::format("the CPU draws the copies: {}",
-                             apart ? with_thousands(placed_count(copies)) + " atoms are too many for GL"
-                                   : "each has a surface of its own"));
+    log_line(command, fmt::format("the CPU draws the copies: {}",
+                                  apart ? with_thousands(placed_count(copies)) + " atoms are too many for GL"
+                                        : "each has a surface of its own"));
   return make_cpu_copies_renderer(copies);
 }
 
@@ -152,7 +153,7 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
   static_cast<PreviewFigure&>(view) = figure_of(shown.scene, shown.scene.molecule.color);
   view.copies_apart = command.scene.molecule.division.instances == InstanceMode::exact;
   view.size = command.scene.picture.size();
-  view.wishes = command.wishes;
+  view.export_options = command.export_options;
   SessionContext context;
   context.scene = command.scene;
   context.read_shown = ShownReader(command);
@@ -165,7 +166,7 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
   std::unique_ptr<PreviewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
                                                   command.output_folder, std::move(shown.trajectory), context);
-  for (const std::string& sentence : session->idle_cuts()) say(command, "note: --clip " + sentence);
+  for (const std::string& sentence : session->ineffective_cuts()) log_line(command, "note: --clip " + sentence);
   if (!command.record.empty()) {
     auto log = std::make_shared<CommandLog>(command.record, command.existing());
     session->record([log](const nlohmann::json& line) { log->write(line); });
@@ -173,10 +174,10 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
   return session;
 }
 
-void say_address(const PreviewCommand& command, const std::string& url, std::uint16_t port) {
+void log_address(const PreviewCommand& command, const std::string& url, std::uint16_t port) {
   std::cout << url << std::endl;
-  say(command, fmt::format("from another machine: ssh -L {0}:127.0.0.1:{0} {1}", port, host_name()));
-  say(command, "Ctrl-C ends the preview");
+  log_line(command, fmt::format("from another machine: ssh -L {0}:127.0.0.1:{0} {1}", port, host_name()));
+  log_line(command, "Ctrl-C ends the preview");
 }
 
 std::vector<WrittenCommand> written_commands(const PreviewCommand& command) {
@@ -217,10 +218,10 @@ void serve(DeclaredPreview& declared) {
   ServeOptions options;
   options.port = *command.port;
   options.token = token_of(command);
-  options.ready = [&](const std::string& url, std::uint16_t port) { say_address(command, url, port); };
+  options.ready = [&](const std::string& url, std::uint16_t port) { log_address(command, url, port); };
   const PictureDevice device(command.scene.molecule.surface);
-  const auto make = [&](const std::function<void(const std::string&)>& tell) {
-    return begin_session(declared, device.context() != nullptr, read_inputs(command, tell));
+  const auto make = [&](const std::function<void(const std::string&)>& show_status) {
+    return begin_session(declared, device.context() != nullptr, read_inputs(command, show_status));
   };
   if (commands.empty()) return serve_session(options, make);
   // Replies come before the address.
@@ -230,15 +231,15 @@ void serve(DeclaredPreview& declared) {
   serve_session(options, [&](const auto&) { return std::move(session); });
 }
 
-void say_report(const PreviewCommand& command, const WindowReport& report) {
-  say(command, fmt::format("window on {}, GL {}{}", report.context.renderer, report.context.version,
-                           report.context.software ? " (software)" : ""));
+void log_window_report(const PreviewCommand& command, const WindowReport& report) {
+  log_line(command, fmt::format("window on {}, GL {}{}", report.context.renderer, report.context.version,
+                                report.context.software ? " (software)" : ""));
   if (report.latency.pictures > 0)
-    say(command, fmt::format("from movement to picture: median {:.1f} ms, 95 % within {:.1f} ms, {} pictures; "
-                             "window redrawn {} times in "
-                             "{:.2f} s",
-                             report.latency.median_ms, report.latency.p95_ms, report.latency.pictures,
-                             report.latency.redraws, report.latency.seconds));
+    log_line(command, fmt::format("from movement to picture: median {:.1f} ms, 95 % within {:.1f} ms, {} pictures; "
+                                  "window redrawn {} times in "
+                                  "{:.2f} s",
+                                  report.latency.median_ms, report.latency.p95_ms, report.latency.pictures,
+                                  report.latency.redraws, report.latency.seconds));
 }
 
 /// True if GL draws for a window. It is the GL of the window's display; if that is software, the CPU draws faster by
@@ -269,11 +270,11 @@ void open_window(DeclaredPreview& declared) {
   options.replied = [&](std::size_t index, const nlohmann::json& reply) {
     print_reply(command.commands, commands[index].line, reply, std::cout);
   };
-  const auto make = [&](const EglContext& context, const std::function<void(const std::string&)>& tell) {
+  const auto make = [&](const EglContext& context, const std::function<void(const std::string&)>& show_status) {
     const bool on_gl = draws_on_gl(surface, context);
-    return begin_session(declared, on_gl, read_inputs(command, tell));
+    return begin_session(declared, on_gl, read_inputs(command, show_status));
   };
-  say_report(command, run_window(options, make));
+  log_window_report(command, run_window(options, make));
 }
 
 }  // namespace

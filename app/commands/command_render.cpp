@@ -26,13 +26,13 @@
 #include "core/render/image_output.h"
 #include "core/render/picture_file.h"
 #include "core/scene/frame_run.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/mattes.h"
 #include "core/scene/motion_blur.h"
 #include "core/scene/picture_device.h"
 #include "core/scene/scene_paths.h"
 #include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
-#include "core/scene/settled_selections.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/frame_list.h"
 
@@ -44,30 +44,30 @@ double channel_bytes(const Scene& scene) {
   return 16.0 + (scene.image.aovs ? 72.0 : 0.0) + (scene.image.cryptomatte ? 144.0 : 0.0);
 }
 
-void tell_memory(const RenderCommand& command) {
+void log_memory(const RenderCommand& command) {
   constexpr double kManyPixels = 3e7, kMebibyte = 1 << 20;
   const Scene& scene = command.scene;
   const double pixels = static_cast<double>(scene.picture.width) * scene.picture.height;
   if (pixels < kManyPixels || !is_encoded_in_memory(scene.output)) return;
-  say(command,
+  log_line(
+      command,
       fmt::format("note: {} files are encoded in memory: up to {} MiB beside the picture's bands; .png, .jpg and .tif "
                   "are written as they come",
                   std::filesystem::path(scene.output).extension().string(),
                   with_thousands(static_cast<std::uint64_t>(pixels * channel_bytes(scene) / kMebibyte))));
 }
 
-void tell_hue_changes(const RenderCommand& command) {
+void warn_of_hue_changes(const RenderCommand& command) {
   const std::string changes = hue_changes(command.scene.look);
-  if (changes.empty() || hues_of(command.scene.molecule.color, command.scene.legend.asked(), false) != Hues::kept)
-    return;
-  say(command, "warning: colours of the surface are not those of the legend: " + changes);
+  if (changes.empty() || hues_of(command.scene.molecule.color, false) != Hues::kept) return;
+  log_line(command, "warning: colours of the surface are not those of the legend: " + changes);
 }
 
 /// Sets the default output: the molecule's name, in the current folder.
 void name_output(const CLI::App& program, RenderCommand& command) {
   Scene& scene = command.scene;
   if (!scene.output.empty()) return;
-  if (scene.frames.asked())
+  if (scene.frames.is_requested())
     throw UsageError(
         "-o is missing: name the pictures of the frames, such as frame_#####.png, or a film, such as a.mp4");
   std::filesystem::path name = std::filesystem::path(scene.molecule.file).filename();
@@ -79,7 +79,7 @@ void name_output(const CLI::App& program, RenderCommand& command) {
   files.write("--output", scene.output);
   if (!scene.legend.file.empty()) files.write("--legend-file", scene.legend.file);
   files.check();
-  say(command, "the picture goes to " + scene.output + "; -o PATH sends it elsewhere");
+  log_line(command, "the picture goes to " + scene.output + "; -o PATH sends it elsewhere");
 }
 
 /// Refuses layers and colour spaces that the format of the output cannot hold.
@@ -100,7 +100,7 @@ void check_layers(const Scene& scene) {
 /// Checks the scene before anything is read.
 void check_scene(const RenderCommand& command) {
   const Scene& scene = command.scene;
-  if (scene.frames.asked()) {
+  if (scene.frames.is_requested()) {
     if (is_film_path(scene.output) && !scene.frames.only.empty())
       throw UsageError("--only: a film needs all frames; write the chunk as pictures: frame_#####.png");
     numbered_output(scene.output, scene.film, scene.picture.size());
@@ -118,7 +118,7 @@ void check_scene(const RenderCommand& command) {
     check_image_path(scene.output);
   }
   check_cost(command, scene, scene.picture.size());
-  if (scene.image.motion_blur > 1 && !scene.frames.asked())
+  if (scene.image.motion_blur > 1 && !scene.frames.is_requested())
     throw UsageError("--motion-blur: one molecule does not move; add the frames of a run (--frames)");
   check_layers(scene);
   if (scene.image.extent && (!scene.figure.plain() || !scene.molecule.color.opacities.empty()))
@@ -134,7 +134,7 @@ void check_scene(const RenderCommand& command) {
 /// Opens the outputs before the work begins, so that errors come early, and removes them again.
 void check_files(const RenderCommand& command) {
   const Scene& scene = command.scene;
-  if ((!scene.frames.asked() || is_film_path(scene.output)) && !command.resumes)
+  if ((!scene.frames.is_requested() || is_film_path(scene.output)) && !command.resumes)
     check_output(scene.output, command.existing());
   if (!scene.legend.file.empty()) {
     check_image_path(scene.legend.file);
@@ -156,9 +156,9 @@ void draw_figures(FigureRun& run, const PictureLayout& layout, PictureSink& sink
     const FigureMotion motion{std::move(frame.velocities), run.next_camera(frame.place)};
     Annotations annotations = sink.annotations(picture, frame.figure.molecule.structure);
     std::vector<std::string> unseen;
-    const bool is_told = !run.is_run() && !run.command().reporting.quiet;
+    const bool is_logged = !run.is_run() && !run.command().reporting.quiet;
     const Survey survey = survey_of(run.scene(), frame.figure.molecule.structure, frame.camera, layout.size.size(),
-                                    annotations, is_told ? &unseen : nullptr);
+                                    annotations, is_logged ? &unseen : nullptr);
     const FinishFrame finish = sink.keep(picture, annotations, [&](const RenderSettings& settings) {
       if (blur) {
         Framebuffer drawn = blur->draw(frame.place, renderer, settings);
@@ -167,7 +167,7 @@ void draw_figures(FigureRun& run, const PictureLayout& layout, PictureSink& sink
       }
       return draw(renderer, std::move(frame.figure), run.scene().figure, frame.camera, settings, survey, &motion);
     });
-    for (const std::string& sentence : unseen) say(run.command(), "note: " + sentence);
+    for (const std::string& sentence : unseen) log_line(run.command(), "note: " + sentence);
     return finish;
   };
   // The estimate counts sums, samples and buffers of the look, and files.
@@ -200,7 +200,7 @@ void render_figures(const RenderCommand& command) {
   if (layout.legend_apart)
     write_legend_picture(command.scene.legend.file, *layout.legend_apart, image_settings(command));
   run.save_cameras();
-  if (!run.is_run()) say_times(command, device.renderer().device(), device.renderer().times());
+  if (!run.is_run()) log_times(command, device.renderer().device(), device.renderer().times());
 }
 
 /// True if surfaces are divided, or their pieces named or measured.
@@ -213,7 +213,7 @@ bool needs_borders(const Scene& scene) {
 
 /// Keeps only the missing pictures, in a run their frames; false if none is missing.
 bool leave_missing(RenderCommand& command) {
-  const bool is_run = command.scene.frames.asked();
+  const bool is_run = command.scene.frames.is_requested();
   const std::optional<NumberedPath> pictures = NumberedPath::parse(command.scene.output);
   if (is_run && !pictures)
     throw UsageError("--resume: a film is made as a whole; name pictures instead, such as -o frame_#####.png");
@@ -221,15 +221,15 @@ bool leave_missing(RenderCommand& command) {
   std::vector<std::string> paths{command.scene.output};
   std::vector<std::uint64_t> frames;
   if (is_run) {
-    Scene scene = readied(command.scene);
-    settle_selections(scene);
+    Scene scene = prepared_scene(command.scene);
+    freeze_selections(scene);
     frames = FrameRun(scene.molecule, scene.frames).chunk();
     paths.clear();
     for (const std::uint64_t frame : frames) paths.push_back(pictures->at(frame));
   }
   const std::vector<std::size_t> missing = missing_pictures(paths, command.made_of, command.existing());
-  say(command, fmt::format("{} of {} pictures are there", with_thousands(paths.size() - missing.size()),
-                           with_thousands(paths.size())));
+  log_line(command, fmt::format("{} of {} pictures are there", with_thousands(paths.size() - missing.size()),
+                                with_thousands(paths.size())));
   std::vector<std::uint64_t> numbers;
   for (const std::size_t n : missing)
     if (is_run) numbers.push_back(frames[n]);
@@ -240,15 +240,15 @@ bool leave_missing(RenderCommand& command) {
 /// Takes a copy of the command, because the scene is saved as the user set it.
 void run(RenderCommand command) {
   if (command.is_draft) make_draft(command.scene);
-  command.keeps_scene = command.names_program && !command.scene.frames.asked();
-  tell_hue_changes(command);
+  command.keeps_scene = command.names_program && !command.scene.frames.is_requested();
+  warn_of_hue_changes(command);
   if (const std::string fault = scene_fault(command.scene); command.keeps_scene && !fault.empty()) {
     command.keeps_scene = false;
-    say(command, "note: the picture carries no scene: " + fault);
+    log_line(command, "note: the picture carries no scene: " + fault);
   }
   check_scene(command);
   check_files(command);
-  tell_memory(command);
+  log_memory(command);
   if (command.resumes && !leave_missing(command)) return;
   command.scene.molecule.surface.bordered = needs_borders(command.scene);
   command.scene.image.extent ? render_views(command) : render_figures(command);
@@ -271,7 +271,7 @@ ImageSettings image_settings(const RenderCommand& command) {
 RenderSettings picture_settings(const RenderCommand& command, const PictureLayout& layout) {
   RenderSettings settings = render_settings(command.scene, layout);
   // Exact times are needed only for pictures with printed times.
-  if (command.stats || (!command.scene.frames.asked() && !command.reporting.quiet))
+  if (command.stats || (!command.scene.frames.is_requested() && !command.reporting.quiet))
     settings.timing = StageTiming::exact;
   return settings;
 }

@@ -3,6 +3,8 @@
 #include "app/commands/command_run.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,19 +18,21 @@
 #include "core/scene/context_areas.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/figure_key.h"
+#include "core/scene/frozen_selections.h"
+#include "core/scene/representations.h"
 #include "core/scene/scene_values.h"
-#include "core/scene/settled_selections.h"
 #include "core/scene/surface_computer.h"
+#include "core/structure/selection/places.h"
 
 namespace meniscus {
 
 NumberRun::NumberRun(const SceneCommand& command) : command_(command) {
-  if (!command.scene.frames.asked()) {
-    molecule_ = read_and_tell(command);
+  if (!command.scene.frames.is_requested()) {
+    molecule_ = read_and_log(command);
     return;
   }
   frames_ = std::make_unique<FrameRun>(command.scene.molecule, command.scene.frames);
-  tell_run(command, *frames_);
+  log_run(command, *frames_);
 }
 
 void NumberRun::make(std::uint64_t bytes_per_atom,
@@ -78,8 +82,8 @@ namespace {
 
 SceneCommand ready(const SceneCommand& command) {
   SceneCommand made = command;
-  made.scene = readied(command.scene);
-  settle_selections(made.scene);
+  made.scene = prepared_scene(command.scene);
+  freeze_selections(made.scene);
   return made;
 }
 
@@ -95,7 +99,7 @@ std::vector<CameraKey> keys_of(std::span<const Camera> cameras, std::span<const 
 
 FigureRun::FigureRun(const SceneCommand& command, Velocities velocities)
     : command_(ready(command)), given_(given_cameras(command_.scene.picture, command_.scene.run_camera)) {
-  if (command_.scene.frames.asked())
+  if (command_.scene.frames.is_requested())
     open_run(velocities);
   else
     make_one_figure();
@@ -107,15 +111,15 @@ void FigureRun::open_run(Velocities velocities) {
   frames_ =
       std::make_unique<FrameRun>(molecule, command_.scene.frames, molecule.interface ? Velocities::none : velocities);
   shown_ = std::make_unique<ShownFrames>(molecule, *frames_);
-  tell_run(command_, *frames_);
+  log_run(command_, *frames_);
   measure_colors(molecule.color, *shown_);
 }
 
 void FigureRun::make_one_figure() {
-  Structure structure = read_and_tell(command_);
+  Structure structure = read_and_log(command_);
   aim_.emplace(command_.scene.picture, command_.scene.molecule.show, structure);
-  tell_if_unseen(command_, given_.still, structure);
-  figure_ = make_figure(build_and_tell(command_, std::move(structure)), command_.scene.figure);
+  warn_if_unseen(command_, given_.still, structure);
+  figure_ = make_figure(build_and_log(command_, std::move(structure)), command_.scene.figure);
 }
 
 void FigureRun::aim(const ViewRequest& picture, bool extent) {
@@ -126,14 +130,18 @@ void FigureRun::aim(const ViewRequest& picture, bool extent) {
   } else {
     framing_.cameras = run_cameras(picture, scene().run_camera, given_, *shown_);
   }
-  tell_idle_cuts();
+  if (const std::optional<Selection>& zoom_to = scene().picture.zoom_to) {
+    const std::string sentence = several_places(*zoom_to, shown_atoms(structure()));
+    if (!sentence.empty()) log_line(command_, "note: " + sentence);
+  }
+  log_ineffective_cuts();
 }
 
-void FigureRun::tell_idle_cuts() const {
+void FigureRun::log_ineffective_cuts() const {
   const Camera& camera = framing_.cameras.front();
   if (!frames_) {
-    for (const std::string& sentence : idle_cuts(scene().figure, *figure_, camera))
-      say(command_, "note: --clip " + sentence);
+    for (const std::string& sentence : ineffective_cuts(scene().figure, *figure_, camera))
+      log_line(command_, "note: --clip " + sentence);
     return;
   }
   if (scene().figure.cuts.empty() || scene().figure.hides_surface) return;
@@ -141,8 +149,8 @@ void FigureRun::tell_idle_cuts() const {
   std::vector<Ball> balls = grown(balls_of(structure()), growth_of(surface.kind, surface.probe_radius));
   if (!structure().instances.empty()) balls = reaching_balls(balls, structure().instances);
   const CutAtoms atoms = cut_atoms(scene().figure.cuts, structure());
-  for (const std::string& sentence : idle_cuts(scene().figure.cuts, atoms, {camera, balls, balls}, balls))
-    say(command_, fmt::format("note: --clip {}, in the first frame of the run", sentence));
+  for (const std::string& sentence : ineffective_cuts(scene().figure.cuts, atoms, {camera, balls, balls}, balls))
+    log_line(command_, fmt::format("note: --clip {}, in the first frame of the run", sentence));
 }
 
 void FigureRun::save_cameras() const {
@@ -161,14 +169,14 @@ void FigureRun::measure(ColorScheme& color) {
 }
 
 ColorKey FigureRun::key() const {
-  return frames_ ? key_of(*frames_, scene()) : key_of(figure_->molecule, scene().figure, figure_->beside);
+  return frames_ ? key_of(*frames_, scene()) : key_of(figure_->molecule, scene().figure, figure_->extras);
 }
 
 void FigureRun::make(const FigureWork& work, const std::function<Sink()>& make_sink) {
   if (!frames_) {
     const Camera& camera = framing_.cameras.front();
     if (make_sink()({0, 0, 0, std::nullopt, std::move(*figure_), camera, {}})().shows_nothing)
-      say(command_, kShowsNothing);
+      log_line(command_, kShowsNothing);
     return;
   }
   const std::uint64_t bytes = work.bytes_per_atom * structure().atoms.size() + work.bytes_per_frame;
@@ -182,10 +190,10 @@ void FigureRun::make(const FigureWork& work, const std::function<Sink()>& make_s
                    std::move(frame.velocities)});
     });
   run_frames(*frames_, command_, std::move(workers));
-  tell_beyond_map(command_, builders);
+  warn_beyond_map(command_, builders);
 }
 
-void settle_copies(std::vector<SurfaceObject>& objects, bool are_cut) {
+void merge_copies(std::vector<SurfaceObject>& objects, bool are_cut) {
   if (std::ranges::none_of(objects, [](const SurfaceObject& object) { return object.copies.size() > 1; })) return;
   if (!are_cut && !copies_differ(objects)) return;
   SurfaceObject whole = merged(std::move(objects));

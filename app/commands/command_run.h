@@ -127,7 +127,9 @@ class FigureRun {
   /// Returns the shown structure, of the molecule or of the first frame of the run.
   const Structure& structure() const { return frames_ ? shown_->first_shown() : figure_->molecule.structure; }
   /// Returns the structure with all atoms that any frame may have.
-  const Structure& reach() const { return frames_ ? frames_->reach() : figure_->molecule.structure; }
+  const Structure& possible_structure() const {
+    return frames_ ? frames_->possible_structure() : figure_->molecule.structure;
+  }
   /// Returns the meaning of the colours of all figures.
   ColorKey key() const;
 
@@ -141,7 +143,7 @@ class FigureRun {
  private:
   void open_run(Velocities velocities);
   void make_one_figure();
-  void tell_idle_cuts() const;
+  void log_ineffective_cuts() const;
 
   SceneCommand command_;
   GivenCameras given_;  ///< cameras from files
@@ -153,7 +155,7 @@ class FigureRun {
 };
 
 /// Merges several copies into one object if planes cut them at different places, or if the copies differ.
-void settle_copies(std::vector<SurfaceObject>& objects, bool are_cut);
+void merge_copies(std::vector<SurfaceObject>& objects, bool are_cut);
 
 /// Throws UsageError if caps would have to show values of a map, which the files do not contain. reason: the message.
 void check_caps_of_map(const Scene& scene, std::string_view reason);

@@ -30,8 +30,8 @@
 #include "core/queries/cavity_tracks.h"
 #include "core/scene/area_columns.h"
 #include "core/scene/context_areas.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/molecule.h"
-#include "core/scene/settled_selections.h"
 
 namespace meniscus {
 namespace {
@@ -86,7 +86,7 @@ class SurfaceTables {
     return [this, builder](NumberedStructure numbered) -> FinishFrame {
       const std::optional<FrameNote> note = numbered.note;
       const Molecule molecule = builder->build(std::move(numbered.structure));
-      if (!note) tell_built(command_, molecule);
+      if (!note) log_surface(command_, molecule);
       auto numbers = std::make_shared<SurfaceNumbers>(numbers_of(molecule, numbered.together, note, *builder));
       return [this, numbers, note] { return finish(*numbers, note); };
     };
@@ -211,11 +211,11 @@ class SurfaceTables {
 
 }  // namespace
 
-void print_surface(const SurfaceCommand& asked) {
-  check_outputs(asked);
-  SurfaceCommand command = asked;
+void print_surface(const SurfaceCommand& requested) {
+  check_outputs(requested);
+  SurfaceCommand command = requested;
   command.scene.frames.context = command.context;
-  settle_selections(command.scene);
+  freeze_selections(command.scene);
   SurfaceTables(command).make();
 }
 
@@ -236,7 +236,7 @@ TakenProperties surface_command_properties() {
       {"surface.patches", "surface.min_patch", "surface.by", "surface.cavities"},
       {{{"surface.patches"},
         [](const GivenScene& given) {
-          return !given.scene.frames.asked() || given.any({"report.csv_patches", "report.json"});
+          return !given.scene.frames.is_requested() || given.any({"report.csv_patches", "report.json"});
         },
         "of a run, patches are written by --csv-patches FILE or --json; add one of them"},
        superposition_need({"report.csv_cavities", "report.gradients"}),
@@ -302,9 +302,11 @@ void add_surface(CLI::App& command) {
       "  meniscus surface adk.psf adk.dcd --superpose 'name CA' --csv-cavities cavities.csv   each cavity over time\n"
       "  meniscus surface adk.psf adk.dcd --json                one line of JSON per frame\n"
       "  meniscus surface *.cif.gz --csv-summary all.csv        one row for each of many molecules",
-      "The surface is that of the polymers and ligands of the first model, with the most occupied conformer of "
-      "each\nresidue; water and free ions are left out. A line reports what was read, left out and used. Radii are "
-      "Bondi's\n(`meniscus info` lists them), or the file's own (PQR, XYZR). The surface is closed and includes all "
+      "The surface is that of the polymers of the first model, or of all of a file without one, with the most "
+      "occupied\nconformer of each residue; water and free ions are left out. A line reports what was read, left out "
+      "and "
+      "used. Radii\nare Bondi's (`meniscus info` lists them), or the file's own (PQR, XYZR). The surface is closed and "
+      "includes all "
       "cavities; areas\nand volumes are exact, in closed form. `volume` is that of the solid, without its cavities; "
       "the volume of a cavity is\npositive. The area of an atom is the part of the surface that has the atom's colour "
       "in pictures: its contact patch,\nand those parts of the patches around that are nearer to its contact with the "
@@ -331,12 +333,13 @@ void add_surface(CLI::App& command) {
     declared->options.take();
     // Parts of surfaces are cut out by planes, and rays meet patches within them.
     const Division& division = declared->state.scene.molecule.division;
-    SurfaceCommand& asked = declared->state;
-    MoleculeRequest& molecule = asked.scene.molecule;
-    molecule.surface.drawn = division.components || division.cavities != Cavities::keep || asked.open_sky;
+    SurfaceCommand& requested = declared->state;
+    MoleculeRequest& molecule = requested.scene.molecule;
+    molecule.reading.companions = Companions::hidden;  // --patches 'within 5 of ligand' sees them
+    molecule.surface.drawn = division.components || division.cavities != Cavities::keep || requested.open_sky;
     molecule.surface.bordered =
-        molecule.surface.drawn || molecule.patches || !asked.cavity_csv.empty() || !asked.gradient_csv.empty();
-    asked.summary_csv.empty() ? print_surface(asked) : print_summary(asked);
+        molecule.surface.drawn || molecule.patches || !requested.cavity_csv.empty() || !requested.gradient_csv.empty();
+    requested.summary_csv.empty() ? print_surface(requested) : print_summary(requested);
   });
 }
 

@@ -12,7 +12,7 @@
 #include "core/base/text.h"
 #include "core/queries/copies.h"
 #include "core/scene/figure_key.h"
-#include "core/scene/settled_selections.h"
+#include "core/scene/frozen_selections.h"
 #include "exporters/blender/mns_file.h"
 #include "exporters/blender/sequence_manifest.h"
 
@@ -31,12 +31,12 @@ std::vector<glm::dvec3> placed_atoms(std::span<const SurfaceObject> objects, con
 // Returns the molecule of the first frame, which has the radii and colours of the run.
 Molecule first_molecule(const SceneCommand& command, const FrameRun* run) {
   if (!run) return load_molecule(command);
-  tell_run(command, *run);
+  log_run(command, *run);
   return MoleculeBuilder(command.scene.molecule).build(run->structure());
 }
 
-void export_atoms(const SceneCommand& asked) {
-  SceneCommand command = asked;
+void export_atoms(const SceneCommand& requested) {
+  SceneCommand command = requested;
   if (command.scene.molecule.color.by == ColorScheme::By::volume)
     throw UsageError("--color-map-file colours points of a surface, not atoms; leave it out");
   if (command.scene.molecule.color.by == ColorScheme::By::lipophilicity)
@@ -44,8 +44,8 @@ void export_atoms(const SceneCommand& asked) {
   if (command.scene.molecule.division.instances == InstanceMode::separate)
     throw UsageError("--instances separate: of the atoms in the file one surface is made; leave it out");
   std::unique_ptr<FrameRun> run;
-  if (command.scene.frames.asked()) {
-    settle_selections(command.scene);
+  if (command.scene.frames.is_requested()) {
+    freeze_selections(command.scene);
     run = std::make_unique<FrameRun>(command.scene.molecule, command.scene.frames);
     if (run->atoms_change())
       throw UsageError(

@@ -50,32 +50,33 @@ struct Sequence {
   std::filesystem::path written;
 };
 
-std::string told_bytes(double bytes) {
+std::string bytes_text(double bytes) {
   if (bytes >= 999.5e6) return fmt::format("{:.3g} GB", bytes / 1e9);
   return bytes < 1e6 ? fmt::format("{:.2g} MB", bytes / 1e6) : fmt::format("{:.3g} MB", bytes / 1e6);
 }
 
 // Prints the size of a file, and of a run (frames > 0) if all its files are alike.
-void tell_size(const SceneCommand& command, const FigureMeshes& meshes, const MeshFineness& fineness, double bytes,
-               std::size_t frames) {
+void log_size(const SceneCommand& command, const FigureMeshes& meshes, const MeshFineness& fineness, double bytes,
+              std::size_t frames) {
   std::size_t triangles = 0;
   for (const blender::MeshedObject& object : meshes.objects) triangles += object.mesh.triangles.size();
   const double all = bytes * static_cast<double>(frames);
   constexpr double kLargeRun = 1e9;
-  say(command, fmt::format("{} triangles {}, {}{}{}", with_thousands(triangles),
-                           fineness_words(command.scene.mesh, fineness), told_bytes(bytes),
-                           frames == 0 ? "" : fmt::format(" a frame; about {} for {} frames", told_bytes(all), frames),
-                           all < kLargeRun ? "" : "; fewer --frames, or a larger --tolerance, make it smaller"));
+  log_line(command,
+           fmt::format("{} triangles {}, {}{}{}", with_thousands(triangles),
+                       fineness_words(command.scene.mesh, fineness), bytes_text(bytes),
+                       frames == 0 ? "" : fmt::format(" a frame; about {} for {} frames", bytes_text(all), frames),
+                       all < kLargeRun ? "" : "; fewer --frames, or a larger --tolerance, make it smaller"));
 }
 
 // Writes a file of one molecule, or one for each frame of the chunk and a manifest for the whole run, which is the same
 // from every chunk.
-void export_to_blender(const SceneCommand& asked) {
-  check_blender(asked.scene);
-  check_saved_camera(asked);
-  const blender::SurfaceNumbers numbers = blender::parse_surface_numbers(asked.scene.mesh.attributes);
-  FigureRun run(asked, Velocities::central);
-  run.aim(asked.scene.picture, true);
+void export_to_blender(const SceneCommand& requested) {
+  check_blender(requested.scene);
+  check_saved_camera(requested);
+  const blender::SurfaceNumbers numbers = blender::parse_surface_numbers(requested.scene.mesh.attributes);
+  FigureRun run(requested, Velocities::central);
+  run.aim(requested.scene.picture, true);
   const SceneCommand& command = run.command();
   const Scene& scene = command.scene;
   std::optional<Sequence> sequence;
@@ -86,7 +87,7 @@ void export_to_blender(const SceneCommand& asked) {
   }
   const std::size_t frames = sequence ? run.frames().chunk().size() : 0;
   if (sequence) run.save_cameras();
-  std::once_flag told, warned, told_size;
+  std::once_flag left_out_logged, warned, size_logged;
   const auto make = [&](FigureFrame frame) -> FinishFrame {
     Molecule& molecule = frame.figure.molecule;
     blender::Provenance provenance = provenance_of(molecule);
@@ -101,8 +102,8 @@ void export_to_blender(const SceneCommand& asked) {
       provenance.radii_set = sequence->manifest.provenance.radii_set;
     } else {
       std::vector<Ball> balls = placed_balls(molecule.objects);
-      const std::vector<Ball> beside = balls_around(frame.figure.beside.shapes.shapes);
-      balls.insert(balls.end(), beside.begin(), beside.end());
+      const std::vector<Ball> extras = balls_around(frame.figure.extras.shapes.shapes);
+      balls.insert(balls.end(), extras.begin(), extras.end());
       if (fineness.density == 0.0)
         fineness = fineness_of(scene.mesh, scene.mesh.even, 0.0, scene.picture.size(), frame.camera, balls);
     }
@@ -112,11 +113,11 @@ void export_to_blender(const SceneCommand& asked) {
         warned, [&] { warn_of_many(command, expected_triangles(molecule.objects, fineness, CopiesOfMesh::shared)); });
     mesh_figure(command, frame, cut, fineness, meshes);
     const std::string left_out = add_numbers(command, numbers, molecule.structure, meshes.objects);
-    if (!left_out.empty()) std::call_once(told, [&] { say(command, left_out); });
+    if (!left_out.empty()) std::call_once(left_out_logged, [&] { log_line(command, left_out); });
     write_objects(path, command.existing(), meshes.objects, blender_shot(scene, frame.camera), provenance, place, cut,
                   [&](std::uint64_t bytes) {
-                    std::call_once(told_size,
-                                   [&] { tell_size(command, meshes, fineness, static_cast<double>(bytes), frames); });
+                    std::call_once(size_logged,
+                                   [&] { log_size(command, meshes, fineness, static_cast<double>(bytes), frames); });
                   });
     return [path] { return MadeFrame{{path}}; };
   };
@@ -150,7 +151,7 @@ void declare_blender(CLI::App& command) {
     Scene& scene = declared->state.scene;
     if (!has_fineness(declared->options)) {
       if (scene.picture.camera_file.empty())
-        scene.mesh.tolerance = scene.frames.asked() ? blender::kRunTolerance : blender::kTolerance;
+        scene.mesh.tolerance = scene.frames.is_requested() ? blender::kRunTolerance : blender::kTolerance;
       else
         scene.mesh.tolerance_pixels = kPixelsOfACamera;
     }

@@ -53,28 +53,30 @@ void refuse_what_does_not_fit(const MeshFormat& format, const Figure& figure, co
   refuse_even_parts(fineness, hides, false);
   if (!format.solid) return;
   const bool whole = std::ranges::all_of(molecule.objects, &SurfaceObject::whole);
-  if (molecule.objects.size() > 1 || !whole || hides || !figure.beside.shapes.empty())
+  if (molecule.objects.size() > 1 || !whole || hides || !figure.extras.shapes.empty())
     throw RequestError(fmt::format(
         "{} holds one complete closed surface; leave --by, --cavities, --show and shapes out", format.word));
 }
 
-void tell(const SceneCommand& command, const MeshFormat& format, const MeshFileMaker& maker,
-          const MeshFineness& fineness) {
-  say(command,
-      fmt::format("{} triangles{} {}; {}", with_thousands(maker.triangle_count()),
-                  maker.further_places() > 0
-                      ? fmt::format(", shared with {} more copies,", with_thousands(maker.further_places()))
-                      : "",
-                  fineness_words(command.scene.mesh, fineness), scale_sentence(format, command.scene.mesh.scale)));
+void log_report(const SceneCommand& command, const MeshFormat& format, const MeshFileMaker& maker,
+                const MeshFineness& fineness) {
+  log_line(command,
+           fmt::format("{} triangles{} {}; {}", with_thousands(maker.triangle_count()),
+                       maker.further_places() > 0
+                           ? fmt::format(", shared with {} more copies,", with_thousands(maker.further_places()))
+                           : "",
+                       fineness_words(command.scene.mesh, fineness), scale_sentence(format, command.scene.mesh.scale)));
   if (maker.joined_edges() + maker.flipped_edges() > 0)
-    say(command, fmt::format("welded: {} edges shorter than {} Å, {}{} triangles without area",
-                             with_thousands(maker.joined_edges()), kFileStep,
-                             maker.fins() > 0 ? fmt::format("{} fins no thicker, ", with_thousands(maker.fins())) : "",
-                             with_thousands(maker.flipped_edges())));
+    log_line(command,
+             fmt::format("welded: {} edges shorter than {} Å, {}{} triangles without area",
+                         with_thousands(maker.joined_edges()), kFileStep,
+                         maker.fins() > 0 ? fmt::format("{} fins no thicker, ", with_thousands(maker.fins())) : "",
+                         with_thousands(maker.flipped_edges())));
   if (maker.flat_triangles() > 0)
-    say(command, fmt::format("warning: {} triangles have no area when rounded to thousandths of an Å, and could not be "
-                             "welded; try another --tolerance",
-                             with_thousands(maker.flat_triangles())));
+    log_line(command,
+             fmt::format("warning: {} triangles have no area when rounded to thousandths of an Å, and could not be "
+                         "welded; try another --tolerance",
+                         with_thousands(maker.flat_triangles())));
 }
 
 // Writes objects to files of their own, all or none of them.
@@ -103,16 +105,16 @@ FileMaterial material_of(const Scene& scene) {
 }
 
 /// Makes the mesh of one figure.
-MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFrame frame, bool is_told) {
+MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFrame frame, bool is_logged) {
   const Scene& scene = command.scene;
   Molecule& molecule = frame.figure.molecule;
-  const ColoredShapes& beside = frame.figure.beside.shapes;
+  const ColoredShapes& extras = frame.figure.extras.shapes;
   std::vector<std::string> names;
   if (format.numbers) names = parse_vertex_numbers(scene.mesh.attributes);
   const MeshFineness fineness = fineness_of(scene.mesh, scene.mesh.even, scene.mesh.density, scene.picture.size(),
                                             frame.camera, frame.figure.balls());
   refuse_what_does_not_fit(format, frame.figure, fineness);
-  if (is_told)
+  if (is_logged)
     warn_of_many(command, expected_triangles(molecule.objects, fineness,
                                              format.places ? CopiesOfMesh::shared : CopiesOfMesh::own));
   const std::vector<Atom> atoms = shown_atoms(molecule.structure);
@@ -122,8 +124,8 @@ MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFr
                        material_of(scene)},
                       about_line(kind_word(scene.molecule.surface.kind), scene.mesh.scale, fineness));
   for (SurfaceObject& object : molecule.objects) maker.add(std::exchange(object, {}));
-  if (!beside.empty()) maker.add(shape_object(atoms, beside, fineness.tolerance));
-  if (is_told) tell(command, format, maker, fineness);
+  if (!extras.empty()) maker.add(shape_object(atoms, extras, fineness.tolerance));
+  if (is_logged) log_report(command, format, maker, fineness);
   return maker.take();
 }
 
@@ -143,17 +145,20 @@ void check_one_file(const MeshFormat& format, const Scene& scene) {
                                  in_quotes(numbered_name(scene.output))));
 }
 
-void export_to_mesh(const SceneCommand& asked) {
-  const MeshFormat& format = format_of(asked.scene);
-  if (format.numbers) parse_vertex_numbers(asked.scene.mesh.attributes);
-  const auto numbered = NumberedPath::parse(asked.scene.output);
-  const bool one_file = asked.scene.frames.asked() && !numbered;
-  if (one_file) check_one_file(format, asked.scene);
+void export_to_mesh(const SceneCommand& requested) {
+  const MeshFormat& format = format_of(requested.scene);
+  if (format.numbers) parse_vertex_numbers(requested.scene.mesh.attributes);
+  const auto numbered = NumberedPath::parse(requested.scene.output);
+  const bool one_file = requested.scene.frames.is_requested() && !numbered;
+  if (one_file) check_one_file(format, requested.scene);
   const auto is_partial = [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; };
-  if (!format.opacity && std::ranges::any_of(asked.scene.molecule.color.opacities, is_partial))
-    say(asked, fmt::format("note: --opacity: {} has none, so what is translucent is opaque there", format.title));
-  FigureRun run(asked, one_file ? Velocities::central : Velocities::none);
-  run.aim(asked.scene.picture, false);
+  if (!format.opacity && std::ranges::any_of(requested.scene.molecule.color.opacities, is_partial))
+    log_line(requested,
+             fmt::format("note: --opacity: {} has none, so what is translucent is opaque there", format.title));
+  SceneCommand bare = requested;
+  bare.scene.figure.bare = true;  // a mesh is that of the surface
+  FigureRun run(bare, one_file ? Velocities::central : Velocities::none);
+  run.aim(requested.scene.picture, false);
   const SceneCommand& command = run.command();
   OneFile whole{{}, {{}, command.scene.film.frames_per_second}};
   const auto make = [&](FigureFrame frame) -> FinishFrame {
@@ -180,7 +185,7 @@ void export_to_mesh(const SceneCommand& asked) {
   if (!one_file) return;
   write_mesh_run(format, command.scene.output, command.existing(), whole.frames, whole.times);
   if (std::ranges::any_of(whole.frames.front().objects, [](const FileObject& o) { return o.velocities.empty(); }))
-    say(command, "note: no velocities: they are known where a molecule is in one place and keeps its atoms");
+    log_line(command, "note: no velocities: they are known where a molecule is in one place and keeps its atoms");
   std::cout << escaped(command.scene.output) << "\n";
 }
 
@@ -194,7 +199,7 @@ TakenProperties mesh_export_properties() {
       {"-Figure", "surface.opacity", "-figure.object", "-camera.look_into", "-camera.path", "-camera.turntable",
        "-camera.follow", "-camera.save", "look.preset", "look.specular", "look.shininess", "frames.fps", "Mesh"},
       {{{"frames.fps"},
-        [](const GivenScene& given) { return given.scene.frames.asked() && is_usd(given.scene); },
+        [](const GivenScene& given) { return given.scene.frames.is_requested() && is_usd(given.scene); },
         "of meshes USD alone has times; name a file of a run, such as -o a.usda"},
        {{"look.preset", "look.specular", "look.shininess"},
         [](const GivenScene& given) {

@@ -45,10 +45,10 @@ void check(const SceneCommand& command) {
 
 std::string title_of(const Scene& scene) { return text_of_path(path_of_text(scene.molecule.file).filename()); }
 
-void run(const SceneCommand& asked) {
-  check(asked);
-  FigureRun run(asked);
-  run.aim(asked.scene.picture, true);
+void run(const SceneCommand& requested) {
+  check(requested);
+  FigureRun run(requested);
+  run.aim(requested.scene.picture, true);
   const SceneCommand& command = run.command();
   std::vector<mvs::State> states;
   const auto make = [&](FigureFrame frame) -> FinishFrame {
@@ -60,7 +60,8 @@ void run(const SceneCommand& asked) {
       for (const path_tracers::SceneMesh& mesh : item.meshes) triangles += mesh.triangles.size();
     return [&, state, triangles, tolerance = made.tolerance] {
       if (!run.is_run())
-        say(command, fmt::format("{} triangles within {:.4g} Å of the surface", with_thousands(triangles), tolerance));
+        log_line(command,
+                 fmt::format("{} triangles within {:.4g} Å of the surface", with_thousands(triangles), tolerance));
       states.push_back(std::move(*state));
       return MadeFrame{};
     };
@@ -73,8 +74,9 @@ void run(const SceneCommand& asked) {
   file.write(archive);
   file.commit();
   if (static_cast<double>(archive.size()) > kLargeArchive)
-    say(command, fmt::format("warning: {} bytes, all of which viewers load; a larger --tolerance makes fewer triangles",
-                             with_thousands(archive.size())));
+    log_line(command,
+             fmt::format("warning: {} bytes, all of which viewers load; a larger --tolerance makes fewer triangles",
+                         with_thousands(archive.size())));
   run.save_cameras();
   std::cout << escaped(command.scene.output) << "\n";
 }
@@ -83,7 +85,7 @@ void declare_mvs(CLI::App& command) {
   describe(
       command,
       "  meniscus export mvs 1tii.pdb -o 1tii.mvsx --color chain     then drop it into https://molstar.org/viewer\n"
-      "  meniscus export mvs 1hpv.pdb -o pocket.mvsx --look-into ligand --sticks ligand\n"
+      "  meniscus export mvs 1hpv.pdb -o pocket.mvsx --look-into ligand\n"
       "  meniscus export mvs adk.psf adk.dcd --frames 0-90:10 -o adk.mvsx     a state for each frame",
       "The view has the mesh in the colours of the figure, cut with its caps, what is drawn beside it, and the camera. "
       "Viewers light it\nin their own way, and shade each triangle flat.");

@@ -70,7 +70,7 @@ class PageRun {
  public:
   PageRun(FigureRun& run, const NamedViews& views) : run_(run), views_(views) {
     common_.key = run.key();
-    common_.others = page::other_colors(run.reach(), color_of(run.scene().molecule),
+    common_.others = page::other_colors(run.possible_structure(), color_of(run.scene().molecule),
                                         [&](ColorScheme& scheme) { run.measure(scheme); });
     if (!run.is_run()) return;
     frame_count_ = run.frames().numbers().size();
@@ -95,25 +95,25 @@ class PageRun {
   MadeFrame add(page::PackedFrame frame) {
     const std::size_t before = page_.bytes();
     page_.add(std::move(frame));
-    if (page_.frame_count() == 2) tell_size(before);
+    if (page_.frame_count() == 2) log_size(before);
     if (page_.frame_count() < frame_count_) return {};
     const std::string text = page_.text();
     check_size(text.size());
     OutputFile file(run_.scene().output, run_.command().existing());
     file.write(text);
     file.commit();
-    say(run_.command(), fmt::format("{} bytes", with_thousands(text.size())));
+    log_line(run_.command(), fmt::format("{} bytes", with_thousands(text.size())));
     if (static_cast<double>(text.size()) > kManyBytes)
-      say(run_.command(), "warning: readers load all of it; --show or --select make a smaller page" +
-                              std::string(run_.is_run() ? ", and so do fewer frames (--stride)" : ""));
+      log_line(run_.command(), "warning: readers load all of it; --show or --select make a smaller page" +
+                                   std::string(run_.is_run() ? ", and so do fewer frames (--stride)" : ""));
     return {{run_.scene().output}};
   }
 
   /// Prints the size before the other frames are made. of_first: bytes of the page with only the first frame.
-  void tell_size(std::size_t of_first) const {
+  void log_size(std::size_t of_first) const {
     const std::size_t all = of_first + (frame_count_ - 1) * (page_.bytes() - of_first);
-    say(run_.command(),
-        fmt::format("note: {} frames come to about {} bytes", with_thousands(frame_count_), with_thousands(all)));
+    log_line(run_.command(),
+             fmt::format("note: {} frames come to about {} bytes", with_thousands(frame_count_), with_thousands(all)));
     check_size(all);
   }
 
@@ -136,13 +136,13 @@ class PageRun {
   double longest_ = 0.0;  // ps
 };
 
-void export_page(const PageCommand& asked, bool trusts_scenes) {
-  page::check_scene(asked.scene);
-  check_output(asked.scene.output, asked.existing());
-  check_saved_camera(asked);
-  NamedViews views(asked.named_views, asked, trusts_scenes);
-  FigureRun run(asked);
-  run.aim(asked.scene.picture, true);
+void export_page(const PageCommand& requested, bool trusts_scenes) {
+  page::check_scene(requested.scene);
+  check_output(requested.scene.output, requested.existing());
+  check_saved_camera(requested);
+  NamedViews views(requested.named_views, requested, trusts_scenes);
+  FigureRun run(requested);
+  run.aim(requested.scene.picture, true);
   views.aim(run);
   PageRun page(run, views);
   run.make({kSurfaceBytesPerAtom},

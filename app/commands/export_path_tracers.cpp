@@ -31,10 +31,10 @@ path_tracers::SceneTarget target_of(const PathTracerCommand& command, const std:
   return {command.renderer, command.scene.output, name, command.existing()};
 }
 
-void tell(const PathTracerCommand& command, const path_tracers::SceneReport& report, double tolerance) {
-  say(command, fmt::format("{} triangles within {:.4g} Å of the surface, {} spheres, {} cylinders",
-                           with_thousands(report.triangles), tolerance, with_thousands(report.spheres),
-                           with_thousands(report.cylinders)));
+void log_report(const PathTracerCommand& command, const path_tracers::SceneReport& report, double tolerance) {
+  log_line(command, fmt::format("{} triangles within {:.4g} Å of the surface, {} spheres, {} cylinders",
+                                with_thousands(report.triangles), tolerance, with_thousands(report.spheres),
+                                with_thousands(report.cylinders)));
 }
 
 // Returns a line for a POSIX shell that renders one scene or the whole run.
@@ -67,7 +67,7 @@ void run(const PathTracerCommand& command) {
   check(command);
   FigureRun run(command);
   run.aim(command.scene.picture, true);
-  const Scene& asked = run.scene();
+  const Scene& requested = run.scene();
   if (run.is_run()) run.save_cameras();
   const auto make = [&](FigureFrame frame) -> FinishFrame {
     const std::uint64_t number = frame.number;
@@ -76,13 +76,13 @@ void run(const PathTracerCommand& command) {
     const path_tracers::SceneReport report = write_scene(
         scene, target_of(command, run.is_run() ? fmt::format("surface_{:05}", number) : std::string("surface")));
     return [&, report, tolerance = tolerance] {
-      if (!run.is_run()) tell(command, report, tolerance);
+      if (!run.is_run()) log_report(command, report, tolerance);
       return made_frame(report.files);
     };
   };
   run.make({kMeshBytesPerAtom}, [&]() -> FigureRun::Sink { return make; });
-  if (std::ranges::any_of(asked.figure.objects, [](const auto& object) { return !object.material.empty(); }))
-    say(command, "note: materials of --object are those of render; here they are all --material");
+  if (std::ranges::any_of(requested.figure.objects, [](const auto& object) { return !object.material.empty(); }))
+    log_line(command, "note: materials of --object are those of render; here they are all --material");
   if (!run.is_run()) run.save_cameras();
   std::cout << escaped(render_command(command, run.is_run())) << "\n";
 }

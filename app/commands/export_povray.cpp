@@ -30,17 +30,19 @@ namespace {
 
 // Returns one table of colours for all frames: all colours that any rule can give to any atom. Nothing if each frame
 // needs a table of its own, because colours change from frame to frame, or objects have colours of their own.
-std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& asked, const ColorScheme& scheme,
-                                                             const Structure& reach, const Coloring& beside) {
-  if (scheme.changes_with_frames() || asked.figure.hides_surface || !asked.figure.objects.empty()) return {};
-  const std::vector<glm::vec3> colors = run_colors(reach, scheme, beside);
+std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& requested, const ColorScheme& scheme,
+                                                             const Structure& possible, const Coloring& extras) {
+  if (scheme.changes_with_frames() || requested.figure.hides_surface || !requested.figure.objects.empty() ||
+      possible.companions == Companions::drawn)
+    return {};
+  const std::vector<glm::vec3> colors = run_colors(possible, scheme, extras);
   povray::ColorTable all;
   const auto add = [&](const povray::SceneColor& color) {
     if (color.opacity > 0.0f) all.number(color);
   };
   std::vector<float> opacities{1.0f};
-  for (const OpacityRule& rule : asked.molecule.color.opacities) opacities.push_back(rule.opacity);
-  const bool film = asked.figure.thickens, caps = !asked.figure.cuts.empty();
+  for (const OpacityRule& rule : requested.molecule.color.opacities) opacities.push_back(rule.opacity);
+  const bool film = requested.figure.thickens, caps = !requested.figure.cuts.empty();
   for (const float opacity : opacities) {
     if (scheme.volume) {
       add({scheme.volume->scale.missing_color, opacity, true, film});
@@ -50,53 +52,54 @@ std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& asked,
       add({color, opacity, false, film});
       if (caps) add({color, opacity});
     }
-    if (caps && asked.figure.cap.color) add({*asked.figure.cap.color, opacity});
+    if (caps && requested.figure.cap.color) add({*requested.figure.cap.color, opacity});
   }
   return all.colors();
 }
 
 // Returns the common part of all frames of a run: one scene, the same from every chunk.
 povray::SequenceScene sequence_of(FigureRun& run, povray::SceneOptions options) {
-  const Scene& asked = run.scene();
-  const FigureRequest& figure = asked.figure;
-  const Structure reach = numbered_reach(run.frames());
-  const ColorScheme scheme = color_of(asked.molecule);
+  const Scene& requested = run.scene();
+  const FigureRequest& figure = requested.figure;
+  const Structure possible = numbered_structure(run.frames());
+  const ColorScheme scheme = color_of(requested.molecule);
   options.origin = run.framing().origin();
-  const ColoredShapes beside = shown_shapes(reach, figure.representations, scheme);
+  const ColoredShapes extras = shown_shapes(possible, figure.representations, scheme);
   const auto sees_through = [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; };
   povray::Run shared{run.frames().numbers(), run.framing().cameras,
-                     colors_of_run(asked, scheme, reach, beside.coloring), run.framing().extent.shown};
+                     colors_of_run(requested, scheme, possible, extras.coloring), run.framing().extent.shown};
   shared.surface = !figure.hides_surface;
-  shared.shapes = !beside.empty();
+  shared.shapes = !extras.empty();
   shared.caps = shared.surface && !figure.cuts.empty();
   shared.translucent = std::ranges::any_of(scheme.opacities, sees_through);
   shared.map = scheme.volume;
   shared.maps_change = scheme.by == ColorScheme::By::lipophilicity;
-  for (const FigureObjectRequest& object : figure.objects) {
+  for (const FigureObjectRequest& object : all_requests(figure.objects, possible)) {
     shared.objects.push_back({!object.shapes, false});
     if (!object.material.empty()) shared.materials.push_back(object.material);
     shared.translucent = shared.translucent || std::ranges::any_of(object.opacities, sees_through);
   }
-  return povray::SequenceScene(std::move(shared), options, asked.output);
+  return povray::SequenceScene(std::move(shared), options, requested.output);
 }
 
 // Writes the scene of one molecule, or the part of the run's scene for this frame.
-povray::SceneReport write_figure(const Scene& asked, povray::SceneOptions options, const FigureFrame& frame,
+povray::SceneReport write_figure(const Scene& requested, povray::SceneOptions options, const FigureFrame& frame,
                                  const povray::SequenceScene* sequence) {
   const Figure& figure = frame.figure;
   const std::vector<SurfaceObject>& objects = figure.molecule.objects;
-  const std::vector<povray::SceneObject> more = povray_objects(figure, asked.figure, frame.camera, sequence != nullptr);
+  const std::vector<povray::SceneObject> more =
+      povray_objects(figure, requested.figure, frame.camera, sequence != nullptr);
   const std::span<const SurfaceObject> surface =
-      asked.figure.hides_surface ? std::span<const SurfaceObject>{} : objects;
-  options.cut = povray_cut(figure, asked.figure, frame.camera);
-  options.atom_names = comment_names(asked, figure.molecule.structure);
+      requested.figure.hides_surface ? std::span<const SurfaceObject>{} : objects;
+  options.cut = povray_cut(figure, requested.figure, frame.camera);
+  options.atom_names = comment_names(requested, figure.molecule.structure);
   if (sequence)
-    return sequence->write_frame(frame.place, {surface, options.cut, &figure.beside.shapes, more, options.atom_names});
-  options.shapes = &figure.beside.shapes;
+    return sequence->write_frame(frame.place, {surface, options.cut, &figure.extras.shapes, more, options.atom_names});
+  options.shapes = &figure.extras.shapes;
   options.objects = more;
-  if (asked.figure.hides_surface && figure.beside.shapes.empty() && more.empty())
+  if (requested.figure.hides_surface && figure.extras.shapes.empty() && more.empty())
     throw RequestError("the surface is not shown, and there is nothing beside it");
-  return write_scene(surface, frame.camera, options, asked.output);
+  return write_scene(surface, frame.camera, options, requested.output);
 }
 
 void export_to_povray(const SceneCommand& command) {
@@ -105,7 +108,7 @@ void export_to_povray(const SceneCommand& command) {
   povray::SceneOptions options = povray_options(command.scene, command.existing());
   FigureRun run(command);
   run.aim(command.scene.picture, true);
-  const Scene& asked = run.scene();
+  const Scene& requested = run.scene();
   options.colors = run.key();
   std::optional<povray::SequenceScene> sequence;
   std::string render_command;
@@ -117,19 +120,20 @@ void export_to_povray(const SceneCommand& command) {
   bool noted = false;
   const auto finish = [&](const povray::SceneReport& report, std::uint64_t number) {
     if (!sequence) {
-      say(command, fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));
+      log_line(command,
+               fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));
       render_command = report.command;
     }
     // Notes of later frames would differ only in their numbers.
     if (!noted)
       for (const std::string& note : report.notes)
-        say(command, sequence ? fmt::format("note: frame {}: {}", number, note) : "note: " + note);
+        log_line(command, sequence ? fmt::format("note: frame {}: {}", number, note) : "note: " + note);
     noted = noted || !report.notes.empty();
     return made_frame(report.files);
   };
   run.make({kSurfaceBytesPerAtom}, [&]() -> FigureRun::Sink {
     return [&](const FigureFrame& frame) -> FinishFrame {
-      const povray::SceneReport report = write_figure(asked, options, frame, sequence ? &*sequence : nullptr);
+      const povray::SceneReport report = write_figure(requested, options, frame, sequence ? &*sequence : nullptr);
       return [&finish, report, number = frame.number] { return finish(report, number); };
     };
   });

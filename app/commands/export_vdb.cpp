@@ -17,7 +17,7 @@
 #include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
-#include "core/scene/settled_selections.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/surface_computer.h"
 #include "exporters/vdb/vdb_file.h"
 
@@ -38,19 +38,20 @@ std::string about_level_set(const VdbCommand& command) {
                      scene.mesh.scale, kind_word(scene.molecule.surface.kind), command.voxel);
 }
 
-void tell(const VdbCommand& command, const DistanceBand& band) {
-  say(command, fmt::format("{} blocks of 8 x 8 x 8 voxels of {:g} Å; distances to {:g} Å; 1 Å is {:g} in the file",
-                           with_thousands(band.blocks.size()), command.voxel, band.reach, command.scene.mesh.scale));
+void log_report(const VdbCommand& command, const DistanceBand& band) {
+  log_line(command,
+           fmt::format("{} blocks of 8 x 8 x 8 voxels of {:g} Å; distances to {:g} Å; 1 Å is {:g} in the file",
+                       with_thousands(band.blocks.size()), command.voxel, band.reach, command.scene.mesh.scale));
 }
 
-void export_to_vdb(const VdbCommand& asked) {
-  VdbCommand command = asked;
+void export_to_vdb(const VdbCommand& requested) {
+  VdbCommand command = requested;
   const Scene& scene = command.scene;
   const auto numbered = NumberedPath::parse(scene.output);
-  if (scene.frames.asked() && !numbered)
+  if (scene.frames.is_requested() && !numbered)
     throw UsageError(fmt::format("-o {}: each frame needs a file of its own; put # where its number goes, as in {}",
                                  in_quotes(scene.output), in_quotes(numbered_name(scene.output))));
-  settle_selections(command.scene);
+  freeze_selections(command.scene);
   NumberRun run(command);
   const auto make_worker = [&](const std::shared_ptr<MoleculeBuilder>& builder) -> NumberRun::Worker {
     return [&, builder](NumberedStructure numbered_structure) -> FinishFrame {
@@ -58,7 +59,7 @@ void export_to_vdb(const VdbCommand& asked) {
       if (molecule.objects.size() > 1 || molecule.objects.front().copies.size() > 1)
         throw RequestError("a level set is of one surface in one place; leave --instances out");
       const DistanceBand band = distance_band(molecule.surface(), command.voxel, command.band);
-      if (!run.is_run()) tell(command, band);
+      if (!run.is_run()) log_report(command, band);
       const std::string path = run.is_run() ? numbered->at(numbered_structure.number) : scene.output;
       OutputFile file(path_of_text(path), command.existing());
       write_vdb(file, band, {scene.mesh.scale, about_level_set(command)});

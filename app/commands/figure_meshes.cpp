@@ -44,9 +44,9 @@ double expected_triangles(std::span<const SurfaceObject> objects, const MeshFine
 
 void warn_of_many(const SceneCommand& command, double expected_triangles) {
   if (expected_triangles > kManyTriangles)
-    say(command, fmt::format("warning: about {:.0f} million triangles; a larger --tolerance or a smaller "
-                             "--density makes fewer",
-                             expected_triangles / 1e6));
+    log_line(command, fmt::format("warning: about {:.0f} million triangles; a larger --tolerance or a smaller "
+                                  "--density makes fewer",
+                                  expected_triangles / 1e6));
 }
 
 std::string fineness_words(const MeshRequest& request, const MeshFineness& fineness) {
@@ -84,7 +84,7 @@ TakenProperties blender_properties() {
   return figure_properties().with({"look.shadows", "look.shadow_softness", "frames.fps", "mesh.tolerance",
                                    "mesh.tolerance_pixels", "mesh.density", "mesh.even", "mesh.attributes"},
                                   {{{"frames.fps"},
-                                    [](const GivenScene& given) { return given.scene.frames.asked(); },
+                                    [](const GivenScene& given) { return given.scene.frames.is_requested(); },
                                     "there is no run of frames"}});
 }
 
@@ -103,7 +103,7 @@ blender::Provenance provenance_of(const Molecule& molecule) {
 
 blender::CutFile cut_file(const SceneCommand& command, const FigureFrame& frame) {
   const Figure& figure = frame.figure;
-  return {surface_planes(command.scene.figure, figure.beside.cut_atoms, frame.camera, figure.molecule.objects),
+  return {surface_planes(command.scene.figure, figure.extras.cut_atoms, frame.camera, figure.molecule.objects),
           command.scene.figure.cap};
 }
 
@@ -155,39 +155,40 @@ void add_more(const SceneCommand& command, const Figure& figure, const Camera& c
   Structure shown;
   shown.atoms = shown_atoms(figure.molecule.structure);
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
-  made.reserve(figure.beside.objects.size());  // objects refer to them
-  for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
-    const FigureObject& object = figure.beside.objects[n];
+  made.reserve(figure.extras.objects.size());  // objects refer to them
+  for (std::size_t n = 0; n < figure.extras.objects.size(); ++n) {
+    const FigureObject& object = figure.extras.objects[n];
     if (!object.surface && object.shapes.empty()) continue;
-    const PictureObject asked = picture_object(object, command.scene.figure.objects[n], camera, balls);
+    const FigureObjectRequest& request = request_of(command.scene.figure.objects, n);
+    const PictureObject requested = picture_object(object, request, camera, balls);
     std::vector<std::uint32_t> cap_plane;
     if (!object.surface) {
       made.push_back(shape_object(shown.atoms, object.shapes, tolerance));
     } else {
-      CappedMesh capped = capped_mesh(*object.surface, asked.clip, asked.cap.color.has_value(), tolerance);
+      CappedMesh capped = capped_mesh(*object.surface, requested.clip, requested.cap.color.has_value(), tolerance);
       cap_plane = std::move(capped.cap_plane);
       made.push_back({*object.surface, std::move(capped.mesh)});
     }
     SurfaceObject& own = made.back().object;
-    own.name = fmt::format("object {}", n + 1);
+    own.name = request.is_companion ? "ligands and ions" : fmt::format("object {}", n + 1);
     TriangleMesh& mesh = made.back().mesh;
     if (!object.surface && own.coloring.hides_some()) mesh = shown_part(std::move(mesh), own.coloring);
     objects.push_back({own,
                        std::move(mesh),
                        blender::atom_attributes(shown, own.atom),
                        {},
-                       asked.thickens,
+                       requested.thickens,
                        std::move(cap_plane),
-                       blender::CutFile{asked.clip, asked.cap},
-                       asked.material});
+                       blender::CutFile{requested.clip, requested.cap},
+                       requested.material});
   }
 }
 
 /// Adds an object for the shapes drawn in addition to the surface, kept in `made`. Its vertices move with the atom of
 /// their triangles.
-void add_beside(const Structure& structure, const ColoredShapes& shapes, double tolerance,
-                std::span<const glm::dvec3> velocities, std::optional<ShapeObject>& made,
-                std::vector<blender::MeshedObject>& objects) {
+void add_extra_shapes(const Structure& structure, const ColoredShapes& shapes, double tolerance,
+                      std::span<const glm::dvec3> velocities, std::optional<ShapeObject>& made,
+                      std::vector<blender::MeshedObject>& objects) {
   if (shapes.empty()) return;
   Structure shown;
   shown.atoms = shown_atoms(structure);
@@ -207,7 +208,7 @@ bool is_empty(const std::vector<blender::MeshedObject>& objects) {
 void mesh_figure(const SceneCommand& command, FigureFrame& frame, const blender::CutFile& cut,
                  const MeshFineness& fineness, FigureMeshes& made) {
   Molecule& molecule = frame.figure.molecule;
-  const BesideSurface& beside = frame.figure.beside;
+  const FigureExtras& extras = frame.figure.extras;
   // Vertices at a cut have no velocities: caps stay in place.
   const std::span<const glm::dvec3> velocities =
       cut.planes.empty() ? std::span<const glm::dvec3>(frame.velocities) : std::span<const glm::dvec3>{};
@@ -215,13 +216,13 @@ void mesh_figure(const SceneCommand& command, FigureFrame& frame, const blender:
     const bool hides =
         std::ranges::any_of(molecule.objects, [](const SurfaceObject& o) { return o.coloring.hides_some(); });
     refuse_even_parts(fineness, hides, !cut.planes.empty());
-    settle_copies(molecule.objects, !cut.planes.empty());
+    merge_copies(molecule.objects, !cut.planes.empty());
     made.objects = cut.planes.empty() ? whole_objects(command, molecule, fineness, velocities)
                                       : cut_objects(command, molecule, cut, fineness.tolerance);
-    if (beside.empty() && is_empty(made.objects))
+    if (extras.empty() && is_empty(made.objects))
       throw RequestError("no part of the surface is shown, so there is no mesh to write");
   }
-  add_beside(molecule.structure, beside.shapes, fineness.tolerance, velocities, made.beside, made.objects);
+  add_extra_shapes(molecule.structure, extras.shapes, fineness.tolerance, velocities, made.extras, made.objects);
   add_more(command, frame.figure, frame.camera, fineness.tolerance, made.more, made.objects);
   if (is_empty(made.objects)) throw RequestError("the surface is not shown, and there is nothing beside it");
 }
@@ -256,26 +257,27 @@ path_tracers::SceneItem item_of(const SurfaceObject& object, std::span<const Cli
   return path_tracers::surface_item(object, shown.mesh, origin, caps);
 }
 
-void add_surface(const Scene& asked, Figure figure, double tolerance, path_tracers::Scene& scene) {
+void add_surface(const Scene& requested, Figure figure, double tolerance, path_tracers::PathTracerScene& scene) {
   std::vector<SurfaceObject>& objects = figure.molecule.objects;
-  const std::vector<ClipPlane> planes = surface_planes(asked.figure, figure.beside.cut_atoms, scene.camera, objects);
-  settle_copies(objects, !planes.empty());
+  const std::vector<ClipPlane> planes =
+      surface_planes(requested.figure, figure.extras.cut_atoms, scene.camera, objects);
+  merge_copies(objects, !planes.empty());
   for (const SurfaceObject& object : objects)
-    scene.items.push_back(item_of(object, planes, asked.figure.cap, tolerance, scene.origin));
+    scene.items.push_back(item_of(object, planes, requested.figure.cap, tolerance, scene.origin));
 }
 
 // Adds objects with materials of their own.
-void add_more(const Scene& asked, const Figure& figure, std::span<const Atom> atoms, double tolerance,
-              path_tracers::Scene& scene) {
+void add_more(const Scene& requested, const Figure& figure, std::span<const Atom> atoms, double tolerance,
+              path_tracers::PathTracerScene& scene) {
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
-  for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
-    const FigureObject& object = figure.beside.objects[n];
+  for (std::size_t n = 0; n < figure.extras.objects.size(); ++n) {
+    const FigureObject& object = figure.extras.objects[n];
     if (!object.surface && object.shapes.empty()) continue;
     if (!object.surface) {
       scene.items.push_back(path_tracers::shapes_item(atoms, object.shapes, scene.origin));
       continue;
     }
-    const PictureObject shown = picture_object(object, asked.figure.objects[n], scene.camera, balls);
+    const PictureObject shown = picture_object(object, request_of(requested.figure.objects, n), scene.camera, balls);
     scene.items.push_back(item_of(*object.surface, shown.clip, shown.cap, tolerance, scene.origin));
   }
 }
@@ -287,19 +289,19 @@ TakenProperties traced_properties() {
 }
 
 TracedFigure traced_figure(const FigureRun& run, FigureFrame frame) {
-  const Scene& asked = run.scene();
+  const Scene& requested = run.scene();
   Figure& figure = frame.figure;
   const std::vector<Ball> balls = run.is_run() ? standing_balls(run.structure()) : figure.balls();
-  const double tolerance = tolerance_of(asked.mesh, asked.picture.size(), run.camera(0), balls);
-  path_tracers::Scene scene;
+  const double tolerance = tolerance_of(requested.mesh, requested.picture.size(), run.camera(0), balls);
+  path_tracers::PathTracerScene scene;
   scene.origin = run.is_run() ? run.framing().origin() : rounded_center(balls);
   scene.camera = frame.camera;
-  scene.width = asked.picture.width;
-  scene.height = asked.picture.height;
+  scene.width = requested.picture.width;
+  scene.height = requested.picture.height;
   const std::vector<Atom> atoms = shown_atoms(figure.molecule.structure);
-  scene.items.push_back(path_tracers::shapes_item(atoms, figure.beside.shapes, scene.origin));
-  add_more(asked, figure, atoms, tolerance, scene);
-  if (!asked.figure.hides_surface) add_surface(asked, std::move(figure), tolerance, scene);
+  scene.items.push_back(path_tracers::shapes_item(atoms, figure.extras.shapes, scene.origin));
+  add_more(requested, figure, atoms, tolerance, scene);
+  if (!requested.figure.hides_surface) add_surface(requested, std::move(figure), tolerance, scene);
   return {std::move(scene), tolerance};
 }
 

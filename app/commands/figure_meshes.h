@@ -49,7 +49,7 @@ TakenProperties blender_properties();
 
 /// All meshes of one figure, and the data that they refer to.
 struct FigureMeshes {
-  std::optional<ShapeObject> beside;
+  std::optional<ShapeObject> extras;
   std::vector<ShapeObject> more;
   std::vector<blender::MeshedObject> objects;
 };
@@ -83,7 +83,7 @@ TakenProperties traced_properties();
 
 /// A figure's scene, and its fineness.
 struct TracedFigure {
-  path_tracers::Scene scene;
+  path_tracers::PathTracerScene scene;
   double tolerance = 0.0;  ///< Å
 };
 

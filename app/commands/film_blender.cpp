@@ -71,7 +71,7 @@ class BlenderFilm {
         progress_(progress_on_stderr(command_), "film", storyboard.size()) {}
 
   void write() {
-    storyboard_.tell_left_out(left_out_of_blender(storyboard_));
+    storyboard_.log_left_out(left_out_of_blender(storyboard_));
     story_.is_smooth = command_.pace == Pace::smooth;
     story_.fps = command_.scene.film.frames_per_second;
     std::uint64_t frame = 1;
@@ -88,8 +88,8 @@ class BlenderFilm {
     for (const auto& file : files_) file->commit();
     folder_.commit();
     const std::filesystem::path written = folder_.path() / "story.json";
-    say(command_, fmt::format("{} scenes as {} files, {} frames, {:.1f} s", storyboard_.size(), files_.size(),
-                              with_thousands(frame - 1), static_cast<double>(frame - 1) / story_.fps));
+    log_line(command_, fmt::format("{} scenes as {} files, {} frames, {:.1f} s", storyboard_.size(), files_.size(),
+                                   with_thousands(frame - 1), static_cast<double>(frame - 1) / story_.fps));
     std::cout << escaped(written.string()) << "\n";
   }
 

@@ -61,7 +61,7 @@ NamedViews::NamedViews(const std::vector<std::string>& texts, const SceneCommand
     if (is_scene(file)) {
       std::vector<std::string> words{page.scene.molecule.file};
       if (trusts_scenes) words.push_back("--trust-scene");
-      view.scene = readied(read_scene_file(file, std::move(words), page.reporting).scene);
+      view.scene = prepared_scene(read_scene_file(file, std::move(words), page.reporting).scene);
     } else {
       view.scene.picture.camera_file = file;
     }
@@ -84,13 +84,13 @@ std::vector<page::PageView> NamedViews::of(const Scene& page, const Figure& figu
   for (const View& view : views_) {
     page::PageView& made = shown.emplace_back(page::PageView{view.name, view.camera.value()});
     if (page.figure.hides_surface) continue;
-    const FigureRequest& asked = view.scene.figure;
+    const FigureRequest& requested = view.scene.figure;
     named(view.name, [&] {
-      made.clip =
-          surface_planes(asked, cut_atoms(asked.cuts, figure.molecule.structure), made.camera, figure.molecule.objects);
+      made.clip = surface_planes(requested, cut_atoms(requested.cuts, figure.molecule.structure), made.camera,
+                                 figure.molecule.objects);
     });
     made.opacity = opacity_of(view.scene);
-    made.looks_inside = uses_atoms(asked.cuts);
+    made.looks_inside = uses_atoms(requested.cuts);
   }
   return shown;
 }

@@ -27,23 +27,23 @@ class PictureProgress {
     const double rays = static_cast<double>(settings.samples) * settings.size.x * settings.size.y;
     if (command.reporting.quiet || rays < kManyRays) return;
     progress_.emplace(progress_on_stderr(command), "picture", kParts);
-    settings.progress = [this](double share) { tell(static_cast<std::uint64_t>(share * kParts)); };
+    settings.progress = [this](double share) { advance_to(static_cast<std::uint64_t>(share * kParts)); };
   }
   void end() {
-    if (progress_) tell(kParts);
+    if (progress_) advance_to(kParts);
   }
 
  private:
-  void tell(std::uint64_t parts) {
-    if (parts <= told_) return;
-    progress_->advance(parts - told_);
-    told_ = parts;
+  void advance_to(std::uint64_t parts) {
+    if (parts <= advanced_) return;
+    progress_->advance(parts - advanced_);
+    advanced_ = parts;
   }
 
   static constexpr double kManyRays = 5e7;  // a few seconds
   static constexpr std::uint64_t kParts = 100;
   std::optional<Progress> progress_;
-  std::uint64_t told_ = 0;
+  std::uint64_t advanced_ = 0;
 };
 
 std::optional<Curve> curve_of_run(const Scene& scene, const FrameRun& run) {
@@ -53,31 +53,31 @@ std::optional<Curve> curve_of_run(const Scene& scene, const FrameRun& run) {
 }
 
 /// Warns of small letters in pictures with a size on paper.
-void tell_small_letters(const RenderCommand& command, const PictureLayout& layout) {
+void warn_of_small_letters(const RenderCommand& command, const PictureLayout& layout) {
   constexpr double kPointsPerInch = 72.0, kLeast = 5.0;  // the limit of most journals
   const Scene& scene = command.scene;
   if (!scene_values::has_lengths_of_sides(scene) || scene.picture.dots_per_inch <= 0.0) return;
   const glm::ivec2 size = layout.size.size() + glm::ivec2(0, layout.strips.top + layout.strips.bottom);
   const LetterHeights heights(scene.annotations.letters, size);
-  const AnnotationRequest& asked = scene.annotations;
+  const AnnotationRequest& requested = scene.annotations;
   double least = kLeast;
   std::vector<std::string> small;
-  const auto look_at = [&](bool is_there, const char* what, int pixels) {
+  const auto check_height = [&](bool is_there, const char* what, int pixels) {
     const double points = pixels * kPointsPerInch / scene.picture.dots_per_inch;
     if (!is_there || points >= kLeast - 0.05) return;
     least = std::min(least, points);
     small.emplace_back(what);
   };
-  if (layout.legend) look_at(true, "the legend", layout.legend->font().height());
-  look_at(!asked.labels.empty(), "labels", heights.labels);
-  look_at(asked.scale_bar, "the scale bar", heights.scale_bar);
-  look_at(!asked.panel.empty(), "the panel", heights.panel);
-  look_at(asked.time_stamp && scene.frames.asked(), "the time", heights.usual);
+  if (layout.legend) check_height(true, "the legend", layout.legend->font().height());
+  check_height(!requested.labels.empty(), "labels", heights.labels);
+  check_height(requested.scale_bar, "the scale bar", heights.scale_bar);
+  check_height(!requested.panel.empty(), "the panel", heights.panel);
+  check_height(requested.time_stamp && scene.frames.is_requested(), "the time", heights.usual);
   if (small.empty()) return;
-  say(command,
-      fmt::format("warning: letters of {} are as small as {:.1f} pt on paper; most journals ask for {:g} pt; add "
-                  "--letter-size 6pt",
-                  fmt::join(small, ", "), least, kLeast));
+  log_line(command,
+           fmt::format("warning: letters of {} are as small as {:.1f} pt on paper; most journals ask for {:g} pt; add "
+                       "--letter-size 6pt",
+                       fmt::join(small, ", "), least, kLeast));
 }
 
 }  // namespace
@@ -149,7 +149,7 @@ std::optional<glm::vec3> ground_of_film(const std::optional<glm::vec3>& backgrou
 
 PictureSink::PictureSink(const RenderCommand& command, const PictureLayout& layout, FrameRun* run)
     : command_(command), layout_(layout), run_(run), annotations_(command.scene, run) {
-  tell_small_letters(command, layout);
+  warn_of_small_letters(command, layout);
   if (run) name_files();
 }
 

@@ -55,10 +55,10 @@ std::vector<povray::SceneObject> povray_objects(const Figure& figure, const Figu
                                                 const Camera& camera, bool keeps_empty) {
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
   std::vector<povray::SceneObject> more;
-  for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
-    const FigureObject& object = figure.beside.objects[n];
+  for (std::size_t n = 0; n < figure.extras.objects.size(); ++n) {
+    const FigureObject& object = figure.extras.objects[n];
     if (!keeps_empty && !object.surface && object.shapes.empty()) continue;
-    const PictureObject shown = picture_object(object, request.objects[n], camera, balls);
+    const PictureObject shown = picture_object(object, request_of(request.objects, n), camera, balls);
     povray::SceneObject& made = more.emplace_back();
     if (object.surface)
       made.surface = &*object.surface;
@@ -72,7 +72,7 @@ std::vector<povray::SceneObject> povray_objects(const Figure& figure, const Figu
 }
 
 povray::SurfaceCut povray_cut(const Figure& figure, const FigureRequest& request, const Camera& camera) {
-  return {surface_planes(request, figure.beside.cut_atoms, camera, figure.molecule.objects), request.cap};
+  return {surface_planes(request, figure.extras.cut_atoms, camera, figure.molecule.objects), request.cap};
 }
 
 std::vector<std::string> comment_names(const Scene& scene, const Structure& structure) {
@@ -120,9 +120,9 @@ povray::Run shared_by(Storyboard& storyboard) {
   all.surface = false;
   for (std::size_t n = 0; n < storyboard.size(); ++n) {
     FilmScene& scene = storyboard.scene(n);
-    const Scene& asked = scene.run.scene();
-    check_povray(asked);
-    if (scene.run.is_run() && asked.molecule.color.by == ColorScheme::By::lipophilicity) all.maps_change = true;
+    const Scene& requested = scene.run.scene();
+    check_povray(requested);
+    if (scene.run.is_run() && requested.molecule.color.by == ColorScheme::By::lipophilicity) all.maps_change = true;
     if (auto map = map_of(scene)) {
       if (all.map) all.maps_change = true;
       all.map = std::move(map);
@@ -130,11 +130,11 @@ povray::Run shared_by(Storyboard& storyboard) {
     const Box box = extent_of(scene);
     all.extent.include(box.low);
     all.extent.include(box.high);
-    all.surface = all.surface || !asked.figure.hides_surface;
-    all.caps = all.caps || (!asked.figure.hides_surface && !asked.figure.cuts.empty());
-    all.shapes = all.shapes || !asked.figure.representations.empty();
-    all.translucent = all.translucent || sees_through(asked.molecule.color.opacities);
-    for (const FigureObjectRequest& object : asked.figure.objects) {
+    all.surface = all.surface || !requested.figure.hides_surface;
+    all.caps = all.caps || (!requested.figure.hides_surface && !requested.figure.cuts.empty());
+    all.shapes = all.shapes || !requested.figure.representations.empty();
+    all.translucent = all.translucent || sees_through(requested.molecule.color.opacities);
+    for (const FigureObjectRequest& object : all_requests(requested.figure.objects, scene.run.structure())) {
       all.objects.push_back({!object.shapes, false});
       if (!object.material.empty()) all.materials.push_back(object.material);
       all.translucent = all.translucent || sees_through(object.opacities);
@@ -187,7 +187,8 @@ std::vector<povray::SceneObject> objects_of(Storyboard& storyboard, std::size_t 
       objects.insert(objects.end(), own.begin(), own.end());
       continue;
     }
-    for (const FigureObjectRequest& object : storyboard.scene(n).run.scene().figure.objects)
+    const FigureRun& run = storyboard.scene(n).run;
+    for (const FigureObjectRequest& object : all_requests(run.scene().figure.objects, run.structure()))
       objects.emplace_back().material = object.material;
   }
   return objects;
@@ -204,12 +205,13 @@ class PovrayFilm : public FilmMaker {
 
   void make() {
     const FilmCommand& command = storyboard_.command();
-    storyboard_.tell_left_out(left_out_of_povray(storyboard_));
+    storyboard_.log_left_out(left_out_of_povray(storyboard_));
     storyboard_.play(*this, nullptr, 0);
     film_.rate = command.scene.film.frames_per_second;
     const povray::SceneReport report = sequence_.write_shared(&film_);
-    say(command, fmt::format("{} pictures, {:.1f} s, of {} that POV-Ray renders", with_thousands(film_.pictures.size()),
-                             static_cast<double>(film_.pictures.size()) / film_.rate, with_thousands(frames_)));
+    log_line(command,
+             fmt::format("{} pictures, {:.1f} s, of {} that POV-Ray renders", with_thousands(film_.pictures.size()),
+                         static_cast<double>(film_.pictures.size()) / film_.rate, with_thousands(frames_)));
     std::cout << escaped(report.command) << "\n";
   }
 
@@ -236,19 +238,19 @@ class PovrayFilm : public FilmMaker {
   /// Returns the number of the frame. scene: the scene of the shot.
   std::uint64_t write(const MoleculeShot& shot, std::size_t scene) {
     const Look& look = shot.settings.look;
-    const FigureRequest& asked = shot.scene.figure;
+    const FigureRequest& requested = shot.scene.figure;
     // POV-Ray casts shadows where a scene has them, but not those of a preset.
     const float shadows = shot.scene.look.shadows ? look.shadows : 0.0f;
     const std::size_t place = sequence_.add_frame(shot.camera, {look.background, shadows, look.shadow_softness});
     const std::vector<povray::SceneObject> objects = objects_of(storyboard_, scene, shot);
     const std::vector<std::string> names = comment_names(shot.scene, shot.figure.molecule.structure);
     std::span<const SurfaceObject> surface = shot.figure.molecule.objects;
-    if (asked.hides_surface) surface = {};
+    if (requested.hides_surface) surface = {};
     const povray::SceneReport report =
-        sequence_.write_frame(place, {surface, povray_cut(shot.figure, asked, shot.camera), &shot.figure.beside.shapes,
-                                      objects, names, asked.thickens});
+        sequence_.write_frame(place, {surface, povray_cut(shot.figure, requested, shot.camera),
+                                      &shot.figure.extras.shapes, objects, names, requested.thickens});
     if (frames_++ == 0)
-      for (const std::string& note : report.notes) say(storyboard_.command(), "note: " + note);
+      for (const std::string& note : report.notes) log_line(storyboard_.command(), "note: " + note);
     return place + 1;
   }
 

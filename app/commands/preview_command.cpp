@@ -102,20 +102,20 @@ void take_preview(DeclaredPreview& declared, const std::vector<std::string>& nam
   require_probe_of_kind(scene.molecule.surface);
   const bool is_scene = !options.file().empty();
   if (!is_scene && !options.is_given("image.background")) scene.image.background = glm::vec3(1.0f);
-  state.models =
-      !is_scene && !options.is_given("molecule.model") && !scene.frames.asked() && scene.molecule.reading.added.empty();
+  state.models = !is_scene && !options.is_given("molecule.model") && !scene.frames.is_requested() &&
+                 scene.molecule.reading.added.empty();
   state.aims = is_scene || scene.picture.direction || scene.picture.zoom_to || !scene.picture.turns.empty();
   if (is_scene || options.is_given("image.size") || options.is_given("image.width") || options.is_given("image.height"))
-    state.wishes.size = scene.picture.size();
-  if (is_scene || options.is_given("image.samples")) state.wishes.samples = scene.image.samples;
-  state.wishes.transparent = !scene.image.background;
-  state.wishes.dots_per_inch = scene.picture.dots_per_inch;
+    state.export_options.size = scene.picture.size();
+  if (is_scene || options.is_given("image.samples")) state.export_options.samples = scene.image.samples;
+  state.export_options.transparent = !scene.image.background;
+  state.export_options.dots_per_inch = scene.picture.dots_per_inch;
 }
 
 namespace {
 
 /// Returns the value of a property, with paths normalized.
-std::vector<std::string> settled_texts(const Scene& scene, const Property& property) {
+std::vector<std::string> normalized_texts(const Scene& scene, const Property& property) {
   std::vector<std::string> texts = value_texts(scene, property);
   if (property.type == ValueType::file)
     for (std::string& path : texts) path = std::filesystem::weakly_canonical(path).string();
@@ -131,14 +131,21 @@ Structure ShownReader::operator()(const FigureRequest& figure, std::size_t frame
   if (molecule_.file == "-")
     throw RequestError("a molecule from standard input cannot be read again; give FILE to draw atoms beside a surface");
   MoleculeRequest wanted = molecule_;
-  figure.ask_for(wanted.reading);
+  figure.mark_atoms(wanted.reading);
   if (models_) {
     wanted.reading.model = {};
     wanted.reading.model.number = static_cast<int>(frame) + 1;
   }
-  if (!frames_.asked()) return read_molecule(wanted);
-  FrameRun run(wanted, frames_);
-  return run.at(run.chunk()[frame]);
+  if (!frames_.is_requested()) return read_molecule(wanted);
+  std::string marks = wanted.reading.secondary_structure ? "secondary" : "";
+  for (const ShownAtoms& shown : wanted.reading.shown)
+    marks += fmt::format("\n{} {} {}", shown.option, shown.each_is_drawn, shown.atoms.text());
+  marks += fmt::format("\n{}", wanted.reading.companions == Companions::drawn);
+  if (!open_->run || open_->marks != marks) {
+    open_->run = std::make_unique<FrameRun>(wanted, frames_);
+    open_->marks = std::move(marks);
+  }
+  return open_->run->at(open_->run->chunk()[frame]);
 }
 
 Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, const ColorScheme& color,
@@ -146,7 +153,7 @@ Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, cons
   ViewRequest layout = scene.picture;
   if (scene.legend.within) {
     const ColorKey colors = figure_key(structure, color, {std::vector<bool>(structure.atoms.size(), true)},
-                                       scene.figure, make_beside(structure, scene.figure, color));
+                                       scene.figure, make_extras(structure, scene.figure, color));
     const Legend legend(colors, layout.size(), legend_style(scene.legend.style, scene.annotations.letters));
     layout.width = legend.molecule_size().x;
     layout.height = legend.molecule_size().y;
@@ -228,8 +235,8 @@ bool SceneOpener::is_of_this_molecule(const Scene& scene) const {
     const bool colors =
         property->section() == "surface" && (property->type == ValueType::file || property->name() == "color_column");
     if (!reads && !colors) return true;
-    const std::vector<std::string> own = settled_texts(scene, *property);
-    return (colors && own.empty()) || own == settled_texts(begun_, *property);
+    const std::vector<std::string> own = normalized_texts(scene, *property);
+    return (colors && own.empty()) || own == normalized_texts(begun_, *property);
   });
 }
 
@@ -251,7 +258,7 @@ OpenedScene SceneOpener::operator()(const std::filesystem::path& path) const {
         "open: {} has other atoms, frames or numbers than {}, which is shown; start another preview with --scene",
         escaped(path.string()), escaped(begun_.molecule.file)));
   const ColorScheme color = color_of(opened.scene.molecule);
-  OpenedScene scene{figure_of(opened.scene, color), opened.wishes, 0};
+  OpenedScene scene{figure_of(opened.scene, color), opened.export_options, 0};
   scene.figure.camera = aimed_camera(opened.scene, given_camera(opened.scene.picture), color,
                                      ShownReader(opened)(opened.scene.figure, 0));
   scene.figure.overview = false;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,13 +14,14 @@
 #include "app/options/scene_options.h"
 #include "app/preview/preview_state.h"
 #include "app/preview/session.h"
+#include "core/scene/frame_run.h"
 
 namespace meniscus {
 
 struct PreviewCommand : SceneCommand {
   bool models = false;                ///< true if each model of the file is a frame
   bool aims = false;                  ///< true if the scene sets the first camera
-  ExportWishes wishes;                ///< for exported pictures
+  ExportOptions export_options;       ///< for exported pictures
   std::optional<std::uint16_t> port;  ///< the value of --serve
   std::string record, commands, token_file, output_folder = ".";
 
@@ -40,7 +42,7 @@ void add_preview_options(CLI::App& command, DeclaredPreview& declared);
 void take_preview(DeclaredPreview& declared, const std::vector<std::string>& named = {});
 
 /// Reads the molecule again, at a frame, with the atoms that a figure draws in addition to its surface. Files are read
-/// again when these atoms change.
+/// again when these atoms change; a trajectory stays open while they do not. Calls must not overlap.
 class ShownReader {
  public:
   explicit ShownReader(const PreviewCommand& command);
@@ -51,6 +53,13 @@ class ShownReader {
   MoleculeRequest molecule_;
   RunRequest frames_;
   bool models_ = false;
+
+  /// The run of the last call, and the atoms that it marks.
+  struct OpenRun {
+    std::string marks;
+    std::unique_ptr<FrameRun> run;
+  };
+  std::shared_ptr<OpenRun> open_ = std::make_shared<OpenRun>();
 };
 
 /// Returns the camera that render would use: everything drawn counts, and the molecule is framed next to the legend.

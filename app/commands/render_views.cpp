@@ -28,10 +28,10 @@
 #include "core/render/picture.h"
 #include "core/render/picture_file.h"
 #include "core/scene/figure_key.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/molecule.h"
 #include "core/scene/run_framing.h"
-#include "core/scene/settled_selections.h"
 #include "core/scene/view_aim.h"
 #include "core/visible_surface/view_pipeline.h"
 
@@ -83,7 +83,7 @@ ColoredAtoms colored_atoms(const MoleculeRequest& request, const ColorScheme& co
   std::iota(all.begin(), all.end(), 0u);
   atoms.coloring = color_object(structure, all, atoms.molecule.color, 0);
   if (request.show) atoms.coloring.hidden = hidden_atoms(*request.show, structure);
-  if (request.patches) atoms.coloring.in_patch = patch_atoms(*request.patches, structure.atoms);
+  if (request.patches) atoms.coloring.in_patch = patch_atoms(*request.patches, structure);
   return atoms;
 }
 
@@ -124,14 +124,14 @@ struct Viewed {
 
   explicit Viewed(RenderCommand& command) : given(given_cameras(command.scene.picture, command.scene.run_camera)) {
     Scene& scene = command.scene;
-    if (!scene.frames.asked()) {
-      atoms = colored_atoms(scene.molecule, color_of(scene.molecule), read_and_tell(command));
+    if (!scene.frames.is_requested()) {
+      atoms = colored_atoms(scene.molecule, color_of(scene.molecule), read_and_log(command));
       aim.emplace(scene.picture, scene.molecule.show, atoms.molecule.structure);
       return;
     }
     run = std::make_unique<FrameRun>(scene.molecule, scene.frames);
     frames = std::make_unique<ShownFrames>(scene.molecule, *run);
-    tell_run(command, *run);
+    log_run(command, *run);
     measure_colors(scene.molecule.color, *frames);
   }
 
@@ -150,15 +150,15 @@ struct Viewed {
 
 }  // namespace
 
-void render_views(const RenderCommand& asked) {
-  check_view_options(asked.scene.molecule);
-  RenderCommand command = asked;
+void render_views(const RenderCommand& requested) {
+  check_view_options(requested.scene.molecule);
+  RenderCommand command = requested;
   Scene& scene = command.scene;
-  settle_selections(scene);
+  freeze_selections(scene);
   Viewed viewed(command);
   const PictureLayout layout(scene, viewed.key(scene));
   const std::vector<Camera> cameras = viewed.cameras(scene, layout.size);
-  PictureSink sink(asked, layout, viewed.run.get());
+  PictureSink sink(requested, layout, viewed.run.get());
   if (viewed.run) sink.check(cameras, viewed.frames->first_shown());
   const EglContext context(scene.molecule.surface.gl);
   ViewPipeline pipeline;
@@ -186,15 +186,15 @@ void render_views(const RenderCommand& asked) {
       };
     }});
   } else if (keep({.camera = cameras.front()})().shows_nothing) {
-    say(command, kShowsNothing);
+    log_line(command, kShowsNothing);
   }
   sink.finish();
-  tell_grown_radii(command, grown_by);
-  if (layout.legend_apart) write_legend_picture(scene.legend.file, *layout.legend_apart, image_settings(asked));
+  log_grown_radii(command, grown_by);
+  if (layout.legend_apart) write_legend_picture(scene.legend.file, *layout.legend_apart, image_settings(requested));
   save_cameras(command, cameras, viewed.run ? std::span(viewed.run->numbers()) : std::span<const std::uint64_t>());
   if (viewed.run) return;
   if (command.stats) fmt::print(std::cerr, "{}", stats());
-  say_times(command, gl_words(context), renderer.times());
+  log_times(command, gl_words(context), renderer.times());
 }
 
 }  // namespace meniscus

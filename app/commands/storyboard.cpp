@@ -47,7 +47,7 @@ const FilmCommand& with_scenes(const FilmCommand& film) {
 
 bool is_written_into(const Scene& scene) {
   const AnnotationRequest& written = scene.annotations;
-  return scene.legend.asked() || !written.panel.empty() || !written.title.empty() || written.scale_bar ||
+  return scene.legend.is_requested() || !written.panel.empty() || !written.title.empty() || written.scale_bar ||
          written.time_stamp || !written.labels.empty() || !written.curve.empty();
 }
 
@@ -120,7 +120,7 @@ Storyboard::Storyboard(const DeclaredFilm& declared)
       keys.push_back(scenes_.back()->key);
     });
   const std::string conflicts = color_conflicts(keys, "scene");
-  if (!conflicts.empty()) say(command_, "warning: " + conflicts);
+  if (!conflicts.empty()) log_line(command_, "warning: " + conflicts);
 }
 
 void Storyboard::check_pictures_of(const std::vector<SceneCommand>& scenes) const {
@@ -144,8 +144,8 @@ bool Storyboard::any(const std::function<bool(const Scene&)>& is_true) const {
   return std::ranges::any_of(scenes_, [&](const auto& scene) { return is_true(scene->run.scene()); });
 }
 
-void Storyboard::tell_left_out(const std::vector<std::string>& sentences) const {
-  for (const std::string& sentence : sentences) say(command_, "note: " + sentence);
+void Storyboard::log_left_out(const std::vector<std::string>& sentences) const {
+  for (const std::string& sentence : sentences) log_line(command_, "note: " + sentence);
 }
 
 void Storyboard::play(FilmMaker& maker, const EglContext* context, std::uint64_t bytes_per_pixel) {

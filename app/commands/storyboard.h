@@ -81,7 +81,7 @@ class Storyboard {
   /// True if the predicate is true for some scene.
   bool any(const std::function<bool(const Scene&)>& is_true) const;
   /// Prints a note about each thing that another renderer leaves out.
-  void tell_left_out(const std::vector<std::string>& sentences) const;
+  void log_left_out(const std::vector<std::string>& sentences) const;
 
   /// Passes all shots and transitions to the maker in the order of the film, once. context: for computing surfaces;
   /// nullptr: on the CPU. bytes_per_pixel: memory of a frame until it is finished.

@@ -189,8 +189,8 @@ class Summary {
     if (!command_.resumes) return;
     const std::size_t all = files_.size();
     std::erase_if(files_, [&](const std::string& file) { return done.contains(csv_cell(file)); });
-    say(command_,
-        fmt::format("--resume: {} of {} files are there", with_thousands(all - files_.size()), with_thousands(all)));
+    log_line(command_, fmt::format("--resume: {} of {} files are there", with_thousands(all - files_.size()),
+                                   with_thousands(all)));
   }
 
   std::size_t files_at_once() const {
@@ -269,7 +269,7 @@ void check_summary(const SurfaceCommand& command) {
                                                  {!command.plot.empty(), "--plot"},
                                                  {command.open_sky, "--open-sky"},
                                                  {command.context.has_value(), "--context"},
-                                                 {scene.frames.asked(), "--frames, or another option for runs"}};
+                                                 {scene.frames.is_requested(), "--frames, or another option for runs"}};
   for (const auto& [is_given, option] : others)
     if (is_given)
       throw UsageError(fmt::format("--csv-summary is for many molecules, one row each; leave {} out", option));
@@ -285,8 +285,8 @@ void check_summary(const SurfaceCommand& command) {
 
 }  // namespace
 
-void print_summary(const SurfaceCommand& asked) {
-  SurfaceCommand command = asked;
+void print_summary(const SurfaceCommand& requested) {
+  SurfaceCommand command = requested;
   std::vector<std::string> files{std::exchange(command.scene.molecule.file, {})};
   std::vector<std::string>& more = command.scene.frames.trajectories;
   files.insert(files.end(), more.begin(), more.end());

@@ -28,10 +28,10 @@
 #include "core/scene/annotations.h"
 #include "core/scene/figure_key.h"
 #include "core/scene/frame_run.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/run_framing.h"
 #include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
-#include "core/scene/settled_selections.h"
 
 namespace meniscus::farm {
 namespace {
@@ -235,14 +235,14 @@ bool take_measurements(const BundleOptions& options, Bundle& bundle) {
 
 MadeBundle described(const BundleOptions& options, const BundledCommand& given, BundleInputs& inputs) {
   SceneCommand command = given.command;
-  command.scene = readied(command.scene);
+  command.scene = prepared_scene(command.scene);
   Scene& scene = command.scene;
-  settle_selections(scene);
+  freeze_selections(scene);
   check_picture(scene);
   if (!scene.legend.file.empty()) check_image_path(scene.legend.file);
   const GivenCameras cameras = given_cameras(scene.picture, scene.run_camera);
   FrameRun frames(scene.molecule, scene.frames);
-  tell_run(command, frames);
+  log_run(command, frames);
   MadeBundle made;
   if (!frames.trajectory().cut_short().empty())
     made.notes.push_back(frames.trajectory().path() + ": " + frames.trajectory().cut_short());

@@ -30,8 +30,8 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-/// Says when a codec keeps transparency: `asked` means only where a film is to be transparent.
-enum class Alpha { never, asked, always };
+/// Says when a codec keeps transparency: `on_request` means only where a film is to be transparent.
+enum class Alpha { never, on_request, always };
 
 struct Codec {
   std::string name;
@@ -42,7 +42,7 @@ struct Codec {
   Alpha alpha = Alpha::never;
 
   bool keeps_alpha(const FilmFormat& format) const {
-    return alpha == Alpha::always || (alpha == Alpha::asked && format.transparent);
+    return alpha == Alpha::always || (alpha == Alpha::on_request && format.transparent);
   }
 };
 
@@ -64,11 +64,11 @@ const std::vector<Codec>& codecs() {
        {420, 422, 444},
        24,
        63,
-       Alpha::asked},
+       Alpha::on_request},
       {"prores", {".mov", ".mkv"}, {"prores_ks", "-profile:v", "hq"}, {10}, {422}},
       {"prores4444", {".mov", ".mkv"}, {"prores_ks", "-profile:v", "4444"}, {10}, {444}, 0, 0, Alpha::always},
       {"dnxhr", {".mov", ".mkv"}, {"dnxhd", "-profile:v"}, {8, 10}, {422, 444}},
-      {"gif", {".gif"}, {"gif"}, {8}, {444}, 0, 0, Alpha::asked},
+      {"gif", {".gif"}, {"gif"}, {8}, {444}, 0, 0, Alpha::on_request},
   };
   return table;
 }
@@ -102,18 +102,18 @@ const Codec& codec_of(const std::string& path, const FilmFormat& format) {
 }
 
 /// Returns the requested value if the codec has it; its own choice if the request is 0.
-int chosen(const Codec& codec, const char* option, const std::vector<int>& possible, int asked) {
-  if (asked == 0) return possible.front();
-  if (holds(possible, asked)) return asked;
-  throw UsageError(fmt::format("{} {}: {} has {}", option, asked, codec.name, fmt::join(possible, " or ")));
+int chosen(const Codec& codec, const char* option, const std::vector<int>& possible, int requested) {
+  if (requested == 0) return possible.front();
+  if (holds(possible, requested)) return requested;
+  throw UsageError(fmt::format("{} {}: {} has {}", option, requested, codec.name, fmt::join(possible, " or ")));
 }
 
 int rate_factor_of(const Codec& codec, const FilmFormat& format) {
-  const int asked = format.rate_factor.value_or(codec.rate_factor);
-  if (codec.worst == 0) throw UsageError(fmt::format("--crf {}: {} has no rate factor", asked, codec.name));
-  if (asked < 0 || asked > codec.worst)
-    throw UsageError(fmt::format("--crf {}: for {} give 0 (best) to {}", asked, codec.name, codec.worst));
-  return asked;
+  const int requested = format.rate_factor.value_or(codec.rate_factor);
+  if (codec.worst == 0) throw UsageError(fmt::format("--crf {}: {} has no rate factor", requested, codec.name));
+  if (requested < 0 || requested > codec.worst)
+    throw UsageError(fmt::format("--crf {}: for {} give 0 (best) to {}", requested, codec.name, codec.worst));
+  return requested;
 }
 
 /// DNxHR names bits and chroma together; at 8 bits it has no 4:4:4.

@@ -90,7 +90,7 @@ void run(std::span<const char* const> words, bool named) {
     return finish_standard_output();
   }
   ReadOptions options;
-  options.keep_water = options.keep_ions = true;
+  options.keep_water = options.keep_ions = options.takes_ligands = true;
   options.radii.set = request.hydrogens ? "bondi" : "united";
   options.radii.may_cover_none = true;  // ligands get the radii of their elements
   options.hydrogens = request.hydrogens ? Hydrogens::keep : Hydrogens::drop;

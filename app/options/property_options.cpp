@@ -72,7 +72,7 @@ const TakenProperties& run_properties() {
       {"Input", "Radii", "Assembly", "Frames", "Alignment of frames", "surface.kind", "surface.probe", "Computing",
        "output.force", "scene.read", "scene.trust", "scene.set"},
       {{{"frames.jobs", "frames.progress"},
-        [](const GivenScene& given) { return given.scene.frames.asked(); },
+        [](const GivenScene& given) { return given.scene.frames.is_requested(); },
         "there is no run of frames"}});
   return taken;
 }

@@ -16,7 +16,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/properties/properties.h"
-#include "core/scene/idle_values.h"
+#include "core/scene/ineffective_values.h"
 #include "core/scene/scene.h"
 #include "core/structure/selection/selection.h"
 
@@ -29,8 +29,8 @@ class TakenProperties {
  public:
   /// `names` are headings of the help, such as "Colour", and keys, such as "molecule.quiet". A name that begins with a
   /// minus removes its properties. Names apply in order, so a later one overrules an earlier one. `needs` are
-  /// conditions that this command adds to the conditions of all scenes; idle_values() (idle_values.h) tests them.
-  /// Throws std::logic_error for a name that is neither heading nor key.
+  /// conditions that this command adds to the conditions of all scenes; ineffective_values() (ineffective_values.h)
+  /// tests them. Throws std::logic_error for a name that is neither heading nor key.
   TakenProperties(std::initializer_list<std::string_view> names, std::initializer_list<Need> needs = {}) {
     add(names, needs);
   }
@@ -61,7 +61,7 @@ const TakenProperties& render_properties();
 Need film_need();
 /// Returns the condition of options that turn and move frames, which have no effect on areas and volumes. Each command
 /// passes a `condition` of its own: it is met by the options that make this command write positions or directions.
-/// idle_values() tests it.
+/// ineffective_values() tests it.
 Need superposition_need(Condition condition);
 
 /// Returns a check that accepts any value. The name of the check is the list of words, where command_tree()

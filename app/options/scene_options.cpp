@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/film/film.h"
 #include "app/options/command_tree.h"
 #include "app/options/named_files.h"
 #include "app/options/property_options.h"
@@ -87,6 +88,14 @@ void add_option(CLI::App& command, const Property& property) {
   std::vector<std::string> words = proposed_words(property.key);
   if (words.empty()) words = words_of(property);
   if (!words.empty()) option->check(proposes(words));
+}
+
+/// Gives a film the size of a screen, or a GIF half of it.
+void size_film(Scene& scene) {
+  if (!is_film_path(scene.output)) return;
+  const bool is_gif = scene.film.codec == "gif" || std::filesystem::path(scene.output).extension() == ".gif";
+  scene.picture.width = is_gif ? 960 : 1920;
+  scene.picture.height = is_gif ? 540 : 1080;
 }
 
 bool is_path(const Property& property) {
@@ -333,6 +342,9 @@ void SceneOptions::take(const std::vector<std::string>& named) {
   check_table();
   check_inputs();
   turn_one_molecule();
+  if (taken_.has("frames.codec") && file_.empty() && !is_given("image.size") && !is_given("image.width") &&
+      !is_given("image.height"))
+    size_film(into_.scene);
   into_.scene.molecule.surface.check = check_by_mesh;
   try {
     complete(into_.scene);
@@ -343,18 +355,18 @@ void SceneOptions::take(const std::vector<std::string>& named) {
   guard_files(settings);
   const GivenScene given{into_.scene, [this](std::string_view key) { return is_given(key); }, is_live_};
   std::vector<std::string> sentences;
-  for (SceneNote& note : idle_values(given, taken_.needs())) {
+  for (SceneNote& note : ineffective_values(given, taken_.needs())) {
     if (note.is_refused) throw UsageError(note.text);
     sentences.push_back(std::move(note.text));
   }
-  if (std::string left_out = told_left_out(); !left_out.empty()) sentences.push_back(std::move(left_out));
+  if (std::string left_out = left_out_note(); !left_out.empty()) sentences.push_back(std::move(left_out));
   for (const std::string& sentence : sentences)
     if (!into_.reporting.quiet) std::cerr << "meniscus: " << escaped(sentence) << std::endl;
 }
 
 /// Returns a note about values of the scene file that affect the picture but that this command, which shows the
 /// molecule, does not show; empty if there are none.
-std::string SceneOptions::told_left_out() const {
+std::string SceneOptions::left_out_note() const {
   if (!has_option(property_of("surface.color"))) return "";
   const auto has_any_of = [&](std::string_view section) {
     return std::ranges::any_of(properties(), [&](const Property* property) {
@@ -377,7 +389,7 @@ std::string SceneOptions::told_left_out() const {
 void SceneOptions::turn_one_molecule() {
   Scene& scene = into_.scene;
   ModelChoice& model = scene.molecule.reading.model;
-  if (!taken_.has("frames.codec") || scene.run_camera.turns == 0.0 || scene.frames.asked() || model.all) return;
+  if (!taken_.has("frames.codec") || scene.run_camera.turns == 0.0 || scene.frames.is_requested() || model.all) return;
   constexpr double kSeconds = 4.0;
   scene.frames.frames = fmt::format("{}", model.number - 1);
   scene.frames.repeat = static_cast<std::uint64_t>(std::max(std::lround(kSeconds * scene.film.frames_per_second), 2l));
@@ -419,11 +431,11 @@ SceneOutput::SceneOutput(const SceneCommand& command) : command_(command) {
 
 void SceneOutput::commit() {
   if (!file_) return;
-  file_->write(scene_text_beside(command_.scene, command_.save_scene, *command_.added));
+  file_->write(scene_text_for(command_.scene, command_.save_scene, *command_.added));
   file_->commit();
 }
 
-std::string scene_text_beside(const Scene& scene, const std::string& path, std::span<const AddedFile> added) {
+std::string scene_text_for(const Scene& scene, const std::string& path, std::span<const AddedFile> added) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   return scene_text(scene, folder.empty() ? "." : folder, added);
 }

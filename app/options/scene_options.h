@@ -114,7 +114,7 @@ class SceneOptions {
   void guard_files(std::span<const SceneSetting> settings) const;
   void take_setting(const SceneSetting& setting);
   bool has_option(const Property& property) const;
-  std::string told_left_out() const;
+  std::string left_out_note() const;
   void set(const Property& property, const std::vector<std::string>& texts);
   void check_table() const;
   void check_inputs() const;
@@ -158,7 +158,7 @@ class SceneOutput {
 
 /// Returns the text of the scene with paths relative to the folder of `path`, where it is to be saved. added: as for
 /// scene_text().
-std::string scene_text_beside(const Scene& scene, const std::string& path, std::span<const AddedFile> added = {});
+std::string scene_text_for(const Scene& scene, const std::string& path, std::span<const AddedFile> added = {});
 
 /// Returns the JSON of a scene file, or of the picture that carries it. Throws InputError.
 std::string read_scene_text(const std::string& file);

@@ -73,11 +73,11 @@ std::vector<Command> all_commands() {
       {"cancel_export", {}, Effect::none, cancel_export, false},
       {"save", {"path", "width", "height", "samples", "transparent", "force"}, Effect::none, save_scene},
       {"open", {"path"}, Effect::edit, open_scene},
-      {"scene", {"width", "height", "samples", "transparent"}, Effect::none, tell_scene},
+      {"scene", {"width", "height", "samples", "transparent"}, Effect::none, get_scene},
       {"render_command", {"width", "height", "samples", "transparent"}, Effect::none, render_command},
-      {"stats", {}, Effect::none, tell_stats},
-      {"state", {}, Effect::none, tell_state},
-      {"choices", {}, Effect::none, tell_choices},
+      {"stats", {}, Effect::none, get_stats},
+      {"state", {}, Effect::none, get_state},
+      {"choices", {}, Effect::none, get_choices},
       {"quit", {}, Effect::none, quit},
   };
 }
@@ -133,7 +133,7 @@ Outcome quit(const CommandReader&, PreviewState state, const Surroundings&) {
 }
 
 KeyMeaning press(const CommandReader& command, const Surroundings& around) {
-  return key_meaning(command.text("key"), tell_state(command, around));
+  return key_meaning(command.text("key"), get_state(command, around));
 }
 
 }  // namespace meniscus

@@ -84,7 +84,7 @@ std::string said_by(const std::string& word, const std::string& error);
 glm::ivec2 pixel_of(const CommandReader& command, const PreviewState& state);
 
 /// What the command "state" answers.
-Service tell_state;
+Service get_state;
 
 // What the rows name, by file.
 Reducer orbit, pan, zoom, roll, zoom_to, center, reset_view, set_camera, set_projection, save_view, recall_view,
@@ -96,11 +96,11 @@ Reducer set_color, paint, set_patch_kinds, set_opacity, set_film_opacity, set_lo
     set_legend;
 /// The next picture of a strip that plays; at its end playing ends.
 Outcome next_of_strip(PreviewState state, const Surroundings& around);
-Reducer keep_scene, forget_scene, show_strip;                                              // strip_commands.cpp
-Reducer undo, redo, end_step, quit;                                                        // commands.cpp
-Translator press;                                                                          // commands.cpp
-Service tell_stats, tell_choices, pick;                                                    // question_commands.cpp
-Service export_view, export_state, cancel_export, save_scene, tell_scene, render_command;  // export_commands.cpp
-Reducer open_scene;                                                                        // export_commands.cpp
+Reducer keep_scene, forget_scene, show_strip;                                             // strip_commands.cpp
+Reducer undo, redo, end_step, quit;                                                       // commands.cpp
+Translator press;                                                                         // commands.cpp
+Service get_stats, get_choices, pick;                                                     // question_commands.cpp
+Service export_view, export_state, cancel_export, save_scene, get_scene, render_command;  // export_commands.cpp
+Reducer open_scene;                                                                       // export_commands.cpp
 
 }  // namespace meniscus

@@ -29,20 +29,20 @@ using Json = nlohmann::json;
 
 constexpr int kLongestExportedSide = 16384;  // pixels
 
-/// What is asked of an exported picture beside the view.
-struct PictureWishes {
+/// The size and the quality of an exported picture.
+struct PictureOptions {
   glm::ivec2 size;
   int samples;
   bool transparent;
 };
 
-PictureWishes wishes_of(const CommandReader& command, const PreviewState& state) {
-  const glm::ivec2 size = state.wishes.size.value_or(state.size);
+PictureOptions picture_options(const CommandReader& command, const PreviewState& state) {
+  const glm::ivec2 size = state.export_options.size.value_or(state.size);
   return {{command.integer_or(size.x, "width", 16, kLongestExportedSide),
            command.integer_or(size.y, "height", 16, kLongestExportedSide)},
           command.has("samples") ? command.integer("samples", property_of("image.samples"))
-                                 : state.wishes.samples.value_or(state.samples),
-          command.flag_or(state.wishes.transparent, "transparent")};
+                                 : state.export_options.samples.value_or(state.samples),
+          command.flag_or(state.export_options.transparent, "transparent")};
 }
 
 /// Throws RequestError for a name that is none, or of a file that is there and may not be replaced.
@@ -74,7 +74,7 @@ void check_ending(const std::string& name, Format format) {
 Json written(const ExportedView& view, Format format, const MakePictureDevice& make_device, const ExportTarget& target,
              const ExportWatch& watch) {
   Json reply{{"path", target.path.string()}};
-  if (format == Format::blender && !view.figure.figure.plain())
+  if (format == Format::blender && (!view.figure.figure.plain() || (view.beside && !view.beside->empty())))
     reply["note"] = "without cuts and shapes beside the surface; meniscus export has options for these";
   if (format == Format::png) export_picture(view, make_device, target, watch);
   if (format == Format::povray) reply["render_with"] = export_povray(view, target, watch);
@@ -82,7 +82,7 @@ Json written(const ExportedView& view, Format format, const MakePictureDevice& m
   return reply;
 }
 
-/// The scene of the film that a command wishes: the run, or the molecule as it is, turned once around.
+/// The scene of the film that a command requests: the run, or the molecule as it is, turned once around.
 Scene film_scene(const CommandReader& command, const Surroundings& around) {
   const PreviewState& state = around.state;
   const ShownMolecule& molecule = around.molecule;
@@ -91,9 +91,9 @@ Scene film_scene(const CommandReader& command, const Surroundings& around) {
     throw RequestError(
         "export: a film along the keys of a camera is made by meniscus render --camera-path; export them");
   constexpr double kTurnRate = 25.0, kTurnSeconds = 6.0, kLongest = 600.0;
-  const PictureWishes wishes = wishes_of(command, state);
-  const glm::ivec2 even = 2 * (wishes.size / 2);  // as most encoders want it
-  RenderedView view{state, even, wishes.samples, false, {}, {}, {}, state.wishes.dots_per_inch};
+  const PictureOptions options = picture_options(command, state);
+  const glm::ivec2 even = 2 * (options.size / 2);  // as most encoders want it
+  RenderedView view{state, even, options.samples, false, {}, {}, {}, state.export_options.dots_per_inch};
   Scene scene = rendered_scene(around.exporter.context.scene.value_or(Scene{}), view);
   scene.run_camera = {};
   scene.run_camera.turns = command.number_or(is_run ? 0.0 : 1.0, "turns", -100.0, 100.0);
@@ -105,12 +105,13 @@ Scene film_scene(const CommandReader& command, const Surroundings& around) {
   return scene;
 }
 
-/// The scene of the picture that a command wishes.
+/// The scene of the picture that a command requests.
 Scene shown_scene(const CommandReader& command, const Surroundings& around) {
   const PreviewState& state = around.state;
   const ShownMolecule& molecule = around.molecule;
-  const PictureWishes wishes = wishes_of(command, state);
-  RenderedView view{state, wishes.size, wishes.samples, wishes.transparent, {}, {}, {}, state.wishes.dots_per_inch};
+  const PictureOptions options = picture_options(command, state);
+  RenderedView view{
+      state, options.size, options.samples, options.transparent, {}, {}, {}, state.export_options.dots_per_inch};
   if (molecule.has_trajectory()) view.frame = molecule.number_of(state.frame);
   if (molecule.has_models()) {
     using By = ColorScheme::By;
@@ -149,10 +150,10 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   check_ending(command.text("path"), format);
   const bool waits = command.flag_or(true, "wait");
   if (exporter.job && exporter.job->running())
-    throw RequestError("export: " + exporter.job->told()["path"].get<std::string>() +
+    throw RequestError("export: " + exporter.job->state()["path"].get<std::string>() +
                        " is being written; wait for it, or cancel it");
   const ExportTarget target = target_of(command, exporter.folder);
-  const PictureWishes wishes = wishes_of(command, state);
+  const PictureOptions options = picture_options(command, state);
   if (format == Format::png) check_image_path(target.path);
   if (format == Format::camera) export_camera(state.camera, target);
   if (format == Format::camera_path) export_camera_path(camera_keys(molecule, state), target);
@@ -177,8 +178,8 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   if (exporter.context.annotations) annotations = exporter.context.annotations(molecule.annotated_structure());
   auto view = std::make_shared<const ExportedView>(ExportedView{
       molecule.structure(), molecule.atoms(), molecule.balls(), molecule.coloring(state), molecule.key(state), state,
-      molecule.beside(), std::move(annotations), wishes.size, wishes.samples, wishes.transparent,
-      format == Format::png ? scene_of(command, around) : "", state.wishes.dots_per_inch});
+      molecule.extras(), std::move(annotations), options.size, options.samples, options.transparent,
+      format == Format::png ? scene_of(command, around) : "", state.export_options.dots_per_inch});
   const auto write = [view, target, format, make_device](const ExportWatch& watch) {
     return written(*view, format, make_device, target, watch);
   };
@@ -186,7 +187,7 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
 }
 
 Json export_state(const CommandReader&, const Surroundings& around) {
-  return around.exporter.job ? around.exporter.job->told() : Json{{"running", false}};
+  return around.exporter.job ? around.exporter.job->state() : Json{{"running", false}};
 }
 
 Json cancel_export(const CommandReader&, const Surroundings& around) {
@@ -196,7 +197,7 @@ Json cancel_export(const CommandReader&, const Surroundings& around) {
   return Json::object();
 }
 
-Json tell_scene(const CommandReader& command, const Surroundings& around) {
+Json get_scene(const CommandReader& command, const Surroundings& around) {
   return {{"text", scene_of(command, around)}};
 }
 
@@ -235,7 +236,7 @@ Outcome open_scene(const CommandReader& command, PreviewState state, const Surro
   if (color.by == ColorScheme::By::rmsf && color.by == first.by) color.file = first.file;
   require_previewed(color);
   static_cast<PreviewFigure&>(state) = std::move(opened.figure);
-  state.wishes = opened.wishes;
+  state.export_options = opened.export_options;
   require_copies_apart(molecule.structure(), state, around.state.probe_reach());
   if (molecule.has_models()) state.frame = static_cast<std::size_t>(opened.frame);
   if (state.frame >= molecule.frame_count())

@@ -24,7 +24,7 @@ Outcome with_shapes(PreviewState& state, nlohmann::json reply = nlohmann::json::
 }
 
 /// Throws RequestError where no more may be drawn beside the surface.
-void require_room_beside(const CommandReader& command, const FigureRequest& figure) {
+void require_room_for_set(const CommandReader& command, const FigureRequest& figure) {
   if (figure.representations.requests.size() + figure.objects.size() >= kMostShown)
     throw RequestError(
         fmt::format("{}: at most {} sets of atoms are drawn beside a surface; remove one", command.word(), kMostShown));
@@ -95,7 +95,7 @@ Outcome set_patches(const CommandReader& command, PreviewState state, const Surr
     state.patches.reset();
   if (command.has("selection")) {
     state.patches = command.selection();
-    command.naming([&] { return patch_atoms(*state.patches, around.molecule.frame_structure().atoms); });
+    command.naming([&] { return patch_atoms(*state.patches, around.molecule.annotated_structure()); });
   }
   return {std::move(state), Renewal::colors};
 }
@@ -105,7 +105,7 @@ Outcome represent(const CommandReader& command, PreviewState state, const Surrou
   constexpr std::array<Kind, 6> kKinds{Kind::sticks, Kind::balls_and_sticks, Kind::spheres, Kind::backbone,
                                        Kind::bases,  Kind::sugar_symbols};
   const Kind kind = kKinds[command.choice("as", {"sticks", "balls", "spheres", "tube", "bases", "glycans"})];
-  require_room_beside(command, state.figure);
+  require_room_for_set(command, state.figure);
   std::vector<RepresentationRequest>& requests = state.figure.representations.requests;
   requests.push_back({kind, command.selection()});
   const std::size_t index = requests.size() - 1;
@@ -123,7 +123,7 @@ Outcome put_object(const CommandReader& command, PreviewState state, const Surro
     if (!same) return with_shapes(state, {{"index", index}});
     return {std::move(state), Renewal::colors, {{"index", index}}};
   }
-  require_room_beside(command, state.figure);
+  require_room_for_set(command, state.figure);
   objects.push_back(std::move(object));
   const std::size_t index = objects.size() - 1;
   Outcome next = with_shapes(state, {{"index", index}});
@@ -154,7 +154,8 @@ Outcome set_cut(const CommandReader& command, PreviewState state, const Surround
   if (is_new) cuts.push_back(cut);
   cuts[index] = cut;
   nlohmann::json reply{{"index", index}};
-  if (const auto idle = around.molecule.idle_among({&cut, 1}, state); !idle.empty()) reply["note"] = idle.front();
+  if (const auto idle = around.molecule.ineffective_among({&cut, 1}, state); !idle.empty())
+    reply["note"] = idle.front();
   return {.state = std::move(state), .renewal = Renewal::cuts, .reply = std::move(reply), .is_own_step = is_new};
 }
 

@@ -198,7 +198,7 @@ Outcome set_legend(const CommandReader& command, PreviewState state, const Surro
   }
   if (command.has("place"))
     style.place = static_cast<LegendStyle::Place>(command.choice("place", property_of("legend.place")));
-  const ColorScheme color = state.told_scheme();
+  const ColorScheme color = state.shown_scheme();
   if (state.legend && color.by == ColorScheme::By::fixed && color.rules.empty())
     throw RequestError("legend: there is nothing to explain: everything has one colour; choose another scheme first");
   return {.state = std::move(state), .renewal = Renewal::legend, .frames_all = true};

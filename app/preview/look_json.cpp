@@ -71,7 +71,7 @@ LookRequest changed_look(LookRequest look, const CommandReader& command) {
     const Property& property = property_of(number->key);
     const std::string key = json_key(*number);
     if (command.has(key.c_str()))
-      *number->asked(look) = static_cast<float>(command.number(key.c_str(), property.lowest, property.highest));
+      *number->requested(look) = static_cast<float>(command.number(key.c_str(), property.lowest, property.highest));
   }
   return look;
 }

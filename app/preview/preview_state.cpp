@@ -36,13 +36,13 @@ void require_shown(const ColorScheme& color) {
 
 }  // namespace
 
-ColorScheme PreviewFigure::told_scheme() const {
-  ColorScheme told = color;
+ColorScheme PreviewFigure::shown_scheme() const {
+  ColorScheme scheme = color;
   if (patch_kinds) {
-    told.by = ColorScheme::By::kind;
-    told.rules.clear();
+    scheme.by = ColorScheme::By::kind;
+    scheme.rules.clear();
   }
-  return told;
+  return scheme;
 }
 
 void require_previewed(const ColorScheme& color) {

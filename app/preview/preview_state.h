@@ -46,21 +46,21 @@ struct PreviewFigure {
   std::uint64_t edition = 0;  ///< a number of its own for all that was changed, but for the camera
 
   /// What the colours are by, kinds of patch too.
-  ColorScheme told_scheme() const;
+  ColorScheme shown_scheme() const;
   /// What its light may do to them.
   Hues hues() const {
     const bool looks_inside = uses_atoms(figure.cuts);
-    if (!patch_kinds || legend) return hues_of(color, legend, looks_inside);
+    if (!patch_kinds) return hues_of(color, looks_inside);
     ColorScheme kinds;
     kinds.opacities = color.opacities;
-    return hues_of(kinds, false, looks_inside);
+    return hues_of(kinds, looks_inside);
   }
   /// How far from the atoms' balls something may be and still change their surface, Å.
   double probe_reach() const { return growth_of(kind, probe_radius) + rolling_probe(kind, probe_radius); }
 };
 
 /// Of exported pictures, what a command does not say. Nothing: as it is shown.
-struct ExportWishes {
+struct ExportOptions {
   std::optional<glm::ivec2> size;  ///< pixels, with the legend
   std::optional<int> samples;      ///< rays per pixel
   bool transparent = false;        ///< without a background
@@ -87,7 +87,7 @@ struct PreviewState : PreviewFigure {
   std::vector<PreviewFigure> strip;           ///< scenes kept for a film, in its order
   double strip_place = 0.0;                   ///< of the strip, which was shown last
   bool plays_strip = false;                   ///< playing goes along the strip, not through the frames
-  ExportWishes wishes;
+  ExportOptions export_options;
   std::uint64_t revision = 1;  ///< grows with every change of what is seen
   bool ended = false;          ///< a command asked to end
 

@@ -60,32 +60,32 @@ Json color_json(const ColorScheme& scheme) {
 }
 
 /// What of the state belongs to its figure.
-void tell_figure(const PreviewState& state, Json& told) {
-  Json& representations = told["representations"] = Json::array();
+void add_figure(const PreviewState& state, Json& reply) {
+  Json& representations = reply["representations"] = Json::array();
   for (const RepresentationRequest& request : state.figure.representations.requests)
     representations.push_back({{"as", shape_word(request.kind)}, {"selection", escaped(request.atoms.text())}});
-  Json& opacities = told["opacities"] = Json::array();
+  Json& opacities = reply["opacities"] = Json::array();
   for (const OpacityRule& rule : state.color.opacities) {
     opacities.push_back({{"opacity", std::stod(fmt::format("{}", rule.opacity))}});
     if (rule.atoms) opacities.back()["selection"] = escaped(rule.atoms->text());
   }
-  Json& cuts = told["cuts"] = Json::array();
+  Json& cuts = reply["cuts"] = Json::array();
   for (const Cut& cut : state.figure.cuts) cuts.push_back(cut_text(cut));
   const CapStyle& cap = state.figure.cap;
-  told["cap"] = {{"color", cap.color ? hex_color(*cap.color) : "atom"}, {"hatching", cap.hatching}};
-  told["film_opacity"] = state.figure.thickens;
-  Json& objects = told["objects"] = Json::array();
+  reply["cap"] = {{"color", cap.color ? hex_color(*cap.color) : "atom"}, {"hatching", cap.hatching}};
+  reply["film_opacity"] = state.figure.thickens;
+  Json& objects = reply["objects"] = Json::array();
   for (const FigureObjectRequest& object : state.figure.objects)
     objects.push_back(Json::parse(json_line(figure_object_json(object))));
-  told["surface_hidden"] = state.figure.hides_surface;
-  told["show"] = state.show ? Json(escaped(state.show->text())) : Json(nullptr);
-  told["patches"] = {{"selection", state.patches ? Json(escaped(state.patches->text())) : Json(nullptr)},
-                     {"min_area", state.least_patch}};
+  reply["surface_hidden"] = state.figure.hides_surface;
+  reply["show"] = state.show ? Json(escaped(state.show->text())) : Json(nullptr);
+  reply["patches"] = {{"selection", state.patches ? Json(escaped(state.patches->text())) : Json(nullptr)},
+                      {"min_area", state.least_patch}};
   const LegendStyle& style = state.legend_style;
-  told["legend"] = {{"on", state.legend},
-                    {"title", style.title ? Json(escaped(*style.title)) : Json(nullptr)},
-                    {"letters", or_null(style.letters)},
-                    {"place", words_of(property_of("legend.place"))[static_cast<std::size_t>(style.place)]}};
+  reply["legend"] = {{"on", state.legend},
+                     {"title", style.title ? Json(escaped(*style.title)) : Json(nullptr)},
+                     {"letters", or_null(style.letters)},
+                     {"place", words_of(property_of("legend.place"))[static_cast<std::size_t>(style.place)]}};
 }
 
 /// Why the molecule cannot be coloured by a scheme; empty: it can.
@@ -114,7 +114,7 @@ std::string lacking(const Structure& structure, const ColorScheme& color) {
 
 }  // namespace
 
-Json tell_state(const CommandReader&, const Surroundings& around) {
+Json get_state(const CommandReader&, const Surroundings& around) {
   const PreviewState& state = around.state;
   const ShownMolecule& molecule = around.molecule;
   const Structure& structure = molecule.structure();
@@ -126,8 +126,8 @@ Json tell_state(const CommandReader&, const Surroundings& around) {
     high = glm::max(high, ball.center + ball.radius);
   }
   const std::size_t atoms = molecule.balls().size();
-  const ExportWishes& wishes = state.wishes;
-  Json told{
+  const ExportOptions& options = state.export_options;
+  Json reply{
       {"file", escaped(structure.file)},
       {"atoms", atoms},
       {"copies", copies},
@@ -155,22 +155,22 @@ Json tell_state(const CommandReader&, const Surroundings& around) {
       {"height", state.size.y},
       {"samples", state.samples},
       {"export",
-       {{"width", wishes.size ? Json(wishes.size->x) : Json(nullptr)},
-        {"height", wishes.size ? Json(wishes.size->y) : Json(nullptr)},
-        {"samples", or_null(wishes.samples)},
-        {"transparent", wishes.transparent}}},
+       {{"width", options.size ? Json(options.size->x) : Json(nullptr)},
+        {"height", options.size ? Json(options.size->y) : Json(nullptr)},
+        {"samples", or_null(options.samples)},
+        {"transparent", options.transparent}}},
       {"views", Json::array()},
       {"undo", around.history.undo_steps()},
       {"redo", around.history.redo_steps()},
       {"unsaved", !around.exporter.keeps(state)},
       {"drawn_by", around.pictures.draws_on_cpu() ? "cpu" : "gl"}};
-  tell_figure(state, told);
-  if (!molecule.legend_fault().empty()) told["legend"]["fault"] = molecule.legend_fault();
-  for (const auto& [name, camera] : state.named_views) told["views"].push_back(escaped(name));
-  return told;
+  add_figure(state, reply);
+  if (!molecule.legend_fault().empty()) reply["legend"]["fault"] = molecule.legend_fault();
+  for (const auto& [name, camera] : state.named_views) reply["views"].push_back(escaped(name));
+  return reply;
 }
 
-Json tell_stats(const CommandReader&, const Surroundings& around) {
+Json get_stats(const CommandReader&, const Surroundings& around) {
   const ViewCache& pictures = around.pictures;
   const double milliseconds = pictures.milliseconds();
   Json stages = Json::array();
@@ -181,7 +181,7 @@ Json tell_stats(const CommandReader&, const Surroundings& around) {
           {"radii_grown_by", pictures.grown_by()}, {"stages", stages}};
 }
 
-Json tell_choices(const CommandReader&, const Surroundings& around) {
+Json get_choices(const CommandReader&, const Surroundings& around) {
   const ColorScheme& first = around.first.color;
   Json schemes = Json::array(), maps = Json::array();
   for (const ColorSchemeMetadata& scheme : color_schemes()) {
@@ -222,7 +222,7 @@ Json pick(const CommandReader& command, const Surroundings& around) {
   const bool has_copies = !molecule.structure().instances.empty();
   const bool of_molecule = point->object == 0 || has_copies;
   const bool of_surface =
-      of_molecule || (point->object > 1 && molecule.beside()->objects.at(point->object - 2).surface);
+      of_molecule || (point->object > 1 && molecule.extras()->objects.at(point->object - 2).surface);
   Json reply = atom_json(molecule.atom_in_view(point->atom));
   reply["hit"] = true;
   reply["kind"] = point->kind ? kind_word(*point->kind) : of_surface ? "cap" : "shape";

@@ -65,7 +65,7 @@ class PreviewSession {
   /// At the frame of the state.
   const Structure& structure() const { return molecule_.structure(); }
   /// Of the figure's cuts: a sentence for each that cuts nothing or leaves nothing.
-  std::vector<std::string> idle_cuts() const { return molecule_.idle_among(state_.figure.cuts, state_); }
+  std::vector<std::string> ineffective_cuts() const { return molecule_.ineffective_among(state_.figure.cuts, state_); }
 
  private:
   nlohmann::json carry_out(const nlohmann::json& command);

@@ -97,13 +97,13 @@ std::vector<Ball> sampled_balls(const TrajectoryPositions& trajectory, const Str
 }
 
 /// before: beside the surface so far, of which only colours are changed where no shapes are to be made again.
-std::shared_ptr<const BesideSurface> beside_of(const Structure& marked, const PreviewFigure& figure, bool only_colors,
-                                               const std::shared_ptr<const BesideSurface>& before) {
-  const ColorScheme scheme = figure.told_scheme();
-  if (!only_colors) return std::make_shared<const BesideSurface>(make_beside(marked, figure.figure, scheme));
-  auto beside = std::make_shared<BesideSurface>(*before);
-  color_beside(marked, figure.figure, scheme, *beside);
-  return beside;
+std::shared_ptr<const FigureExtras> extras_of(const Structure& marked, const PreviewFigure& figure, bool only_colors,
+                                              const std::shared_ptr<const FigureExtras>& before) {
+  const ColorScheme scheme = figure.shown_scheme();
+  if (!only_colors) return std::make_shared<const FigureExtras>(make_extras(marked, figure.figure, scheme));
+  auto extras = std::make_shared<FigureExtras>(*before);
+  color_extras(marked, figure.figure, scheme, *extras);
+  return extras;
 }
 
 /// The models that are shown one after another: of several files all atoms are shown together.
@@ -146,7 +146,7 @@ bool ShownMolecule::become(const PreviewState& state, Renewal renewal) {
   Made next = renewal == Renewal::frame ? made_at(state) : made(state, renewal, frame_);
   if (next.coloring) coloring_ = std::move(*next.coloring);
   marked_ = std::move(next.marked);
-  beside_ = std::move(next.beside);
+  extras_ = std::move(next.extras);
   const bool moves = renewal == Renewal::frame || growth_ != growth_of(state.kind, state.probe_radius);
   if (moves) place_balls(state);
   if (renewal >= Renewal::legend) lay_out_legend(state);
@@ -186,15 +186,16 @@ ShownMolecule::Made ShownMolecule::made_at(const PreviewState& state) {
 }
 
 ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal renewal, std::size_t frame) const {
-  Made made{{}, marked_, beside_};
+  Made made{{}, marked_, extras_};
   if (renewal < Renewal::legend) return made;
   if (!structure_.instances.empty() && !(figure.figure.plain() && figure.color.opacities.empty()))
     throw RequestError("copies of one surface (--instances) are shown whole and opaque; leave --instances out");
   require_colors_shared(structure_, figure.color);
-  if (renewal >= Renewal::colors) made.coloring = color_atoms(structure_, figure.color);
   if (renewal >= Renewal::shapes) {
     made.marked.reset();
-    if (!figure.figure.representations.empty() || !figure.figure.objects.empty()) {
+    const bool has_companions =
+        structure_.companions != Companions::none && read_shown_ && structure_.file != "standard input";
+    if (!figure.figure.representations.empty() || !figure.figure.objects.empty() || has_companions) {
       if (!read_shown_)
         throw RequestError("this molecule cannot be read again, so nothing can be drawn beside its surface");
       Structure marked = read_shown_(figure.figure, frame);
@@ -204,16 +205,19 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
         throw InputError(structure_.file, 0, "has other atoms than when the preview began; start the preview again");
     }
   }
+  // Rules such as "within 4 of ligand" see the atoms beside the surface, unless the file has several models.
+  const bool is_whole = made.marked && made.marked->atoms.size() == structure_.atoms.size();
+  if (renewal >= Renewal::colors) made.coloring = color_atoms(is_whole ? *made.marked : structure_, figure.color);
   if (!made.marked)
-    made.beside.reset();
+    made.extras.reset();
   else if (renewal >= Renewal::colors)
-    made.beside = beside_of(*made.marked, figure, renewal == Renewal::colors, beside_);
+    made.extras = extras_of(*made.marked, figure, renewal == Renewal::colors, extras_);
   if (uses_atoms(figure.figure.cuts)) {
-    BesideSurface beside = made.beside ? *made.beside : BesideSurface{};
-    beside.cut_atoms = cut_atoms(figure.figure.cuts, made.marked ? *made.marked : frame_structure());
-    made.beside = std::make_shared<const BesideSurface>(std::move(beside));
+    FigureExtras extras = made.extras ? *made.extras : FigureExtras{};
+    extras.cut_atoms = cut_atoms(figure.figure.cuts, made.marked ? *made.marked : frame_structure());
+    made.extras = std::make_shared<const FigureExtras>(std::move(extras));
   }
-  if (figure.figure.hides_surface && (!made.beside || made.beside->empty()))
+  if (figure.figure.hides_surface && (!made.extras || made.extras->empty()))
     throw RequestError("without the surface nothing would be shown; draw something beside it first");
   if (renewal == Renewal::colors || renewal == Renewal::shapes)
     count_of(part_shown(figure, made.marked.get()), figure, *this);
@@ -237,8 +241,8 @@ void ShownMolecule::place_balls(const PreviewFigure& figure) {
   balls_.clear();
   for (const std::uint32_t a : atoms()) balls_.push_back({structure_.atoms[a].position, structure_.atoms[a].radius});
   balls_ = grown(balls_, growth_);
-  reach_.clear();
-  if (!structure_.instances.empty()) reach_ = reaching_balls(balls_, structure_.instances);
+  framing_balls_.clear();
+  if (!structure_.instances.empty()) framing_balls_ = reaching_balls(balls_, structure_.instances);
 }
 
 ColorKey ShownMolecule::key(const PreviewFigure& figure) const {
@@ -247,8 +251,8 @@ ColorKey ShownMolecule::key(const PreviewFigure& figure) const {
   const std::vector<bool> shown = part_shown(figure, marked_.get());
   for (std::size_t n = 0; n < shown.size(); ++n)
     if (!shown[n]) drawn.atoms[marked_ ? n : atoms()[n]] = false;
-  return figure_key(structure, figure.told_scheme(), std::move(drawn), figure.figure,
-                    beside_ ? *beside_ : BesideSurface());
+  return figure_key(structure, figure.shown_scheme(), std::move(drawn), figure.figure,
+                    extras_ ? *extras_ : FigureExtras());
 }
 
 void ShownMolecule::lay_out_legend(const PreviewState& state) {
@@ -277,7 +281,7 @@ Coloring ShownMolecule::coloring(const PreviewFigure& figure) const {
 
 std::vector<bool> ShownMolecule::patch_marks(const PreviewFigure& figure) const {
   if (!figure.patches) return {};
-  std::vector<bool> marks = figure.patches->evaluate(frame_structure().atoms);
+  std::vector<bool> marks = figure.patches->evaluate(annotated_structure());
   if (figure.least_patch <= 0.0 || std::ranges::find(marks, true) == marks.end()) return marks;
   std::vector<AtomGroup> groups(1);  // that have a surface each: all, or what is copied together
   for (std::uint32_t a = 0; a < balls_.size(); ++a) groups[0].atoms.push_back(a);
@@ -323,9 +327,10 @@ double ShownMolecule::aspect(const PreviewState& state) const {
 }
 
 Camera ShownMolecule::overview(const PreviewState& state) const {
-  const std::vector<Ball> own = trajectory_ ? grown(sampled_, growth_of(state.kind, state.probe_radius)) : reach();
+  const std::vector<Ball> own =
+      trajectory_ ? grown(sampled_, growth_of(state.kind, state.probe_radius)) : framing_balls();
   const Camera camera = meniscus::overview(own, aspect(state), state.camera.projection);
-  if (trajectory_ || !beside_) return camera;
+  if (trajectory_ || !extras_) return camera;
   const std::vector<Ball> all = balls_in_view(*this);
   return zoomed_to(camera, all, all, aspect(state));
 }
@@ -334,14 +339,15 @@ std::vector<ClipPlane> ShownMolecule::planes(const PreviewFigure& figure) const 
   const std::vector<Cut>& cuts = figure.figure.cuts;
   if (figure.figure.hides_surface || cuts.empty()) return {};
   const CutAtoms atoms = cut_atoms(cuts, marked_ ? *marked_ : frame_structure());
-  return clip_planes(cuts, atoms, {figure.camera, reach(), balls_shown(*this, figure)});
+  return clip_planes(cuts, atoms, {figure.camera, framing_balls(), balls_shown(*this, figure)});
 }
 
-std::vector<std::string> ShownMolecule::idle_among(std::span<const Cut> cuts, const PreviewFigure& figure) const {
+std::vector<std::string> ShownMolecule::ineffective_among(std::span<const Cut> cuts,
+                                                          const PreviewFigure& figure) const {
   if (figure.figure.hides_surface) return {};
   const std::vector<Ball> shown = balls_shown(*this, figure);
   const CutAtoms atoms = cut_atoms(cuts, marked_ ? *marked_ : frame_structure());
-  return idle_cuts(cuts, atoms, {figure.camera, reach(), shown}, reach());
+  return ineffective_cuts(cuts, atoms, {figure.camera, framing_balls(), shown}, framing_balls());
 }
 
 std::vector<CameraKey> camera_keys(const ShownMolecule& molecule, const PreviewState& state) {
@@ -352,10 +358,10 @@ std::vector<CameraKey> camera_keys(const ShownMolecule& molecule, const PreviewS
 }
 
 std::vector<Ball> balls_in_view(const ShownMolecule& molecule) {
-  std::vector<Ball> balls = molecule.reach();
-  if (!molecule.beside()) return balls;
-  const std::vector<Ball> beside = molecule.beside()->balls();
-  balls.insert(balls.end(), beside.begin(), beside.end());
+  std::vector<Ball> balls = molecule.framing_balls();
+  if (!molecule.extras()) return balls;
+  const std::vector<Ball> extras = molecule.extras()->balls();
+  balls.insert(balls.end(), extras.begin(), extras.end());
   return balls;
 }
 

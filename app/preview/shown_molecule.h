@@ -53,7 +53,7 @@ struct TrajectoryPositions {
 };
 
 /// Reads the molecule again as it is at a frame, with the atoms that are drawn beside its surface
-/// (FigureRequest::ask_for); so they are those that `meniscus render` would draw. Throws InputError.
+/// (FigureRequest::mark_atoms); so they are those that `meniscus render` would draw. Throws InputError.
 using ReadShown = std::function<Structure(const FigureRequest& figure, std::size_t frame)>;
 
 /// What another state needs to have made again, from the least to the most; each includes those before it.
@@ -88,7 +88,7 @@ class ShownMolecule {
   /// Theirs, grown by growth_of() the kind of surface.
   const std::vector<Ball>& balls() const { return balls_; }
   /// The same, or what cameras see of all copies.
-  const std::vector<Ball>& reach() const { return reach_.empty() ? balls_ : reach_; }
+  const std::vector<Ball>& framing_balls() const { return framing_balls_.empty() ? balls_ : framing_balls_; }
   /// Their colours, and which of them are hidden.
   Coloring coloring(const PreviewFigure& figure) const;
   /// Which of them have a patch that the figure outlines: empty if it outlines none. Of areas with a least one the
@@ -100,7 +100,7 @@ class ShownMolecule {
   Structure annotated_structure() const { return marked_ ? *marked_ : frame_structure(); }
 
   /// Beside the surface; nullptr: nothing.
-  const std::shared_ptr<const BesideSurface>& beside() const { return beside_; }
+  const std::shared_ptr<const FigureExtras>& extras() const { return extras_; }
   /// An atom of a picture, of which those beside the surface come last.
   const Atom& atom_in_view(std::uint32_t atom) const;
   std::vector<Atom> atoms_in_view() const;
@@ -123,14 +123,14 @@ class ShownMolecule {
   /// The planes of the figure's cuts, at this frame. Throws RequestError for a cut by atoms that selects none.
   std::vector<ClipPlane> planes(const PreviewFigure& figure) const;
   /// Of cuts of the surface: a sentence for each that cuts nothing or leaves nothing.
-  std::vector<std::string> idle_among(std::span<const Cut> cuts, const PreviewFigure& figure) const;
+  std::vector<std::string> ineffective_among(std::span<const Cut> cuts, const PreviewFigure& figure) const;
 
  private:
   /// What of a figure is made of its molecule.
   struct Made {
     std::optional<Coloring> coloring;         ///< of all atoms of the structure; nothing: as it is
     std::shared_ptr<const Structure> marked;  ///< the frame with the atoms beside its surface; nullptr: none are drawn
-    std::shared_ptr<const BesideSurface> beside;
+    std::shared_ptr<const FigureExtras> extras;
   };
 
   Made made_at(const PreviewState& state);
@@ -146,10 +146,10 @@ class ShownMolecule {
   std::vector<Ball> sampled_;  ///< of frames all over the trajectory, for a view of all
   std::size_t frame_ = 0;
   double growth_ = 0.0;  ///< of balls_, Å
-  std::vector<Ball> balls_, reach_;
+  std::vector<Ball> balls_, framing_balls_;
   Coloring coloring_;  ///< of all atoms of the structure
   std::shared_ptr<const Structure> marked_;
-  std::shared_ptr<const BesideSurface> beside_;
+  std::shared_ptr<const FigureExtras> extras_;
   std::shared_ptr<const LegendStrip> legend_;
   std::string legend_fault_;
 };

@@ -20,7 +20,7 @@ constexpr double kSecondsBetween = 2.0;  // as --transition has it
 /// What must be asked for to have the numbers of this look.
 LookRequest request_for(LookRequest asked, Look look, bool outlines_patches) {
   for (const LookNumber& number : look_numbers())
-    if (number.in) *number.asked(asked) = number.in(look);
+    if (number.in) *number.requested(asked) = number.in(look);
   asked.light_direction = look.light_direction;
   asked.silhouettes = look.silhouettes;
   asked.outer_lines = look.outer_lines;
@@ -50,7 +50,7 @@ PreviewFigure figure_between(const PreviewFigure& from, const PreviewFigure& to,
   shape_radius(&ShapeRadii::stick_radius);
   shape_radius(&ShapeRadii::tube_radius);
 
-  std::vector<Ball> balls = molecule.reach();
+  std::vector<Ball> balls = molecule.framing_balls();
   for (Ball& ball : balls) ball.radius += std::max(from.probe_radius, to.probe_radius);
   figure.figure.cuts = cuts_at(planes_between(molecule.planes(from), molecule.planes(to), balls, share));
   if (nearer.figure.cuts.empty()) figure.figure.cap = other.figure.cap;

@@ -74,7 +74,7 @@ void ViewCache::take(const PreviewState& state, const ShownMolecule& molecule, R
     coloring.in_patch = molecule.patch_marks(state);
     renderer_->set_coloring(std::move(coloring));
   }
-  if (renewal >= Renewal::cuts) renderer_->set_figure(state.figure, molecule.beside());
+  if (renewal >= Renewal::cuts) renderer_->set_figure(state.figure, molecule.extras());
 }
 
 namespace {

@@ -116,24 +116,24 @@ nlohmann::json ExportJob::result() {
   }
 }
 
-nlohmann::json ExportJob::told() {
-  nlohmann::json told{{"path", shared_->path}};
+nlohmann::json ExportJob::state() {
+  nlohmann::json state{{"path", shared_->path}};
   if (running()) {
     const std::scoped_lock lock(shared_->mutex);
-    told.update({{"running", true}, {"stage", shared_->stage}, {"share", shared_->share}});
+    state.update({{"running", true}, {"stage", shared_->stage}, {"share", shared_->share}});
   } else {
     try {
-      told.update(result());
+      state.update(result());
     } catch (const Error& error) {
-      told["error"] = escaped(error.what());
+      state["error"] = escaped(error.what());
     } catch (const std::bad_alloc&) {
-      told["error"] = "not enough memory";
+      state["error"] = "not enough memory";
     }
-    told["running"] = false;
+    state["running"] = false;
   }
-  const auto end = told["running"].get<bool>() ? Shared::Clock::now() : shared_->end;
-  told["seconds"] = std::chrono::duration<double>(end - shared_->begin).count();
-  return told;
+  const auto end = state["running"].get<bool>() ? Shared::Clock::now() : shared_->end;
+  state["seconds"] = std::chrono::duration<double>(end - shared_->begin).count();
+  return state;
 }
 
 namespace {
@@ -184,7 +184,7 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
     legend.emplace(view.colors, view.size, legend_style(figure.legend_style, figure.letters));
   Figure whole;
   whole.molecule.objects = complete_surfaces(view, watch).first;
-  if (view.beside) whole.beside = *view.beside;
+  if (view.extras) whole.extras = *view.extras;
   RenderSettings settings;
   settings.size = legend ? legend->molecule_size() : view.size;
   const Strips strips = strips_for(strip_contents(view.annotations), view.annotations.letters, settings.size);
@@ -218,12 +218,18 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target, 
   options.shadows = view.figure.look.shadows.value_or(0.0f);
   options.shadow_softness = look_of(view.figure.look, view.size, std::nullopt, Hues::free).shadow_softness;
   options.colors = view.colors;
-  if (view.beside) options.shapes = &view.beside->shapes;
+  std::vector<povray::SceneObject> companions;
+  if (view.extras) {
+    options.shapes = &view.extras->shapes;
+    for (const FigureObject& object : view.extras->objects)
+      if (!object.shapes.empty()) companions.emplace_back().shapes = &object.shapes;
+  }
+  options.objects = companions;
   options.film = figure.thickens;
   options.cut.style = figure.cap;
   const std::vector<SurfaceObject> surfaces = complete_surfaces(view, watch).first;
   options.cut.planes =
-      surface_planes(figure, view.beside ? view.beside->cut_atoms : CutAtoms(), view.figure.camera, surfaces);
+      surface_planes(figure, view.extras ? view.extras->cut_atoms : CutAtoms(), view.figure.camera, surfaces);
   watch("writing", 0.0);
   return write_scene(surfaces, view.figure.camera, options, target.path).command;
 }

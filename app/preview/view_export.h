@@ -53,7 +53,7 @@ class ExportJob {
   /// and where it was cancelled.
   nlohmann::json result();
   /// {"running", "path", "seconds"}, while it runs "stage" and "share"; then the reply, or "error".
-  nlohmann::json told();
+  nlohmann::json state();
 
  private:
   struct Shared;
@@ -70,13 +70,13 @@ struct ExportedView {
   Coloring coloring;                 ///< theirs
   ColorKey colors;                   ///< what the colours mean
   PreviewFigure figure;
-  std::shared_ptr<const BesideSurface> beside;  ///< the surface; nullptr: nothing
-  Annotations annotations;                      ///< written into pictures
-  glm::ivec2 size;                              ///< pixels, with the legend
-  int samples;                                  ///< rays per pixel
-  bool transparent;                             ///< pictures have no background
-  std::string scene;                            ///< what pictures say they were made of; empty: nothing
-  double dots_per_inch = 0.0;                   ///< of pictures; 0: not said
+  std::shared_ptr<const FigureExtras> extras;  ///< drawn in addition to the surface; nullptr: nothing
+  Annotations annotations;                     ///< written into pictures
+  glm::ivec2 size;                             ///< pixels, with the legend
+  int samples;                                 ///< rays per pixel
+  bool transparent;                            ///< pictures have no background
+  std::string scene;                           ///< what pictures say they were made of; empty: nothing
+  double dots_per_inch = 0.0;                  ///< of pictures; 0: not said
 };
 
 /// Where it goes.
@@ -113,7 +113,7 @@ std::filesystem::path export_path(const std::filesystem::path& folder, const std
 /// A figure that a scene file says, of the molecule that is shown.
 struct OpenedScene {
   PreviewFigure figure;
-  ExportWishes wishes;
+  ExportOptions export_options;
   int frame = 0;  ///< of a file of several models, from 0
 };
 

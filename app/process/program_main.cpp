@@ -134,13 +134,13 @@ namespace {
 
 constinit const char* program_name = "meniscus";
 
-ExitCode say(ExitCode code, const std::string& message) {
+ExitCode print_error(ExitCode code, const std::string& message) {
   std::cerr << program_name << ": error: " << escaped(message) << std::endl;
   return code;
 }
 
 /// Prints an error of a selection, with the lines that show its place.
-ExitCode say(const SelectionError& error) {
+ExitCode print_error(const SelectionError& error) {
   std::istringstream picture(error.picture());
   std::string lines = escaped(error.sentence());
   for (std::string line; std::getline(picture, line);) lines.append("\n  ").append(escaped(line));
@@ -160,19 +160,19 @@ ExitCode report_with_memory() {
   try {
     throw;
   } catch (const SelectionError& error) {
-    return say(error);
+    return print_error(error);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    return say(exit_code_of(error), sentence(error));
+    return print_error(exit_code_of(error), sentence(error));
   } catch (...) {
-    return say(kExitInternal, "internal: unexpected exception of a library; please report this");
+    return print_error(kExitInternal, "internal: unexpected exception of a library; please report this");
   }
 }
 
 /// Needs no memory at all.
 ExitCode report_without_memory() noexcept {
-  system_process::say(
+  system_process::write_error(
       "meniscus: error: not enough memory; use a machine with more, a smaller molecule or picture, or fewer "
       "--threads\n");
   return kExitCapacity;
@@ -182,7 +182,7 @@ ExitCode report_without_memory() noexcept {
 /// available.
 ExitCode report_unnamed_error() noexcept {
   if (memory_ran_out()) return report_without_memory();
-  system_process::say("meniscus: error: internal: unexpected exception; please report this\n");
+  system_process::write_error("meniscus: error: internal: unexpected exception; please report this\n");
   return kExitInternal;
 }
 

@@ -20,7 +20,7 @@ std::span<const char* const> words(int argc, char** argv);
 /// on every system.
 void hold_standard_streams();
 /// Writes a line on standard error. It needs no memory, so that a signal handler may call it.
-void say(std::string_view line) noexcept;
+void write_error(std::string_view line) noexcept;
 /// Ends the program without its destructors. A signal handler may call it, too.
 [[noreturn]] void end(int code) noexcept;
 

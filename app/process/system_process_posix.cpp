@@ -30,11 +30,11 @@ void hold_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
     // The lowest free number is taken, and those below are in use. If even /dev/null is missing, so be it.
-    [[maybe_unused]] const int held = ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    [[maybe_unused]] const int taken = ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }
 }
 
-void say(std::string_view line) noexcept {
+void write_error(std::string_view line) noexcept {
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
 }
 
@@ -56,7 +56,8 @@ constexpr unsigned kSecondsToLoad = 60;
 
 /// All its calls are such that a signal handler may make them.
 [[noreturn]] void give_up() {
-  say("meniscus: error: not enough memory under the limit on address space; raise it (ulimit -v), or use fewer "
+  write_error(
+      "meniscus: error: not enough memory under the limit on address space; raise it (ulimit -v), or use fewer "
       "--threads\n");
   end(kExitCapacity);
 }
@@ -91,14 +92,14 @@ namespace {
 
 std::atomic<int> first_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
-std::array<int, 2> told{-1, -1};  // a pipe: macOS has no semaphores without names
+std::array<int, 2> signal_pipe{-1, -1};  // a pipe: macOS has no semaphores without names
 
 /// All its calls are such that a signal handler may make them.
-void tell(int signal) {
+void note_signal(int signal) {
   const int before = errno;
   int none = 0;
   if (first_signal.compare_exchange_strong(none, signal)) {
-    [[maybe_unused]] const ssize_t written = ::write(told[1], "", 1);
+    [[maybe_unused]] const ssize_t written = ::write(signal_pipe[1], "", 1);
   }
   errno = before;
 }
@@ -110,10 +111,10 @@ void tell(int signal) {
 // once.
 void await_stop(void (*stopped)(int signal)) {
   std::signal(SIGXFSZ, SIG_IGN);
-  if (!make_pipe(told))
+  if (!make_pipe(signal_pipe))
     throw CapacityError(std::string("the system cannot make a pipe for signals: ") + std::strerror(errno));
   struct sigaction action {};
-  action.sa_handler = tell;
+  action.sa_handler = note_signal;
   action.sa_flags = SA_RESTART;
   sigset_t signals;
   sigemptyset(&signals);
@@ -122,7 +123,7 @@ void await_stop(void (*stopped)(int signal)) {
     sigaddset(&signals, signal);
   }
   std::thread([stopped] {
-    for (char byte = 0; ::read(told[0], &byte, 1) != 1;) {
+    for (char byte = 0; ::read(signal_pipe[0], &byte, 1) != 1;) {
     }
     stopped(first_signal);
   }).detach();

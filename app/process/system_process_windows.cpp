@@ -57,7 +57,7 @@ void hold_standard_streams() {
   for (std::FILE* stream : {stdout, stderr}) ::_setmode(::_fileno(stream), _O_BINARY);
 }
 
-void say(std::string_view line) noexcept {
+void write_error(std::string_view line) noexcept {
   DWORD written = 0;
   ::WriteFile(::GetStdHandle(STD_ERROR_HANDLE), line.data(), static_cast<DWORD>(line.size()), &written, nullptr);
 }

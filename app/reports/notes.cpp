@@ -18,38 +18,38 @@
 namespace meniscus {
 namespace {
 
-void tell_structure(const SceneCommand& command, const Structure& structure) {
-  say(command, fmt::format("{}: {}", structure.file, structure.report.sentence()));
-  for (const AddedFile& added : structure.added) say(command, added.sentence());
+void log_structure(const SceneCommand& command, const Structure& structure) {
+  log_line(command, fmt::format("{}: {}", structure.file, structure.report.sentence()));
+  for (const AddedFile& added : structure.added) log_line(command, added.sentence());
   *command.added = structure.added;
   if (command.scene.molecule.color.uses(ColorScheme::By::plddt))
-    say(command, fmt::format("{}: pLDDT is that of {}", structure.file, source_of_confidence(structure)));
-  say_warnings(command, structure);
+    log_line(command, fmt::format("{}: pLDDT is that of {}", structure.file, source_of_confidence(structure)));
+  log_warnings(command, structure);
   for (const std::string& rule : rules_without_atoms(structure, command.scene.molecule.color))
-    say(command, fmt::format("warning: {}: {} selects none of the atoms used; chains and names are case-sensitive",
-                             structure.file, in_quotes(rule)));
+    log_line(command, fmt::format("warning: {}: {} selects none of the atoms used; chains and names are case-sensitive",
+                                  structure.file, in_quotes(rule)));
 }
 
 }  // namespace
 
-void say(const SceneCommand& command, const std::string& line) {
+void log_line(const SceneCommand& command, const std::string& line) {
   if (!command.reporting.quiet) std::cerr << "meniscus: " << escaped(line) << std::endl;
 }
 
-void say_warnings(const SceneCommand& command, const Structure& structure) {
+void log_warnings(const SceneCommand& command, const Structure& structure) {
   if (command.reporting.warnings == WarningDetail::none) return;
   for (const Warning& warning : structure.report.warnings) {
-    say(command, "warning: " + structure.file + ": " + warning.text);
+    log_line(command, "warning: " + structure.file + ": " + warning.text);
     if (command.reporting.warnings != WarningDetail::full) continue;
-    for (const std::string& detail : warning.details) say(command, "  " + detail);
+    for (const std::string& detail : warning.details) log_line(command, "  " + detail);
   }
 }
 
-void tell_beyond_map(const SceneCommand& command, double share, std::string_view whose) {
+void warn_beyond_map(const SceneCommand& command, double share, std::string_view whose) {
   if (share <= 0.0 || command.reporting.warnings == WarningDetail::none) return;
-  say(command, fmt::format("warning: {}: {:.3g} % of {} lies outside of this map and has the colour of missing "
-                           "numbers (--missing-color); compute a map that holds all of it",
-                           command.scene.molecule.volume_file, std::clamp(100.0 * share, 0.001, 99.9), whose));
+  log_line(command, fmt::format("warning: {}: {:.3g} % of {} lies outside of this map and has the colour of missing "
+                                "numbers (--missing-color); compute a map that holds all of it",
+                                command.scene.molecule.volume_file, std::clamp(100.0 * share, 0.001, 99.9), whose));
 }
 
 ProgressSink progress_on_stderr(const SceneCommand& command) {
@@ -59,7 +59,7 @@ ProgressSink progress_on_stderr(const SceneCommand& command) {
   return [text](const ProgressReport& report) { text->report(report); };
 }
 
-Structure read_and_tell(const SceneCommand& command) {
+Structure read_and_log(const SceneCommand& command) {
   if (command.scene.molecule.reading.assembly == "list") {
     MoleculeRequest listing = command.scene.molecule;
     listing.reading.assembly.clear();
@@ -69,62 +69,65 @@ Structure read_and_tell(const SceneCommand& command) {
     throw CLI::Success();
   }
   Structure structure = read_molecule(command.scene.molecule);
-  tell_structure(command, structure);
+  log_structure(command, structure);
   return structure;
 }
 
-void tell_run(const SceneCommand& command, const FrameRun& frames) {
-  tell_structure(command, frames.structure());
+void log_run(const SceneCommand& command, const FrameRun& frames) {
+  log_structure(command, frames.structure());
   const Trajectory& trajectory = frames.trajectory();
-  say(command, fmt::format("{}: {}, {} {}; this run has {}{}", trajectory.path(), trajectory.format(),
-                           with_thousands(trajectory.frame_count()), trajectory.frame_count() == 1 ? "frame" : "frames",
-                           with_thousands(frames.numbers().size()),
-                           frames.chunk().size() < frames.numbers().size()
-                               ? fmt::format(", of which {} are made here", frames.chunk().size())
-                               : ""));
+  log_line(command,
+           fmt::format("{}: {}, {} {}; this run has {}{}", trajectory.path(), trajectory.format(),
+                       with_thousands(trajectory.frame_count()), trajectory.frame_count() == 1 ? "frame" : "frames",
+                       with_thousands(frames.numbers().size()),
+                       frames.chunk().size() < frames.numbers().size()
+                           ? fmt::format(", of which {} are made here", frames.chunk().size())
+                           : ""));
   for (const Warning& warning : trajectory.warnings())
     if (command.reporting.warnings != WarningDetail::none)
-      say(command, fmt::format("warning: {}: {}", trajectory.path(), warning.text));
+      log_line(command, fmt::format("warning: {}: {}", trajectory.path(), warning.text));
   if (!trajectory.cut_short().empty())
-    say(command, fmt::format("warning: {}: {}", trajectory.path(), trajectory.cut_short()));
+    log_line(command, fmt::format("warning: {}: {}", trajectory.path(), trajectory.cut_short()));
   if (command.scene.molecule.color.by == ColorScheme::By::component && frames.numbers().size() > 1)
-    say(command, "warning: components are counted again in each frame, so one colour may be another part in the next");
+    log_line(command,
+             "warning: components are counted again in each frame, so one colour may be another part in the next");
 }
 
-void tell_built(const SceneCommand& command, const Molecule& molecule) {
-  tell_beyond_map(command, molecule.beyond_map, "the surface");
-  say(command, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));
-  tell_grown_radii(command, change_of_radii(molecule.objects).grown_by);
+void log_surface(const SceneCommand& command, const Molecule& molecule) {
+  warn_beyond_map(command, molecule.beyond_map, "the surface");
+  log_line(command, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));
+  log_grown_radii(command, change_of_radii(molecule.objects).grown_by);
 }
 
-void tell_grown_radii(const SceneCommand& command, double grown_by) {
+void log_grown_radii(const SceneCommand& command, double grown_by) {
   if (grown_by > 0.0)
-    say(command,
-        fmt::format("spheres that meet in one point were separated by radii grown by up to {:.2g} Å", grown_by));
+    log_line(command,
+             fmt::format("spheres that meet in one point were separated by radii grown by up to {:.2g} Å", grown_by));
 }
 
-Molecule build_and_tell(const SceneCommand& command, Structure structure) {
+Molecule build_and_log(const SceneCommand& command, Structure structure) {
   Molecule molecule = MoleculeBuilder(command.scene.molecule).build(std::move(structure));
-  tell_built(command, molecule);
+  log_surface(command, molecule);
   return molecule;
 }
 
-Molecule load_molecule(const SceneCommand& command) { return build_and_tell(command, read_and_tell(command)); }
+Molecule load_molecule(const SceneCommand& command) { return build_and_log(command, read_and_log(command)); }
 
-void say_times(const SceneCommand& command, const std::string& device, std::span<const StageTime> stages) {
+void log_times(const SceneCommand& command, const std::string& device, std::span<const StageTime> stages) {
   std::string times;
   for (const StageTime& stage : stages)
     times += fmt::format("{}{} {:.1f} ms", times.empty() ? "" : ", ", stage.name, stage.milliseconds);
-  say(command, fmt::format("picture on {}: {}", device, times));
+  log_line(command, fmt::format("picture on {}: {}", device, times));
 }
 
-void tell_if_unseen(const SceneCommand& command, const std::optional<Camera>& given, const Structure& structure) {
+void warn_if_unseen(const SceneCommand& command, const std::optional<Camera>& given, const Structure& structure) {
   const ViewRequest& picture = command.scene.picture;
   if (given && !picture.zoom_to && picture.turns.empty() &&
       sees_nothing(*given, picture.aspect(), structure, command.scene.molecule.surface.probe_radius))
-    say(command, fmt::format("warning: {}: this camera sees nothing of the molecule: all atoms are behind it or beside "
-                             "the picture; --zoom-to EXPR turns to them",
-                             picture.camera_file));
+    log_line(command,
+             fmt::format("warning: {}: this camera sees nothing of the molecule: all atoms are behind it or beside "
+                         "the picture; --zoom-to EXPR turns to them",
+                         picture.camera_file));
 }
 
 }  // namespace meniscus

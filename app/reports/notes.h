@@ -21,39 +21,39 @@ inline constexpr const char* kShowsNothing =
     "the camera looks";
 
 /// Prints a line on standard error, unless quiet. Control characters are escaped.
-void say(const SceneCommand& command, const std::string& line);
+void log_line(const SceneCommand& command, const std::string& line);
 
 /// Prints the warnings about a file on standard error, in the requested detail, unless quiet.
-void say_warnings(const SceneCommand& command, const Structure& structure);
+void log_warnings(const SceneCommand& command, const Structure& structure);
 
 /// Warns that this share of a surface lies outside the volume map that colours it, unless it is 0. whose: "the
 /// surface".
-void tell_beyond_map(const SceneCommand& command, double share, std::string_view whose);
+void warn_beyond_map(const SceneCommand& command, double share, std::string_view whose);
 
 /// Returns a sink for progress on standard error: a bar on a terminal, plain lines elsewhere, nothing when quiet.
 ProgressSink progress_on_stderr(const SceneCommand& command);
 
 /// Reads the file and prints which atoms were read and left out, and each warning. With --assembly list it prints the
 /// assemblies and ends the program by CLI::Success.
-Structure read_and_tell(const SceneCommand& command);
+Structure read_and_log(const SceneCommand& command);
 
 /// Prints which atoms were read and left out, each warning, and the number of frames of a run.
-void tell_run(const SceneCommand& command, const FrameRun& frames);
+void log_run(const SceneCommand& command, const FrameRun& frames);
 
 /// Prints the part of the surface that its map covers, the device that computed it, and whether radii grew.
-void tell_built(const SceneCommand& command, const Molecule& molecule);
+void log_surface(const SceneCommand& command, const Molecule& molecule);
 /// Prints the growth of radii, Å, that resolved ties; nothing if it is 0.
-void tell_grown_radii(const SceneCommand& command, double grown_by);
+void log_grown_radii(const SceneCommand& command, double grown_by);
 
 /// Computes and colours a structure, and prints the device.
-Molecule build_and_tell(const SceneCommand& command, Structure structure);
+Molecule build_and_log(const SceneCommand& command, Structure structure);
 /// Reads, computes and colours the molecule's file, and prints all of the above.
 Molecule load_molecule(const SceneCommand& command);
 
 /// Prints the device that made a picture, and the time of each stage.
-void say_times(const SceneCommand& command, const std::string& device, std::span<const StageTime> stages);
+void log_times(const SceneCommand& command, const std::string& device, std::span<const StageTime> stages);
 
 /// Warns if the given camera certainly sees nothing of the structure.
-void tell_if_unseen(const SceneCommand& command, const std::optional<Camera>& given, const Structure& structure);
+void warn_if_unseen(const SceneCommand& command, const std::optional<Camera>& given, const Structure& structure);
 
 }  // namespace meniscus

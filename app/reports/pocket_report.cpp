@@ -290,6 +290,10 @@ std::string pocket_figure(const PocketReport& report, const std::string& scene, 
     const std::string rest = fmt::format("not ({})", left_out);
     molecule["select"] =
         molecule.contains("select") ? fmt::format("({}) and {}", molecule["select"].get<std::string>(), rest) : rest;
+  } else if (!molecule.contains("select") && std::ranges::any_of(report.structure.atoms, [](const Atom& atom) {
+               return atom.kind == AtomClass::ligand;
+             })) {
+    molecule["select"] = "all";
   }
   Json surface{{"representation", "surface"}, {"color", colors}};
   if (figure["objects"].is_array())

@@ -71,12 +71,6 @@ void RunProgress::failed(std::uint64_t frame, int exit_code, const std::string& 
   advance();
 }
 
-void RunProgress::tell(const std::string& line) const {
-  if (style_ == ProgressStyle::json) return write_line({{"event", "note"}, {"text", line}});
-  if (style_ == ProgressStyle::bar) std::cerr << "\r\033[K";
-  std::cerr << "meniscus: " << line << std::endl;
-}
-
 void RunProgress::advance() {
   ++done_;
   const double share = static_cast<double>(done_) / static_cast<double>(total_);
@@ -131,17 +125,17 @@ struct FaultyPictures {
   }
 };
 
-void tell_faults(const SceneCommand& command, const FaultyPictures& empty, const FaultyPictures& unlabelled) {
+void log_faults(const SceneCommand& command, const FaultyPictures& empty, const FaultyPictures& unlabelled) {
   if (empty.count > 0)
-    say(command,
-        fmt::format("warning: {}: no ray meets a part of the surface that --show leaves; check where the camera "
-                    "looks",
-                    empty.words("shows nothing", "show nothing")));
+    log_line(command,
+             fmt::format("warning: {}: no ray meets a part of the surface that --show leaves; check where the camera "
+                         "looks",
+                         empty.words("shows nothing", "show nothing")));
   if (unlabelled.count > 0)
-    say(command,
-        fmt::format("warning: {}: there is no room where labels do not meet; make them fewer or shorter, their "
-                    "letters smaller (--label-size), or the pictures larger",
-                    unlabelled.words("lacks its labels", "lack their labels")));
+    log_line(command,
+             fmt::format("warning: {}: there is no room where labels do not meet; make them fewer or shorter, their "
+                         "letters smaller (--label-size), or the pictures larger",
+                         unlabelled.words("lacks its labels", "lack their labels")));
 }
 
 using Clock = std::chrono::steady_clock;
@@ -221,10 +215,10 @@ std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& fra
   return builders;
 }
 
-void tell_beyond_map(const SceneCommand& command, std::span<const std::shared_ptr<MoleculeBuilder>> builders) {
+void warn_beyond_map(const SceneCommand& command, std::span<const std::shared_ptr<MoleculeBuilder>> builders) {
   double most = 0.0;
   for (const std::shared_ptr<MoleculeBuilder>& builder : builders) most = std::max(most, builder->most_beyond_map());
-  tell_beyond_map(command, most, "the surface of one frame, and no more of any other,");
+  warn_beyond_map(command, most, "the surface of one frame, and no more of any other,");
 }
 
 void run_frames(FrameRun& frames, const SceneCommand& command, std::vector<FrameWorker> workers) {
@@ -251,7 +245,7 @@ void run_frames(FrameRun& frames, const SceneCommand& command, std::vector<Frame
     }
   }
   progress.end();
-  tell_faults(command, empty, unlabelled);
+  log_faults(command, empty, unlabelled);
   if (failures.count > 0) {
     throw RunError(failures.code,
                    fmt::format("{} of {} frames failed; the first, frame {}: {}", with_thousands(failures.count),

@@ -27,8 +27,6 @@ class RunProgress {
   /// Reports a finished frame. empty: its picture shows nothing.
   void done(std::uint64_t frame, const std::vector<std::string>& files, double milliseconds, bool empty = false);
   void failed(std::uint64_t frame, int exit_code, const std::string& message);
-  /// Prints a line for people about what delays the run.
-  void tell(const std::string& line) const;
   /// Must be called after the last frame, in case of failure, too.
   void end();
 
@@ -62,7 +60,7 @@ std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& fra
                                                              const EglContext* context = nullptr);
 
 /// Prints the largest share of a frame's surface outside a volume map.
-void tell_beyond_map(const SceneCommand& command, std::span<const std::shared_ptr<MoleculeBuilder>> builders);
+void warn_beyond_map(const SceneCommand& command, std::span<const std::shared_ptr<MoleculeBuilder>> builders);
 
 /// The approximate memory of a frame until it is finished: its surface and areas; and a mesh of half a pixel, with its
 /// file.

@@ -16,7 +16,7 @@
 namespace meniscus {
 
 PatchReport patch_report(const Molecule& molecule, const Selection& selection, double least) {
-  const std::vector<bool> selected = patch_atoms(selection, molecule.structure.atoms);
+  const std::vector<bool> selected = patch_atoms(selection, molecule.structure);
   PatchReport report{selection.text(), least, 0.0, 0, {}};
   for (const SurfaceObject& object : molecule.objects) {
     std::vector<bool> chosen;
@@ -263,6 +263,7 @@ Json report_object(const SurfaceReport& report) {
                {"cavities", totals.cavities},
                {"cavity_area", totals.cavity_area},
                {"cavity_volume", totals.cavity_volume}};
+  for (const auto& [reason, names] : structure.report.residues) json["atoms"]["excluded_residues"][reason] = names;
   for (const AddedFile& added : structure.added) json["added"].push_back(added_json(added));
   for (const AreaColumn& column : report.columns) json[column.name] = column.total;
   if (report.context) json["context"] = {{"selection", report.context->selection}, {"atoms", report.context->atoms}};

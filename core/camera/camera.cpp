@@ -254,7 +254,7 @@ glm::dquat bezier(const glm::dquat& a, const glm::dquat& b, const glm::dquat& c,
 }
 
 /// Returns q or -q, which is the same rotation: the one nearer to the other quaternion.
-glm::dquat beside(const glm::dquat& q, const glm::dquat& other) { return glm::dot(q, other) < 0.0 ? -q : q; }
+glm::dquat with_nearest_sign(const glm::dquat& q, const glm::dquat& other) { return glm::dot(q, other) < 0.0 ? -q : q; }
 
 }  // namespace
 
@@ -269,7 +269,7 @@ Camera CameraPath::at(double frame) const {
   const std::size_t before = i == 0 ? i : i - 1, after = std::min(j + 1, keys_.size() - 1);
   Pose pose[4] = {pose_of(keys_[before].camera), pose_of(keys_[i].camera), pose_of(keys_[j].camera),
                   pose_of(keys_[after].camera)};
-  for (int n = 1; n < 4; ++n) pose[n].axes = beside(pose[n].axes, pose[n - 1].axes);
+  for (int n = 1; n < 4; ++n) pose[n].axes = with_nearest_sign(pose[n].axes, pose[n - 1].axes);
   const double h = keys_[j].frame - keys_[i].frame, s = (frame - keys_[i].frame) / h;
   const auto slope = [&](const glm::dvec3 Pose::*part, int from, int to, std::size_t key_from, std::size_t key_to) {
     return (pose[to].*part - pose[from].*part) / (keys_[key_to].frame - keys_[key_from].frame);

@@ -45,7 +45,7 @@ constexpr std::array<NamedDirection, 16> kDirections{{
     {"2", {Frame::inertia, 1, false}, true},
     {"3", {Frame::inertia, 2, false}, true},
     {"symmetry", {Frame::symmetry, 2, false}, true},
-    {"symmetry-side", {Frame::beside, 2, false}, true},
+    {"symmetry-side", {Frame::symmetry_side, 2, false}, true},
     {"open", {Frame::open, 2, false}, true},
     {"channel", {Frame::channel, 2, false}, true},
 }};
@@ -85,7 +85,7 @@ ViewBasis view_basis(const ViewDirection& direction, const ViewedBalls& balls) {
     return direction.opposite ? opposite_of(*end) : *end;
   }
   if (direction.frame == Frame::symmetry) return facing(sign * symmetry, across(symmetry));
-  if (direction.frame == Frame::beside) return facing(sign * across(symmetry), symmetry);
+  if (direction.frame == Frame::symmetry_side) return facing(sign * across(symmetry), symmetry);
   glm::dvec3 toward(0.0);
   if (direction.frame == Frame::file) {
     toward[direction.axis] = sign;

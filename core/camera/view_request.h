@@ -22,12 +22,12 @@ struct RigidMotion;
 /// The side of a molecule that faces the viewer.
 struct ViewDirection {
   enum class Frame {
-    file,      ///< an axis of the file's coordinates: the viewer is on that side
-    inertia,   ///< principal axes of the atoms' centres, longest first; the third is the axis of the default view
-    symmetry,  ///< along the symmetry axis of an assembly
-    beside,    ///< at a right angle to that axis, which points up in the picture
-    open,      ///< the side with the best view of the framed atoms (open_side)
-    channel    ///< along the straight channel through the framed atoms (channel_end)
+    file,           ///< an axis of the file's coordinates: the viewer is on that side
+    inertia,        ///< principal axes of the atoms' centres, longest first; the third is the axis of the default view
+    symmetry,       ///< along the symmetry axis of an assembly
+    symmetry_side,  ///< at a right angle to that axis, which points up in the picture
+    open,           ///< the side with the best view of the framed atoms (open_side)
+    channel         ///< along the straight channel through the framed atoms (channel_end)
   };
   Frame frame = Frame::inertia;
   int axis = 2;           ///< for file and inertia: 0 to 2

@@ -33,15 +33,21 @@ namespace {
 
 using By = ColorScheme::By;
 
-std::vector<glm::vec3> by_chain(const Structure& structure) {
+std::vector<glm::vec3> by_chain(const Structure& structure, By by) {
   const std::map<std::string, std::size_t> places = places_of_chains(structure);
   std::vector<glm::vec3> colors;
-  for (const Atom& atom : structure.atoms) colors.push_back(categorical_color(places.at(chain_of_file(atom))));
+  for (const Atom& atom : structure.atoms) {
+    const std::size_t place = places.at(chain_of_file(atom));
+    colors.push_back(by == By::chain_okabe_ito                           ? categorical_color(place)
+                     : by == By::chain_element && !has_chain_color(atom) ? cpk_color(atom.element)
+                                                                         : chain_color(place));
+  }
   return colors;
 }
 
 std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& scheme) {
-  if (scheme.by == By::chain) return by_chain(structure);
+  const By by = resolved_scheme(structure, scheme.by);
+  if (by == By::chain || by == By::chain_element || by == By::chain_okabe_ito) return by_chain(structure, by);
   std::vector<glm::vec3> colors;
   colors.reserve(structure.atoms.size());
   if (has_ordered_classes(scheme.by)) {
@@ -61,7 +67,7 @@ std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& 
       colors.push_back(categorical_color(atom.copy));
     else if (scheme.by == By::model)
       colors.push_back(categorical_color(static_cast<std::size_t>(atom.model) - 1));
-    else if (scheme.by == By::element)
+    else if (by == By::element)
       colors.push_back(element_color(atom.element));
     else if (scheme.by == By::element_cpk)
       colors.push_back(cpk_color(atom.element));
@@ -75,7 +81,7 @@ std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& 
 void paint(const Structure& structure, std::span<const std::uint32_t> atom, const std::vector<ColorRule>& rules,
            Coloring& coloring) {
   for (const ColorRule& rule : rules) {
-    const std::vector<bool> meant = rule.atoms.evaluate(structure.atoms);
+    const std::vector<bool> meant = rule.atoms.evaluate(structure);
     if (std::ranges::none_of(meant, std::identity())) continue;
     const std::vector<glm::vec3> colors = colors_of(structure, rule.paint);
     for (std::size_t n = 0; n < atom.size(); ++n)
@@ -94,7 +100,7 @@ std::vector<float> opacities_of(const Structure& structure, const std::vector<Op
     opacities.resize(structure.atoms.size(), 1.0f);
     if (!rule.atoms) std::ranges::fill(opacities, rule.opacity);
     if (!rule.atoms) continue;
-    const std::vector<bool> meant = rule.atoms->evaluate(structure.atoms);
+    const std::vector<bool> meant = rule.atoms->evaluate(structure);
     for (std::size_t a = 0; a < opacities.size(); ++a)
       if (meant[a]) opacities[a] = rule.opacity;
   }

@@ -27,13 +27,13 @@ namespace {
 using By = ColorScheme::By;
 
 std::string class_title(By by) {
-  return by == By::element || by == By::element_cpk ? "element"
-         : by == By::chain                          ? "chain"
-         : by == By::copy                           ? "copy"
-         : by == By::model                          ? "model"
-         : by == By::kind                           ? "kind of patch"
-         : by == By::component                      ? "component"
-                                                    : "residue type";
+  return by == By::element || by == By::element_cpk     ? "element"
+         : by == By::chain || by == By::chain_okabe_ito ? "chain"
+         : by == By::copy                               ? "copy"
+         : by == By::model                              ? "model"
+         : by == By::kind                               ? "kind of patch"
+         : by == By::component                          ? "component"
+                                                        : "residue type";
 }
 
 /// Returns "model 2", or its file if there are several.
@@ -47,6 +47,7 @@ std::string model_name(const Structure& structure, std::int32_t model) {
 std::string class_name(const Structure& structure, const Atom& atom, By by) {
   switch (by) {
     case By::chain:
+    case By::chain_okabe_ito:
       return chain_of_file(atom);
     case By::copy:
       return fmt::format("copy {}", atom.copy + 1);
@@ -77,7 +78,7 @@ std::vector<std::vector<bool>> painted_atoms(const Structure& structure, const s
     const Selection& atoms = rules[rule].atoms;
     const bool changes = drawn.in_a_run && atoms.uses_positions();
     std::vector<bool>& own = painted[rule + 1];
-    own = changes ? atoms.possible(structure.atoms).selected : atoms.evaluate(structure.atoms);
+    own = changes ? atoms.possible(structure.atoms).selected : atoms.evaluate(structure);
     for (std::size_t a = 0; a < own.size(); ++a) {
       own[a] = own[a] && left[a];
       if (!changes) left[a] = left[a] && !own[a];
@@ -134,14 +135,32 @@ ColorKey ordered_key(const Structure& structure, const ColorScheme& scheme, cons
   return key;
 }
 
+ColorKey key_of_scheme(const Structure& structure, const ColorScheme& scheme, const std::vector<bool>& atoms,
+                       std::span<const AtomGroup> objects);
+
+/// Returns the key of By::chain_element: the chains of some atoms and the elements of the others.
+ColorKey chain_element_key(const Structure& structure, std::vector<bool> atoms) {
+  std::vector<bool> of_chains(atoms.size());
+  for (std::size_t a = 0; a < atoms.size(); ++a) {
+    of_chains[a] = atoms[a] && has_chain_color(structure.atoms[a]);
+    atoms[a] = atoms[a] && !of_chains[a];
+  }
+  ColorKey key;
+  if (any_of(of_chains)) key = key_of_scheme(structure, {.by = By::chain}, of_chains, {});
+  if (any_of(atoms)) add_key(key, key_of_scheme(structure, {.by = By::element_cpk}, atoms, {}), "chain-element");
+  return key;
+}
+
 /// Returns the key of a scheme without its rules, for these atoms.
 ColorKey key_of_scheme(const Structure& structure, const ColorScheme& scheme, const std::vector<bool>& atoms,
                        std::span<const AtomGroup> objects) {
   if (scheme.has_scale()) return scale_key(structure, scheme, atoms);
+  if (scheme.by == By::chain_element) return chain_element_key(structure, atoms);
   if (has_ordered_classes(scheme.by)) return ordered_key(structure, scheme, atoms);
   ColorKey key;
   if (scheme.by == By::fixed) return key;
-  key.title = class_title(scheme.by);
+  const By by = resolved_scheme(structure, scheme.by);
+  key.title = class_title(by);
   if (scheme.by == By::kind) {
     constexpr std::array<const char*, 3> kNames{"convex", "toroidal", "concave"};
     for (std::size_t n = 0; n < kNames.size(); ++n) add_class(key, kNames[n], kPatchKindColors[n]);
@@ -151,13 +170,13 @@ ColorKey key_of_scheme(const Structure& structure, const ColorScheme& scheme, co
       add_class(key, objects[n].name, categorical_color(n));
   if (scheme.by == By::kind || scheme.by == By::component) return key;
   ColorScheme bare;
-  bare.by = scheme.by;
+  bare.by = by;
   const std::vector<glm::vec3> colors = color_atoms(structure, bare).atom;
   std::set<std::pair<std::string, std::size_t>> seen;
   for (std::size_t a = 0; a < atoms.size(); ++a) {
     if (!atoms[a]) continue;
     const Atom& atom = structure.atoms[a];
-    const std::string name = class_name(structure, atom, scheme.by);
+    const std::string name = class_name(structure, atom, by);
     const auto file =
         static_cast<std::size_t>(scheme.by == By::model ? atom.model : 0);  // several files may have one name
     if (seen.emplace(name, file).second) add_class(key, name, colors[a]);

@@ -27,9 +27,16 @@ namespace {
 using By = ColorScheme::By;
 
 constexpr ColorSchemeMetadata kSchemes[] = {
-    {"element", By::element, "chemical element in pale colours, the default",
+    {"auto", By::automatic,
+     "chain, or element for small molecules; sticks, balls and spheres as chain-element. The default", ""},
+    {"element", By::element, "chemical element in pale colours",
      "hues of element-cpk with white, so that carbon is #c8c8c8"},
-    {"chain", By::chain, "chains in order of appearance, 21 colours in turn",
+    {"chain", By::chain, "chains in order of appearance, 30 colours in turn",
+     "our own pastel colours, which differ for any colour vision as G. M. Machado et al. simulate it, IEEE Trans. Vis. "
+     "Comput. Graph. 15, 1291 (2009)"},
+    {"chain-element", By::chain_element, "carbon of polymers by chain, all other atoms as element-cpk",
+     "colours of chain and element-cpk"},
+    {"chain-okabe-ito", By::chain_okabe_ito, "chains in order of appearance, 21 strong colours in turn",
      "M. Okabe and K. Ito, Color Universal Design (2008)"},
     {"copy", By::copy, "copies of an @assembly@ made of atoms, 21 colours in turn", "colours of Okabe and Ito"},
     {"model", By::model, "models of the file, and each file of @add@, 21 colours in turn", "colours of Okabe and Ito"},
@@ -76,6 +83,10 @@ constexpr ColorSchemeMetadata kSchemes[] = {
 
 }  // namespace
 
+bool has_chain_color(const Atom& atom) {
+  return atom.element == 0 || (atom.element == 6 && atom.kind == AtomClass::polymer);
+}
+
 std::map<std::string, std::size_t> places_of_chains(const Structure& structure) {
   std::map<std::string, std::size_t> places;
   for (const std::vector<std::string>& chains : {structure.chains, chains_of(structure.atoms)})
@@ -84,6 +95,13 @@ std::map<std::string, std::size_t> places_of_chains(const Structure& structure) 
 }
 
 std::span<const ColorSchemeMetadata> color_schemes() { return kSchemes; }
+
+ColorScheme::By resolved_scheme(const Structure& structure, By scheme) {
+  if (scheme != By::automatic) return scheme;
+  const auto any = [&](auto is_of) { return std::ranges::any_of(structure.atoms, is_of); };
+  const bool polymer = any([](const Atom& atom) { return atom.kind == AtomClass::polymer; });
+  return polymer || !any([](const Atom& atom) { return atom.element != 0; }) ? By::chain : By::element;
+}
 
 bool ColorScheme::uses_scale() const {
   return has_scale() || std::ranges::any_of(rules, [](const ColorRule& rule) { return rule.paint.has_scale(); });
@@ -170,15 +188,15 @@ ColorRule parse_color_rule(std::string_view text) {
 
 std::vector<std::string> rules_without_atoms(const Structure& structure, const ColorScheme& scheme) {
   std::vector<std::string> texts;
-  const auto means_some = [](const Selection& atoms, std::span<const Atom> among) {
+  const auto means_some = [](const Selection& atoms, const auto& among) {
     return std::ranges::any_of(atoms.evaluate(among), std::identity());
   };
   // Opacity applies only to the surface; sticks and other shapes have colours, too.
   for (const ColorRule& rule : scheme.rules)
-    if (!means_some(rule.atoms, structure.atoms) && !means_some(rule.atoms, structure.extra_atoms))
+    if (!means_some(rule.atoms, structure) && !means_some(rule.atoms, structure.extra_atoms))
       texts.push_back(rule.atoms.text());
   for (const OpacityRule& rule : scheme.opacities)
-    if (rule.atoms && !means_some(*rule.atoms, structure.atoms)) texts.push_back(rule.atoms->text());
+    if (rule.atoms && !means_some(*rule.atoms, structure)) texts.push_back(rule.atoms->text());
   return texts;
 }
 

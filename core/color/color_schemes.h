@@ -36,20 +36,23 @@ struct ColorRule;
 /// A scheme such as "chain" or "#e69f00", and rules for some atoms.
 struct ColorScheme {
   enum class By : std::uint8_t {
+    automatic,  ///< the scheme that resolved_scheme() returns
     element,
     element_cpk,
     chain,
-    residue,    ///< type of residue, by chemistry
-    copy,       ///< copy in an assembly made of atoms
-    model,      ///< model of the file, and each added file
-    kind,       ///< kind of patch
-    component,  ///< objects in turn: closed parts of the surface, chains, ...
-    fixed,      ///< one colour
-    secondary,  ///< helix, strand, coil
-    plddt,      ///< confidence of a predicted model, in four classes
-    snfg,       ///< sugars, as their symbols
-    bead,       ///< classes of Martini's beads
-    bfactor,    ///< from here on, schemes are numbers with a map and a range
+    chain_element,    ///< carbon atoms of polymers by chain, all other atoms by element
+    chain_okabe_ito,  ///< chains in other colours
+    residue,          ///< type of residue, by chemistry
+    copy,             ///< copy in an assembly made of atoms
+    model,            ///< model of the file, and each added file
+    kind,             ///< kind of patch
+    component,        ///< objects in turn: closed parts of the surface, chains, ...
+    fixed,            ///< one colour
+    secondary,        ///< helix, strand, coil
+    plddt,            ///< confidence of a predicted model, in four classes
+    snfg,             ///< sugars, as their symbols
+    bead,             ///< classes of Martini's beads
+    bfactor,          ///< from here on, schemes are numbers with a map and a range
     occupancy,
     charge,
     hydrophobicity,  ///< Kyte & Doolittle 1982
@@ -64,7 +67,7 @@ struct ColorScheme {
     volume,          ///< a volume map, at each point of the surface
     lipophilicity    ///< the lipophilicity potential of the atoms, at each point of the surface
   };
-  By by = By::element;
+  By by = By::automatic;
   glm::vec3 fixed{0.8f};                       ///< sRGB in [0, 1], for By::fixed
   std::optional<ColorMap> map;                 ///< nothing: the default of the scheme (color_scale)
   std::shared_ptr<const ColorRamp> own_map;    ///< replaces `map`, if set
@@ -122,14 +125,18 @@ struct ColorSchemeMetadata {
 /// Returns all schemes but the fixed colour, in the order of the help.
 std::span<const ColorSchemeMetadata> color_schemes();
 
-/// Parses "element", ..., "file", "atom" (the same as "index") or a colour that parse_color reads; nothing for any
-/// other text.
+/// Returns the scheme that By::automatic means for these atoms: `chain` if some belong to a polymer or if none has a
+/// known element, else `element`. Returns any other scheme as it is.
+ColorScheme::By resolved_scheme(const Structure& structure, ColorScheme::By scheme);
+
+/// Parses "auto", "element", ..., "file", "atom" (the same as "index") or a colour that parse_color reads; nothing for
+/// any other text.
 std::optional<ColorScheme> parse_color_scheme(std::string_view text);
 
 /// Formats a scheme without its rules as parse_color_scheme reads it: a word, or "#rrggbb".
 std::string scheme_word(const ColorScheme& color);
 
-/// Returns all words that parse_color_scheme reads, for messages: "element, chain, ..., a name such as red, or
+/// Returns all words that parse_color_scheme reads, for messages: "auto, element, ..., a name such as red, or
 /// #rrggbb".
 std::string color_scheme_words();
 
@@ -143,6 +150,9 @@ std::vector<std::string> rules_without_atoms(const Structure& structure, const C
 /// Parses "EXPR=0.4", split at the last "=", or "0.4" for all atoms. Throws RequestError for a number outside [0, 1],
 /// SelectionError.
 OpacityRule parse_opacity_rule(std::string_view text);
+
+/// True if By::chain_element gives this atom the colour of its chain.
+bool has_chain_color(const Atom& atom);
 
 /// Returns the index of each chain among the chains of the file, which decides its colour; chains that the file does
 /// not list follow, as in a structure without a file.

@@ -26,6 +26,10 @@ inline constexpr std::size_t kCategoricalCount = 21;
 /// colour vision. Black is left out, because it hides the shape. After seven come the same hues paler, then darker.
 glm::vec3 categorical_color(std::size_t n);
 
+/// Returns the colour of the n-th chain: ten pastel colours, which stay light under shade; then the same darker, then
+/// paler; then all of them again.
+glm::vec3 chain_color(std::size_t n);
+
 /// Returns the colour by atomic number in the space-filling models of R. B. Corey, L. Pauling and W. L. Koltun; 0:
 /// unknown.
 glm::vec3 cpk_color(std::uint8_t element);

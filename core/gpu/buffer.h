@@ -132,7 +132,7 @@ Counting suitable_counting();
 class Readback {
  public:
   /// Registers `words` of `buffer` from `byte_offset` on; the span must stay valid until read().
-  void ask(const Buffer& buffer, std::size_t byte_offset, std::span<std::uint32_t> words) {
+  void request(const Buffer& buffer, std::size_t byte_offset, std::span<std::uint32_t> words) {
     pieces_.push_back({buffer.gl_name(), byte_offset, words});
   }
   /// Waits for the GPU, verifies its work, and fills the registered words. Throws like WorkProof::verify().

@@ -112,17 +112,18 @@ void KernelFiles::save(std::uint32_t program, const std::string& name, std::stri
 
   static std::atomic<unsigned> count = 0;
   const std::filesystem::path path = path_of(name);
-  const std::filesystem::path beside = folder_ / fmt::format(".{}.{}.{}", path.filename().string(), getpid(), count++);
+  const std::filesystem::path temporary =
+      folder_ / fmt::format(".{}.{}.{}", path.filename().string(), getpid(), count++);
   std::error_code ignored, failed;
   std::filesystem::create_directories(folder_, ignored);
   {
-    std::ofstream file(beside, std::ios::binary);
+    std::ofstream file(temporary, std::ios::binary);
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
     if (!file.flush()) failed = std::make_error_code(std::errc::io_error);
   }
   // Not synced: damage by a crash of the machine is found by the checksum.
-  if (!failed) std::filesystem::rename(beside, path, failed);
-  if (failed) std::filesystem::remove(beside, ignored);
+  if (!failed) std::filesystem::rename(temporary, path, failed);
+  if (failed) std::filesystem::remove(temporary, ignored);
 }
 
 namespace {
@@ -187,15 +188,15 @@ GlDevice describe(EGLDeviceEXT device, int egl_index) {
 }
 
 /// Creates a GL 4.5 core context; EGL_NO_CONTEXT on failure. Contexts that share must agree on reset notification.
-EGLContext create_context(EGLDisplay display, EGLConfig config, EGLContext sibling, bool told_of_resets) {
-  std::vector<EGLint> wish{EGL_CONTEXT_MAJOR_VERSION,       4,
-                           EGL_CONTEXT_MINOR_VERSION,       5,
-                           EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
-  if (told_of_resets)
-    wish.insert(wish.end(), {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE, EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
-                             EGL_LOSE_CONTEXT_ON_RESET});
-  wish.push_back(EGL_NONE);
-  return eglCreateContext(display, config, sibling, wish.data());
+EGLContext create_context(EGLDisplay display, EGLConfig config, EGLContext sibling, bool reports_resets) {
+  std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION,       4,
+                                 EGL_CONTEXT_MINOR_VERSION,       5,
+                                 EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+  if (reports_resets)
+    attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE,
+                                         EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
+  attributes.push_back(EGL_NONE);
+  return eglCreateContext(display, config, sibling, attributes.data());
 }
 
 EGLConfig config_of(EGLDisplay display, EGLContext context) {
@@ -254,11 +255,12 @@ bool EglContext::try_device(const DeviceAttempt& attempt, const std::string& ker
   if (!epoxy_has_egl_extension(display, "EGL_KHR_surfaceless_context"))
     return why_not = "no EGL_KHR_surfaceless_context", false;
   if (!eglBindAPI(EGL_OPENGL_API)) return why_not = "no desktop OpenGL", false;
-  const std::array<EGLint, 3> config_wish{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+  const std::array<EGLint, 3> config_attributes{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint config_count = 0;
   // Surfaceless: any config with OpenGL is suitable, and none is needed if EGL_KHR_no_config_context is offered.
-  if (!eglChooseConfig(display, config_wish.data(), &config, 1, &config_count) || config_count == 0) config = nullptr;
+  if (!eglChooseConfig(display, config_attributes.data(), &config, 1, &config_count) || config_count == 0)
+    config = nullptr;
   // If the driver notifies of resets, work that a reset destroyed is known to be lost.
   EGLContext context = create_context(display, config, EGL_NO_CONTEXT, true);
   if (context == EGL_NO_CONTEXT) context = create_context(display, config, EGL_NO_CONTEXT, false);
@@ -292,7 +294,7 @@ EglContext::EglContext(const ForeignContext& sibling) {
   if (!epoxy_has_egl_extension(sibling.display, "EGL_KHR_surfaceless_context") || !eglBindAPI(EGL_OPENGL_API))
     throw GpuError("this display cannot draw outside its windows (EGL_KHR_surfaceless_context is missing)");
   const EGLContext context = create_context(sibling.display, config_of(sibling.display, sibling.context),
-                                            sibling.context, sibling.tells_resets);
+                                            sibling.context, sibling.reports_resets);
   if (context == EGL_NO_CONTEXT)
     throw GpuError(fmt::format("no GL context beside the window's (EGL error 0x{:x})", eglGetError()));
   if (std::string why_not; !adopt_context(sibling.display, context, sibling.kernel_folder, why_not)) {

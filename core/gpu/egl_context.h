@@ -54,7 +54,7 @@ std::vector<GlDevice> list_gl_devices();
 struct ForeignContext {
   void* display = nullptr;
   void* context = nullptr;
-  bool tells_resets = false;    ///< GL_LOSE_CONTEXT_ON_RESET
+  bool reports_resets = false;  ///< GL_LOSE_CONTEXT_ON_RESET
   std::string kernel_folder{};  ///< as in DeviceChoice; for contexts that share with it
 };
 

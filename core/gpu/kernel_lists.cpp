@@ -52,7 +52,7 @@ void append_all(std::initializer_list<AppendList*> lists, Buffer& counters, std:
   }
   // Counts are set only when all lists fit, so that records of a list are not appended twice.
   auto count = counted.begin();
-  for (AppendList* list : lists) list->settle(*count++);
+  for (AppendList* list : lists) list->set_count(*count++);
 }
 
 void append_later(std::initializer_list<AppendList*> lists, Buffer& counters, std::span<std::uint32_t> counted,
@@ -68,13 +68,13 @@ void append_later(std::initializer_list<AppendList*> lists, Buffer& counters, st
   run();
 }
 
-bool settle_all(std::initializer_list<AppendList*> lists, std::span<const std::uint32_t> counted) {
+bool take_list_counts(std::initializer_list<AppendList*> lists, std::span<const std::uint32_t> counted) {
   assert(lists.size() <= counted.size());
   bool all_fit = true;
   auto count = counted.begin();
   for (AppendList* list : lists) {
     if (list->fits(*count))
-      list->settle(*count);
+      list->set_count(*count);
     else
       list->clear(), all_fit = false;
     ++count;

@@ -34,7 +34,7 @@ class AppendList {
   /// True if all records that a kernel counted have a place. If not, the capacity grows.
   bool fits(std::uint32_t counted);
   /// Sets the count that a kernel reported; it must fit.
-  void settle(std::uint32_t counted) { last_ = count_ = counted, open_ = false; }
+  void set_count(std::uint32_t counted) { last_ = count_ = counted, open_ = false; }
   /// Marks the count as open: a kernel appends, and the host reads the count later; it may be as last time and somewhat
   /// more.
   void leave_open() {
@@ -63,7 +63,7 @@ class AppendList {
   std::size_t record_bytes_, header_bytes_;
   std::uint32_t count_ = 0;
   std::uint32_t capacity_;
-  std::uint32_t last_ = 0;  ///< the count when it was last settled
+  std::uint32_t last_ = 0;  ///< the count that was last set
   bool open_ = false;
 };
 
@@ -74,12 +74,12 @@ void append_all(std::initializer_list<AppendList*> lists, Buffer& counters, std:
                 const std::function<void()>& run);
 
 /// Runs the kernels once, on empty lists with the room that they needed last time and some more. The counts are open
-/// until settle_all(). Throws CapacityError, GpuError.
+/// until take_list_counts(). Throws CapacityError, GpuError.
 void append_later(std::initializer_list<AppendList*> lists, Buffer& counters, std::span<std::uint32_t> counted,
                   const std::function<void()>& run);
 
 /// Sets the counts from the words of `counters` that were read back; false if some record had no place.
-bool settle_all(std::initializer_list<AppendList*> lists, std::span<const std::uint32_t> counted);
+bool take_list_counts(std::initializer_list<AppendList*> lists, std::span<const std::uint32_t> counted);
 
 /// How invocations share a sum; the result is the same.
 enum class ScanKind {

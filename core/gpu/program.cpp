@@ -94,9 +94,9 @@ void Program::find_blocks() {
   GLint count = 0;
   glGetProgramInterfaceiv(name_, GL_UNIFORM_BLOCK, GL_ACTIVE_RESOURCES, &count);
   for (GLuint n = 0; n < static_cast<GLuint>(count); ++n) {
-    constexpr GLenum kAsked[] = {GL_BUFFER_BINDING, GL_BUFFER_DATA_SIZE};
+    constexpr GLenum kQueried[] = {GL_BUFFER_BINDING, GL_BUFFER_DATA_SIZE};
     GLint found[2] = {};
-    glGetProgramResourceiv(name_, GL_UNIFORM_BLOCK, n, 2, kAsked, 2, nullptr, found);
+    glGetProgramResourceiv(name_, GL_UNIFORM_BLOCK, n, 2, kQueried, 2, nullptr, found);
     blocks_.push_back({static_cast<std::uint32_t>(found[0]), 0, std::vector<std::byte>(in_vectors(found[1]))});
   }
 }
@@ -146,7 +146,7 @@ void Program::dispatch_indirect(const Buffer& counts, std::size_t byte_offset) c
   start();
   glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, counts.gl_name());
-  // This comes first, because it may settle the counts to make room, which must not find unregistered groups.
+  // This comes first, because it may read the counts to make room, which must not find unregistered groups.
   WorkProof::current().started_indirect(counts.gl_name(), byte_offset);
   glDispatchComputeIndirect(static_cast<GLintptr>(byte_offset));
   finish();
@@ -165,7 +165,7 @@ void Program::finish() const {
   try {
     check_gl(("starting " + path_).c_str());
   } catch (const Error&) {
-    WorkProof::current().settle();
+    WorkProof::current().resync();
     throw;
   }
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);

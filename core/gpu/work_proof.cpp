@@ -55,7 +55,7 @@ void WorkProof::started_indirect(std::uint32_t buffer, std::size_t byte_offset) 
 
 void WorkProof::verify(std::span<const Piece> pieces) {
   if (expected_ != proven_ || indirect_ > 0 || !pieces.empty()) {
-    const Groups groups = settle(pieces);
+    const Groups groups = resync(pieces);
     if (groups.started != groups.finished) {
       require_living_context();
       throw GpuError(
@@ -67,7 +67,7 @@ void WorkProof::verify(std::span<const Piece> pieces) {
   require_living_context();
 }
 
-WorkProof::Groups WorkProof::settle(std::span<const Piece> pieces) {
+WorkProof::Groups WorkProof::resync(std::span<const Piece> pieces) {
   Account account{proven_, {}};
   auto& words = account.indirect_and_pieces;
   words.fill(~0u);  // together with the line above: a read that has no effect proves nothing

@@ -52,10 +52,10 @@ class WorkProof {
     std::uint32_t started = 0, finished = 0;
   };
   /// Makes the counts equal without a check, as after a dispatch that GL refused, which may or may not have run.
-  Groups settle() { return settle({}); }
+  Groups resync() { return resync({}); }
 
  private:
-  Groups settle(std::span<const Piece> pieces);
+  Groups resync(std::span<const Piece> pieces);
   std::uint32_t name_ = 0;      // GL buffer: the counter, then the indirect group counts
   std::uint32_t expected_ = 0;  // groups of all direct dispatches so far, modulo 2^32 like the counter
   std::uint32_t proven_ = 0;    // the counter's value at the last verification

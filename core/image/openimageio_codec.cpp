@@ -37,8 +37,8 @@ OIIO::ImageSpec spec_of(const ImageToEncode& image) {
     spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(image.color_profile.size())),
                    image.color_profile.data());
   // TIFF and JPEG have no other place for a text.
-  const std::string& told = image.command.empty() && image.format != "openexr" ? image.scene : image.command;
-  if (!told.empty()) spec.attribute("ImageDescription", told);
+  const std::string& description = image.command.empty() && image.format != "openexr" ? image.scene : image.command;
+  if (!description.empty()) spec.attribute("ImageDescription", description);
   if (!image.scene.empty() && image.format == "openexr") spec.attribute("meniscus:scene", image.scene);
   for (const auto& [name, text] : image.header) spec.attribute(name, text);
   for (const auto& [name, map] : image.maps) spec.attribute(name, OIIO::TypeMatrix44, map.data());

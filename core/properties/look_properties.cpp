@@ -15,8 +15,8 @@ constexpr auto kTable = std::to_array<Property>({
     word("look.preset", "--preset", "WORD",
          "Look: publication, cover, flat, soft or classic. publication: shade, thin lines, colours as given; "
          "cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic: studio "
-         "light alone. Other options of light and lines change single values of it. Where colours show numbers or "
-         "a legend explains them, light changes only their lightness")
+         "light alone. Other options of light and lines change single values of it. Where colours show numbers, "
+         "light changes only their lightness")
         .one_of("publication|cover|flat|soft|classic")
         .initially("publication")
         .in(kLight, kLook | in_short_help),
@@ -92,8 +92,8 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kLines, kLook),
     number("look.depth_cue", "--depth-cue", "F",
            "Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white. "
-           "Presets do not fade where colours show numbers, a legend explains them, or a surface is seen through "
-           "or cut for atoms to be seen (@look-into@)")
+           "Presets do not fade where the background is transparent, colours show numbers, or a surface is seen "
+           "through or cut for atoms to be seen (@look-into@)")
         .from(0, 1)
         .slider("Depth", 1)
         .in(kLight, kLook),

@@ -30,7 +30,8 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("best")
         .in(kInput, kShared),
     text("molecule.select", "--select", "EXPR",
-         "Use only these atoms, such as 'chain A and resid 10-50'. See meniscus help selections")
+         "Use these atoms, such as 'chain A and resid 10-50' or all. Default: the polymers of FILE, or all of a file "
+         "without one. See meniscus help selections")
         .in(kInput, kShared | in_short_help),
     flag("molecule.keep_water", "--keep-water", "Use water molecules, too").in(kInput, kShared),
     flag("molecule.keep_ions", "--keep-ions", "Use free ions, too: lone metal and halogen atoms").in(kInput, kShared),

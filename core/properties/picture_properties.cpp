@@ -37,8 +37,8 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("all that @show@ leaves")
         .in(kCamera, kShared | live | in_short_help),
     text("camera.look_into", "--look-into", "EXPR",
-         "Look at these atoms from the open side, with the surface cut before them. Short for @zoom-to EXPR@ @view "
-         "open@ @clip 'before EXPR'@")
+         "Look at these atoms from the open side, with the surface cut before them; at the first of several places. "
+         "Short for @zoom-to 'first EXPR'@ @view open@ @clip 'before first EXPR'@")
         .in(kCamera, in_bundle | in_short_help)
         .excludes("camera.from|camera.view|camera.zoom_to"),
     text("camera.named_views", "--named-view", "NAME=FILE",
@@ -57,7 +57,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kCamera),
 
     text("image.size", "--size", "WxH", "Size of the picture in pixels")
-        .initially("1280x960")
+        .initially("1280x960; film 1920x1080, .gif 960x540")
         .in(kPicture, kShared | live | in_short_help),
     text("image.width", "--width", "LENGTH", "Width of the picture: 85mm, 8.5cm, 3.5in or 1000px")
         .in(kPicture, kShared | live | in_short_help)

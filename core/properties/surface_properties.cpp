@@ -63,14 +63,14 @@ constexpr auto kTable = std::to_array<Property>({
     flag("surface.verify", "--verify", "Compute on GPU and CPU, and report every difference").in(kDevice, in_bundle),
 
     text("surface.color", "--color", "SCHEME",
-         "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker), "
-         "chain, copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's "
-         "confidence), snfg (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor, "
+         "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: auto (chain, or element for "
+         "small molecules), element, element-cpk (darker), chain, chain-element, chain-okabe-ito, copy (of an "
+         "assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's confidence), snfg (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor, "
          "occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), "
          "relative-accessibility, index, rainbow (along each chain), radial (for capsids). EXPR=COLOR colours some "
          "atoms, as in 'ligand=orange'; 'ligand=orange:ATP' names them in the legend. Repeatable; the last one "
          "counts. meniscus colors explains the schemes")
-        .initially("element")
+        .initially("auto")
         .in(kColour, kSeen | live | repeatable | of_objects | in_short_help),
     file("surface.color_by_file", "--color-by-file", "NUMBERS",
          "Colour by numbers from a file. One number per atom of FILE or per atom used; lines of chain, residue and "
@@ -143,7 +143,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kBeside, in_bundle | live | repeatable | in_short_help),
     text("figure.tube", "--tube", "EXPR",
          "Draw the backbone of these atoms as a cartoon: tubes, ribbons, arrows. Helices are ribbons, strands are "
-         "arrows")
+         "arrows, nucleic acids are bands with filled bases")
         .in(kBeside, in_bundle | live | repeatable | in_short_help),
     text("figure.bases", "--bases", "EXPR",
          "Draw the bases of these nucleotides as filled rings. Rungs lead to the tube")
@@ -151,13 +151,16 @@ constexpr auto kTable = std::to_array<Property>({
     text("figure.glycans", "--glycans", "EXPR",
          "Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours: @color snfg@")
         .in(kBeside, in_bundle | live | repeatable | in_short_help),
+    flag("shapes.bare", "--bare",
+         "Draw no ligands and ions beside the surface of a polymer. Objects that are named stay")
+        .in(kFigure, kSeen | live),
     number("shapes.stick_radius", "--stick-radius", "Å", "Radius of sticks in Å, also of bases and between glycans")
         .from(0.001, 10)
         .initially("0.25; 0.15 between balls")
         .in(kBeside, kSeen | live),
     number("shapes.tube_radius", "--tube-radius", "Å", "Radius of tubes in Å. Ribbons and arrows scale with it")
         .from(0.001, 10)
-        .initially("0.3")
+        .initially("0.45")
         .in(kBeside, kSeen | live),
     text("figure.object", "--object", "JSON",
          "Draw one more object with its own look, as JSON of a scene file. Such as '{\"representation\": "

@@ -225,7 +225,7 @@ class WholeSpheres {
   Kind kind_of(std::uint32_t a) const {
     bool exposed = false, covered = false;
     for (const glm::dvec3& direction : kDirections) {
-      for (const Exposure point : {look(a, direction), look(a, -direction)}) {
+      for (const Exposure point : {test(a, direction), test(a, -direction)}) {
         exposed = exposed || point == Exposure::exposed;
         covered = covered || point == Exposure::covered;
       }
@@ -249,7 +249,7 @@ class WholeSpheres {
 
   // Tests the point of the sphere in this direction. The ball that covers it is near, as a rule, so the nearest cells
   // come first.
-  Exposure look(std::uint32_t a, const glm::dvec3& direction) const {
+  Exposure test(std::uint32_t a, const glm::dvec3& direction) const {
     const glm::dvec3 step = std::sqrt(weights_[a]) * direction, point = atoms_[a].center + step;
     bool covered = false, doubtful = false;
     for (const double part : {0.3, 1.0}) {
@@ -293,11 +293,11 @@ class WholeSpheres {
 };
 
 std::vector<std::uint32_t> atoms_without_arcs(const std::vector<bool>& swallowed, std::span<const RsArc> arcs) {
-  std::vector<char> settled(swallowed.begin(), swallowed.end());
-  for (const RsArc& arc : arcs) settled[arc.i] = settled[arc.j] = 1;
+  std::vector<char> has_arcs(swallowed.begin(), swallowed.end());
+  for (const RsArc& arc : arcs) has_arcs[arc.i] = has_arcs[arc.j] = 1;
   std::vector<std::uint32_t> left;
-  for (std::uint32_t a = 0; a < settled.size(); ++a)
-    if (!settled[a]) left.push_back(a);
+  for (std::uint32_t a = 0; a < has_arcs.size(); ++a)
+    if (!has_arcs[a]) left.push_back(a);
   return left;
 }
 
@@ -307,16 +307,16 @@ void find_whole_spheres(std::span<const Ball> atoms, std::span<const double> wei
                         const std::vector<bool>& swallowed, ReducedSurface& rs) {
   rs.lone_atoms.clear();
   rs.lost_atoms.clear();
-  const std::vector<std::uint32_t> asked = atoms_without_arcs(swallowed, rs.arcs);
-  if (asked.empty()) return;
+  const std::vector<std::uint32_t> candidates = atoms_without_arcs(swallowed, rs.arcs);
+  if (candidates.empty()) return;
   const WholeSpheres spheres(atoms, std::sqrt(*std::ranges::max_element(weights)), weights, swallowed);
-  std::vector<WholeSpheres::Kind> kinds(asked.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, asked.size(), 256), [&](const auto& range) {
-    for (std::size_t n = range.begin(); n != range.end(); ++n) kinds[n] = spheres.kind_of(asked[n]);
+  std::vector<WholeSpheres::Kind> kinds(candidates.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), 256), [&](const auto& range) {
+    for (std::size_t n = range.begin(); n != range.end(); ++n) kinds[n] = spheres.kind_of(candidates[n]);
   });
-  for (std::size_t n = 0; n < asked.size(); ++n) {
-    if (kinds[n] == WholeSpheres::Kind::lone) rs.lone_atoms.push_back(asked[n]);
-    if (kinds[n] == WholeSpheres::Kind::lost) rs.lost_atoms.push_back(asked[n]);
+  for (std::size_t n = 0; n < candidates.size(); ++n) {
+    if (kinds[n] == WholeSpheres::Kind::lone) rs.lone_atoms.push_back(candidates[n]);
+    if (kinds[n] == WholeSpheres::Kind::lost) rs.lost_atoms.push_back(candidates[n]);
   }
 }
 

@@ -77,9 +77,9 @@ void GlRenderer::prepare(Drawable& drawable) {
   do {
     scene_ = &drawable.prepare(frame_, clock_);
     Readback readback;
-    drawable.ask(readback);
+    drawable.request_counts(readback);
     readback.read();
-  } while (!drawable.settle());
+  } while (!drawable.take_counts());
 }
 
 Framebuffer GlRenderer::render(const Surface& surface, const Coloring& coloring, const Camera& camera,
@@ -126,13 +126,13 @@ void GlRenderer::render_block(const PictureBlock& inner, const RenderSettings& s
 bool GlRenderer::draw(Drawable& drawable, const Camera& camera, const RenderSettings& settings,
                       const std::function<bool()>& stop) {
   begin(drawable, camera, settings);
-  for (bool settled = false; !settled;)
-    if (!draw_once(drawable, settings, stop, settled)) return false;
+  for (bool had_room = false; !had_room;)
+    if (!draw_once(drawable, settings, stop, had_room)) return false;
   return true;
 }
 
 bool GlRenderer::draw_once(Drawable& drawable, const RenderSettings& settings, const std::function<bool()>& stop,
-                           bool& settled) {
+                           bool& had_room) {
   const PictureBlock block{{0, 0}, frame_.size};
   // A caller that may stop the picture between samples is notified after each sample.
   const bool trusts = counting_ == Counting::later && caster_.can_trust(block) && !(stop && settings.samples > 1);
@@ -148,13 +148,13 @@ bool GlRenderer::draw_once(Drawable& drawable, const RenderSettings& settings, c
   presenter_.present(samples(), frame_.size, settings.samples, settings.look.background);
   Readback readback;
   if (trusts) {
-    drawable.ask(readback);
-    caster_.ask(readback);
+    drawable.request_counts(readback);
+    caster_.request_counts(readback);
   }
   readback.read();
-  if (!trusts) return settled = true;
-  const bool drawable_settled = drawable.settle(), caster_settled = caster_.settle();
-  settled = drawable_settled && caster_settled;
+  if (!trusts) return had_room = true;
+  const bool drawable_had_room = drawable.take_counts(), caster_had_room = caster_.take_counts();
+  had_room = drawable_had_room && caster_had_room;
   return true;
 }
 

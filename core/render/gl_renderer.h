@@ -40,12 +40,12 @@ class Drawable {
   /// Adds the time of each stage to `clock`. Throws GpuError, CapacityError, OpenSurfaceError.
   virtual const GpuPack& prepare(const PictureFrame& frame, StageClock& clock) = 0;
 
-  /// An implementation of prepare() may assume that a frame needs no more memory than the one before. ask() then queues
-  /// the reading of the counts that the frame needed, and settle() returns whether the memory was sufficient. If it was
-  /// not, the picture is invalid, and the next prepare() measures again. They throw GpuError, CapacityError and
-  /// OpenSurfaceError, as prepare() does.
-  virtual void ask(Readback&) {}
-  virtual bool settle() { return true; }
+  /// An implementation of prepare() may assume that a frame needs no more memory than the one before. request_counts()
+  /// then queues the reading of the counts that the frame needed, and take_counts() returns whether the memory was
+  /// sufficient. If it was not, the picture is invalid, and the next prepare() measures again. They throw GpuError,
+  /// CapacityError and OpenSurfaceError, as prepare() does.
+  virtual void request_counts(Readback&) {}
+  virtual bool take_counts() { return true; }
 
   /// Returns the surface that the scene's primitives belong to, if the host has it; otherwise nullptr.
   virtual const Surface* surface() const { return nullptr; }
@@ -115,7 +115,7 @@ class GlRenderer {
  private:
   void begin(Drawable& drawable, const Camera& camera, const RenderSettings& settings);
   void prepare(Drawable& drawable);
-  bool draw_once(Drawable& drawable, const RenderSettings& settings, const std::function<bool()>& stop, bool& settled);
+  bool draw_once(Drawable& drawable, const RenderSettings& settings, const std::function<bool()>& stop, bool& had_room);
   void render_block(const PictureBlock& inner, const RenderSettings& settings, PictureCollector& collector);
 
   Counting counting_ = suitable_counting();

@@ -46,7 +46,7 @@ Look cover() {
   look.light_strength = 1.4f;
   look.material = {.ambient = 0.0f, .roughness = 0.15f, .specular = 0.25f, .shininess = 80.0f};
   look.ambient_occlusion = 1.0f;
-  look.depth_cue = 0.25f;
+  look.depth_cue = 0.1f;
   return look;
 }
 
@@ -64,13 +64,17 @@ Look soft() {
   Look look = modern();
   look.material = {.ambient = 0.0f, .roughness = 1.0f, .specular = 0.0f, .shininess = 40.0f};
   look.ambient_occlusion = 1.0f;
-  look.depth_cue = 0.3f;
+  look.depth_cue = 0.1f;
   return look;
 }
 
 /// White light times a colour in linear light keeps its hue and its saturation (CIE 1976 h_uv and s_uv). Adding white,
-/// as highlights and depth cues do, or light that clips a channel does not.
+/// as highlights and depth cues do, or light that clips a channel does not. The dark half of a map such as viridis
+/// stays legible only if shade takes little of its light.
 void keep_hues(Look& look) {
+  constexpr float kShadeLeft = 0.6f;
+  look.material.ambient = 1.0f - kShadeLeft * (1.0f - look.material.ambient);
+  look.ambient_occlusion *= kShadeLeft;
   look.lamps = Lamps::white;
   look.light_strength = 1.0f;
   look.material.specular = 0.0f;
@@ -129,8 +133,8 @@ Look preset_look(LookPreset preset, glm::ivec2 picture_size) {
 
 std::span<const LookNumber> look_numbers() { return kNumbers; }
 
-Hues hues_of(const ColorScheme& color, bool legend, bool looks_inside) {
-  if (legend || color.uses_scale()) return Hues::kept;
+Hues hues_of(const ColorScheme& color, bool looks_inside) {
+  if (color.uses_scale()) return Hues::kept;
   const bool seen_through = std::ranges::any_of(
       color.opacities, [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; });
   return seen_through || looks_inside ? Hues::unfaded : Hues::free;
@@ -151,11 +155,11 @@ Look look_of(LookRequest request, glm::ivec2 picture_size, const std::optional<g
              bool outlines_patches) {
   Look look = preset_look(request.preset, picture_size);
   if (hues == Hues::kept) keep_hues(look);
-  if (hues == Hues::unfaded) look.depth_cue = 0.0f;
+  if (hues == Hues::unfaded || !background) look.depth_cue = 0.0f;
   look.background = background.value_or(glm::vec3(1.0f));
   take(request.light_direction, look.light_direction);
   for (const LookNumber& number : look_numbers())
-    if (number.in) take(*number.asked(request), number.in(look));
+    if (number.in) take(*number.requested(request), number.in(look));
   if (request.silhouettes) {
     look.silhouettes = *request.silhouettes;
     look.outer_lines = look.inner_lines = look.part_lines = {};

@@ -155,8 +155,8 @@ struct LookRequest : LookNumbers<std::optional<float>, MaterialRequest> {
 
 /// The description of a number of a look.
 struct LookNumber {
-  std::string_view key;                                  ///< key of its property (core/properties)
-  std::optional<float>* (*asked)(LookRequest& request);  ///< returns the number's place in the request, never null
+  std::string_view key;                                      ///< key of its property (core/properties)
+  std::optional<float>* (*requested)(LookRequest& request);  ///< returns the number's place in the request, never null
   /// Returns the number in the look; null for the widths of lines, which look_of() copies itself.
   float& (*in)(Look& look);
 };
@@ -166,21 +166,22 @@ std::span<const LookNumber> look_numbers();
 
 /// The changes of colours that light may cause. `free`: any. `kept`: only the lightness changes, so that a colour can
 /// be compared with the bar or the swatches that explain it; look_of() then makes lamps white, limits the key light to
-/// strength 1, and leaves out highlights and the depth cue. `unfaded`: look_of() leaves out the depth cue only.
+/// strength 1, leaves out highlights and the depth cue, and makes shade weaker, so that dark colours can be read.
+/// `unfaded`: look_of() leaves out the depth cue only.
 enum class Hues : std::uint8_t { free, kept, unfaded };
 
-/// Returns `kept` if there is a legend or if the scheme or a rule of `color` colours by a number. Otherwise returns
-/// `unfaded` if a rule makes the surface transparent, which dims its content already, or if looks_inside is true: then
-/// the surface is cut to show atoms, which must be recognisable at any depth. Otherwise returns `free`.
-Hues hues_of(const ColorScheme& color, bool legend, bool looks_inside);
+/// Returns `kept` if the scheme or a rule of `color` colours by a number. Otherwise returns `unfaded` if a rule makes
+/// the surface transparent, which dims its content already, or if looks_inside is true: then the surface is cut to show
+/// atoms, which must be recognisable at any depth. Otherwise returns `free`.
+Hues hues_of(const ColorScheme& color, bool looks_inside);
 
 /// Returns the part of the request that changes more than the lightness of colours in spite of Hues::kept, in words for
 /// a message, such as "depth_cue fades them"; empty if there is none.
 std::string hue_changes(const LookRequest& request);
 
 /// Returns the look of a request. Widths of lines in a preset grow with picture_size. `background` is nothing if it is
-/// transparent; then the depth cue fades colours into white, as on paper. Values of the request have priority over
-/// `hues` and are not checked. Patches have lines only if outlines_patches is true.
+/// transparent; then presets have no depth cue, and a requested one fades colours into white, as on paper. Values of
+/// the request have priority over `hues` and are not checked. Patches have lines only if outlines_patches is true.
 Look look_of(LookRequest request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background, Hues hues,
              bool outlines_patches = false);
 

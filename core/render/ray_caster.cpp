@@ -131,7 +131,7 @@ void TileLists::build(const GpuPack& scene, const PictureFrame& frame, const Pic
   } else {
     scan_(counts_, slot_count());
     Readback readback;
-    ask(readback);
+    request_counts(readback);
     readback.read();
     trusted_ = known_ = counted_;
   }
@@ -142,9 +142,11 @@ void TileLists::build(const GpuPack& scene, const PictureFrame& frame, const Pic
   split_tiles();
 }
 
-void TileLists::ask(Readback& readback) { readback.ask(counts_, slot_count() * sizeof(std::uint32_t), {&counted_, 1}); }
+void TileLists::request_counts(Readback& readback) {
+  readback.request(counts_, slot_count() * sizeof(std::uint32_t), {&counted_, 1});
+}
 
-bool TileLists::settle() {
+bool TileLists::take_counts() {
   if (counted_ >= trusted_) return false;
   known_ = counted_;
   return true;
@@ -251,13 +253,13 @@ bool RayCaster::cast(const GpuPack& scene, const PictureFrame& frame, const Pict
   return true;
 }
 
-void RayCaster::ask(Readback& readback) {
-  lists_.ask(readback);
-  readback.ask(unfinished_, 0, {&longest_, 1});
+void RayCaster::request_counts(Readback& readback) {
+  lists_.request_counts(readback);
+  readback.request(unfinished_, 0, {&longest_, 1});
 }
 
-bool RayCaster::settle() {
-  if (!lists_.settle() || longest_ > 0) return false;
+bool RayCaster::take_counts() {
+  if (!lists_.take_counts() || longest_ > 0) return false;
   known_size_ = size_;
   return true;
 }

@@ -91,10 +91,10 @@ class TileLists {
   /// Counting::later they get the memory that they needed last time and some more.
   void build(const GpuPack& scene, const PictureFrame& frame, const PictureBlock& block,
              Counting counting = Counting::now);
-  /// For Counting::later, ask() queues the reading of the counts that the host needs. Once they have been read,
-  /// settle() returns whether the memory was sufficient.
-  void ask(Readback& readback);
-  bool settle();
+  /// For Counting::later, request_counts() queues the reading of the counts that the host needs. Once they have been
+  /// read, take_counts() returns whether the memory was sufficient.
+  void request_counts(Readback& readback);
+  bool take_counts();
 
   glm::ivec2 tiles() const { return tiles_; }  ///< columns, rows
   /// Returns one uint32 for each slice of spheres and of tori of each tile, row by row: the end of its primitives in
@@ -139,8 +139,8 @@ struct CastSettings {
 class RayCaster {
  public:
   /// Casts a block of a picture and leaves the result on the GPU, in picture() and hits(). frame.size is the size of
-  /// the whole picture. Returns false if casting was stopped; then there is no picture. Throws GpuError; CapacityError
-  /// if the block is too large for this GPU.
+  /// the whole picture. Returns false, and leaves no picture, if casting was stopped. Throws CapacityError if the block
+  /// is too large for this GPU, and GpuError if the GPU fails.
   bool cast(const GpuPack& scene, const PictureFrame& frame, const PictureBlock& block,
             const CastSettings& settings = {});
 
@@ -150,11 +150,11 @@ class RayCaster {
   }
 
   /// True if the next block may be cast with Counting::later: the last block had the same size, and the loops of its
-  /// kernels ran to completion. Such a block is valid only if settle() returns true after the counts that ask() queued
-  /// have been read.
+  /// kernels ran to completion. Such a block is valid only if take_counts() returns true after the counts that
+  /// request_counts() queued have been read.
   bool can_trust(const PictureBlock& block) const { return known_size_ == block.size; }
-  void ask(Readback& readback);
-  bool settle();
+  void request_counts(Readback& readback);
+  bool take_counts();
 
   /// Returns the pixels of the last block, row by row from the top: one vec4 per pixel, the sum of its samples, linear
   /// and premultiplied.

@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/scene/copied_atoms.h"
+#include "core/scene/representations.h"
 #include "core/structure/selection/selection.h"
 #include "core/trajectory/frame_list.h"
 
@@ -19,12 +20,13 @@ namespace meniscus {
 namespace {
 
 glm::dvec3 middle_of(const Selection& selection, const Structure& structure) {
-  const std::vector<bool> chosen = selection.evaluate(structure.atoms);
+  const std::vector<Atom> atoms = shown_atoms(structure);
+  const std::vector<bool> chosen = selection.evaluate(atoms);
   glm::dvec3 sum(0.0);
   std::size_t count = 0;
   const auto add = [&](std::size_t atom, const RigidMotion& motion) {
     if (!chosen[atom]) return;
-    sum += motion(structure.atoms[atom].position);
+    sum += motion(atoms[atom].position);
     ++count;
   };
   for (std::size_t a = 0; structure.instances.empty() && a < chosen.size(); ++a) add(a, {});
@@ -78,8 +80,8 @@ std::optional<Curve> curve_of(const AnnotationRequest& request, std::span<const 
   return curve;
 }
 
-LegendStyle legend_style(const LegendStyle& asked, const LetterStyle& letters) {
-  LegendStyle style = asked;
+LegendStyle legend_style(const LegendStyle& requested, const LetterStyle& letters) {
+  LegendStyle style = requested;
   if (!style.letters) style.letters = letters.all;
   style.color = letters.color;
   return style;

@@ -28,7 +28,7 @@ struct LegendRequest {
   std::string file;     ///< path of a file with the legend alone; empty: none
   LegendStyle style;
 
-  bool asked() const { return within || !file.empty(); }
+  bool is_requested() const { return within || !file.empty(); }
 };
 
 /// The requested texts and marks of a picture, except for the legend.
@@ -42,7 +42,7 @@ struct AnnotationRequest {
 };
 
 /// Returns the style of a legend in a picture whose letters have this style.
-LegendStyle legend_style(const LegendStyle& asked, const LetterStyle& letters);
+LegendStyle legend_style(const LegendStyle& requested, const LetterStyle& letters);
 
 /// Returns the contents of the strips above and below the molecule, in pictures of a run or of one molecule.
 StripContents strip_contents(const AnnotationRequest& request, bool is_run);

@@ -191,8 +191,8 @@ std::vector<Ball> shown_balls(std::span<const SurfaceObject> objects) {
   return shown;
 }
 
-std::vector<std::string> idle_cuts(std::span<const Cut> cuts, const CutAtoms& cut_atoms, const CutView& view,
-                                   std::span<const Ball> balls) {
+std::vector<std::string> ineffective_cuts(std::span<const Cut> cuts, const CutAtoms& cut_atoms, const CutView& view,
+                                          std::span<const Ball> balls) {
   std::vector<std::string> sentences;
   const std::vector<ClipPlane> planes = clip_planes(cuts, cut_atoms, view);
   for (std::size_t n = 0; n < cuts.size(); ++n) {

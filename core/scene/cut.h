@@ -71,7 +71,7 @@ std::vector<Ball> shown_balls(std::span<const SurfaceObject> objects);
 /// Returns a sentence for each cut that removes nothing or all of a surface, and for each cut whose atoms stay partly
 /// hidden. The sentence begins with the text of the cut. balls: the atoms of the surface with the radii of its kind, at
 /// least one.
-std::vector<std::string> idle_cuts(std::span<const Cut> cuts, const CutAtoms& cut_atoms, const CutView& view,
-                                   std::span<const Ball> balls);
+std::vector<std::string> ineffective_cuts(std::span<const Cut> cuts, const CutAtoms& cut_atoms, const CutView& view,
+                                          std::span<const Ball> balls);
 
 }  // namespace meniscus

@@ -79,7 +79,7 @@ void name_atoms_as_the_file(const Structure& structure, Framebuffer& picture) {
 
 }  // namespace
 
-std::vector<Ball> BesideSurface::balls() const {
+std::vector<Ball> FigureExtras::balls() const {
   std::vector<Ball> balls = balls_around(shapes.shapes);
   for (const FigureObject& object : objects) {
     const std::vector<Ball> own = balls_of(object);
@@ -90,37 +90,38 @@ std::vector<Ball> BesideSurface::balls() const {
 
 std::vector<Ball> Figure::balls() const {
   std::vector<Ball> balls = placed_balls(molecule.objects);
-  const std::vector<Ball> more = beside.balls();
+  const std::vector<Ball> more = extras.balls();
   balls.insert(balls.end(), more.begin(), more.end());
   return balls;
 }
 
-void FigureRequest::ask_for(ReadOptions& reading) const {
-  representations.ask_for(reading);
-  meniscus::ask_for(objects, reading);
+void FigureRequest::mark_atoms(ReadOptions& reading) const {
+  representations.mark_atoms(reading);
+  meniscus::mark_atoms(objects, reading);
+  reading.companions = bare ? Companions::hidden : Companions::drawn;
 }
 
 void FigureRequest::check() const {
   if (hides_surface && representations.empty() && objects.empty()) throw RequestError(kNothingShown);
 }
 
-BesideSurface make_beside(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme) {
-  BesideSurface beside;
-  if (!request.representations.empty()) beside.shapes = shown_shapes(structure, request.representations, scheme);
-  beside.objects = make_objects(request.objects, structure, request.representations.requests.size(), scheme);
-  beside.cut_atoms = cut_atoms(request.cuts, structure);
-  return beside;
+FigureExtras make_extras(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme) {
+  FigureExtras extras;
+  if (!request.representations.empty()) extras.shapes = shown_shapes(structure, request.representations, scheme);
+  extras.objects = make_objects(request.objects, structure, request.representations.requests.size(), scheme);
+  extras.cut_atoms = cut_atoms(request.cuts, structure);
+  return extras;
 }
 
-void color_beside(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme,
-                  BesideSurface& beside) {
-  if (!request.representations.empty()) beside.shapes = shown_shapes(structure, request.representations, scheme);
-  color_objects(request.objects, structure, scheme, beside.objects);
+void color_extras(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme,
+                  FigureExtras& extras) {
+  if (!request.representations.empty()) extras.shapes = shown_shapes(structure, request.representations, scheme);
+  color_objects(request.objects, structure, scheme, extras.objects);
 }
 
 Figure make_figure(Molecule molecule, const FigureRequest& request) {
   Figure figure;
-  figure.beside = make_beside(molecule.structure, request, molecule.color);
+  figure.extras = make_extras(molecule.structure, request, molecule.color);
   figure.molecule = std::move(molecule);
   return figure;
 }
@@ -135,48 +136,48 @@ namespace {
 
 /// True if a plane that cuts the surface would also cut something drawn in addition to it.
 bool lies_beyond(const FigureRequest& request, const Figure& figure, const Camera& camera) {
-  const std::vector<Ball> beside = figure.beside.balls();
+  const std::vector<Ball> extras = figure.extras.balls();
   const auto is_beyond = [&](const ClipPlane& plane) {
     return std::ranges::any_of(
-        beside, [&](const Ball& ball) { return glm::dot(plane.normal, ball.center) + ball.radius > plane.offset; });
+        extras, [&](const Ball& ball) { return glm::dot(plane.normal, ball.center) + ball.radius > plane.offset; });
   };
-  return std::ranges::any_of(surface_planes(request, figure.beside.cut_atoms, camera, figure.molecule.objects),
+  return std::ranges::any_of(surface_planes(request, figure.extras.cut_atoms, camera, figure.molecule.objects),
                              is_beyond);
 }
 
 }  // namespace
 
-std::vector<std::string> idle_cuts(const FigureRequest& request, const Figure& figure, const Camera& camera) {
+std::vector<std::string> ineffective_cuts(const FigureRequest& request, const Figure& figure, const Camera& camera) {
   std::vector<std::string> sentences;
   const auto of_objects = [](const FigureObjectRequest& object) { return !object.cuts.empty(); };
   if (request.cuts.empty() && std::ranges::none_of(request.objects, of_objects)) return sentences;
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
   if (!request.hides_surface && !balls.empty())
-    sentences =
-        idle_cuts(request.cuts, figure.beside.cut_atoms, {camera, balls, shown_balls(figure.molecule.objects)}, balls);
+    sentences = ineffective_cuts(request.cuts, figure.extras.cut_atoms,
+                                 {camera, balls, shown_balls(figure.molecule.objects)}, balls);
   if (!request.cuts_all && !request.cuts.empty() && !balls.empty() && lies_beyond(request, figure, camera))
     sentences.push_back(message(
         "cuts the surface alone: some of what is drawn beside it lies beyond the plane; @clip-all@ cuts it, too"));
-  for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
-    const FigureObject& object = figure.beside.objects[n];
+  for (std::size_t n = 0; n < figure.extras.objects.size(); ++n) {
+    const FigureObject& object = figure.extras.objects[n];
     if (!object.surface || object.surface->surface.atoms.empty()) continue;
     const std::vector<Ball> shown = shown_balls({&*object.surface, 1});
-    for (const std::string& sentence :
-         idle_cuts(request.objects[n].cuts, object.cut_atoms, {camera, balls, shown}, object.surface->surface.atoms))
+    for (const std::string& sentence : ineffective_cuts(request_of(request.objects, n).cuts, object.cut_atoms,
+                                                        {camera, balls, shown}, object.surface->surface.atoms))
       sentences.push_back(fmt::format("{}, of object {}", sentence, n + 1));
   }
   return sentences;
 }
 
 std::vector<PictureObject> picture_objects(const Surface& surface, const Coloring& coloring,
-                                           const FigureRequest& request, const BesideSurface* beside,
+                                           const FigureRequest& request, const FigureExtras* extras,
                                            const Camera& camera, std::span<const Ball> atoms) {
   std::vector<PictureObject> shown;
   std::vector<ClipPlane> planes;
   if (!request.hides_surface || request.cuts_all) {
     std::vector<Ball> own;
     if (uses_atoms(request.cuts)) own = shown_balls(surface.atoms, coloring);
-    planes = clip_planes(request.cuts, beside ? beside->cut_atoms : CutAtoms(), {camera, atoms, own});
+    planes = clip_planes(request.cuts, extras ? extras->cut_atoms : CutAtoms(), {camera, atoms, own});
   }
   if (!request.hides_surface) {
     PictureObject& whole = shown.emplace_back();
@@ -186,26 +187,26 @@ std::vector<PictureObject> picture_objects(const Surface& surface, const Colorin
     whole.cap = request.cap;
     whole.thickens = request.thickens;
   }
-  const std::size_t first_beside = shown.size();
-  if (beside && !beside->shapes.empty()) {
+  const std::size_t first_extra = shown.size();
+  if (extras && !extras->shapes.empty()) {
     PictureObject& shapes = shown.emplace_back();
-    shapes.shapes = &beside->shapes.shapes;
-    shapes.coloring = &beside->shapes.coloring;
+    shapes.shapes = &extras->shapes.shapes;
+    shapes.coloring = &extras->shapes.coloring;
   }
-  for (std::size_t n = 0; beside && n < beside->objects.size(); ++n) {
-    const FigureObject& object = beside->objects[n];
+  for (std::size_t n = 0; extras && n < extras->objects.size(); ++n) {
+    const FigureObject& object = extras->objects[n];
     if (object.surface || !object.shapes.empty())
-      shown.push_back(picture_object(object, request.objects[n], camera, atoms));
+      shown.push_back(picture_object(object, request_of(request.objects, n), camera, atoms));
   }
   if (shown.empty()) throw RequestError(kNothingShown);
   if (request.cuts_all)
-    for (std::size_t n = first_beside; n < shown.size(); ++n)
+    for (std::size_t n = first_extra; n < shown.size(); ++n)
       shown[n].clip.insert(shown[n].clip.end(), planes.begin(), planes.end());
   return shown;
 }
 
-const SurfaceObject* surface_beside(const BesideSurface& beside, const PictureObject& shown) {
-  for (const FigureObject& object : beside.objects)
+const SurfaceObject* extra_surface(const FigureExtras& extras, const PictureObject& shown) {
+  for (const FigureObject& object : extras.objects)
     if (object.surface && &object.surface->surface == shown.surface) return &*object.surface;
   return nullptr;
 }
@@ -256,10 +257,10 @@ Framebuffer draw(StillRenderer& renderer, Figure figure, const FigureRequest& re
   return renamed(
       [&](const Camera& seen_from, RenderSettings own) {
         const std::vector<PictureObject> shown =
-            picture_objects(whole.surface, whole.coloring, request, &figure.beside, seen_from, balls);
+            picture_objects(whole.surface, whole.coloring, request, &figure.extras, seen_from, balls);
         surfaces.clear();
         for (const PictureObject& object : shown)
-          surfaces.push_back(object.surface == &whole.surface ? &whole : surface_beside(figure.beside, object));
+          surfaces.push_back(object.surface == &whole.surface ? &whole : extra_surface(figure.extras, object));
         std::optional<PointMotion> moving;
         if (own.motion) {
           moving.emplace(*motion, seen_from, own.size);

@@ -67,11 +67,12 @@ struct FigureRequest {
   CapStyle cap;                     ///< the look of cut faces
   bool thickens = false;            ///< PictureObject::thickens
   bool hides_surface = false;       ///< true: the surface is not drawn, only what is drawn in addition to it
+  bool bare = false;                ///< true: companions (read_structure.h) are not drawn
   Representations representations;  ///< drawn in addition to the surface
   std::vector<FigureObjectRequest> objects;
 
-  /// Makes read_structure mark and keep the atoms of everything drawn in addition to the surface.
-  void ask_for(ReadOptions& reading) const;
+  /// Makes read_structure mark and keep the atoms of everything drawn in addition to the surface, and companions.
+  void mark_atoms(ReadOptions& reading) const;
 
   /// Throws RequestError if the surface is hidden and nothing else is drawn.
   void check() const;
@@ -84,9 +85,9 @@ struct FigureRequest {
 
 /// The shapes and objects that are drawn in addition to the molecule's surface, and the atoms that place its cuts.
 /// Atoms are places in shown_atoms().
-struct BesideSurface {
+struct FigureExtras {
   ColoredShapes shapes;               ///< shapes of FigureRequest::representations
-  std::vector<FigureObject> objects;  ///< one per FigureRequest::objects
+  std::vector<FigureObject> objects;  ///< one per FigureRequest::objects, and one for companions if there are any
   CutAtoms cut_atoms;                 ///< atoms of FigureRequest::cuts
 
   bool empty() const { return shapes.empty() && objects.empty(); }
@@ -97,7 +98,7 @@ struct BesideSurface {
 /// Everything in a figure, ready to be drawn.
 struct Figure {
   Molecule molecule;
-  BesideSurface beside;
+  FigureExtras extras;
 
   /// Returns balls for framing: the atoms of the surface at all their places, and balls around everything else that is
   /// drawn.
@@ -105,17 +106,17 @@ struct Figure {
 };
 
 /// Returns everything that is drawn in addition to the surface of a structure; the structure must have been read with
-/// request.ask_for(). scheme: the molecule's colours. Throws InputError for colours by numbers that the atoms do not
-/// have and for an object without atoms, RequestError for an assembly of instances, and the errors of computing a
+/// request.mark_atoms(). scheme: the molecule's colours. Throws InputError for colours by numbers that the atoms do
+/// not have and for an object without atoms, RequestError for an assembly of instances, and the errors of computing a
 /// surface (surface_objects).
-BesideSurface make_beside(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme);
+FigureExtras make_extras(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme);
 
-/// Updates the colours, opacities and shown parts of `beside`, which must be made from the same atoms. Surfaces are not
+/// Updates the colours, opacities and shown parts of `extras`, which must be made from the same atoms. Surfaces are not
 /// computed again.
-void color_beside(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme,
-                  BesideSurface& beside);
+void color_extras(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme,
+                  FigureExtras& extras);
 
-/// Returns the molecule with everything that is drawn in addition to its surface. Throws what make_beside() throws.
+/// Returns the molecule with everything that is drawn in addition to its surface. Throws what make_extras() throws.
 Figure make_figure(Molecule molecule, const FigureRequest& request);
 
 /// Returns the planes that cut the surface, as seen by this camera. cut_atoms: returned by cut_atoms() for
@@ -125,18 +126,18 @@ std::vector<ClipPlane> surface_planes(const FigureRequest& request, const CutAto
 
 /// Returns a sentence for each cut, of the molecule's surface or of an additional one, that removes nothing or all.
 /// Adds a sentence if cuts keep a shape or an additional object that lies beyond their planes.
-std::vector<std::string> idle_cuts(const FigureRequest& request, const Figure& figure, const Camera& camera);
+std::vector<std::string> ineffective_cuts(const FigureRequest& request, const Figure& figure, const Camera& camera);
 
-/// Returns the objects of a picture: one surface, with the requested cuts and opacities, and everything in `beside`
+/// Returns the objects of a picture: one surface, with the requested cuts and opacities, and everything in `extras`
 /// (nullptr: nothing, and no cuts by atoms).
 /// atoms: all atoms in the picture, for cuts along the view. All arguments must outlive the objects. Throws
 /// RequestError if nothing is shown.
 std::vector<PictureObject> picture_objects(const Surface& surface, const Coloring& coloring,
-                                           const FigureRequest& request, const BesideSurface* beside,
+                                           const FigureRequest& request, const FigureExtras* extras,
                                            const Camera& camera, std::span<const Ball> atoms);
 
-/// Returns the additional surface in `beside` that an object of a picture shows; nullptr if it shows none of them.
-const SurfaceObject* surface_beside(const BesideSurface& beside, const PictureObject& shown);
+/// Returns the additional surface in `extras` that an object of a picture shows; nullptr if it shows none of them.
+const SurfaceObject* extra_surface(const FigureExtras& extras, const PictureObject& shown);
 
 /// A function that casts a second picture of the figure to be drawn: one ray per pixel, with AOVs.
 using CastSurvey = std::function<Framebuffer(const Camera& camera, glm::ivec2 size)>;

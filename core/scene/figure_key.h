@@ -9,16 +9,16 @@
 
 namespace meniscus {
 
-/// Returns the key of the colours of the atoms in a picture. structure: read with request.ask_for() if anything is
-/// drawn in addition to the surface. drawn: one truth value per atom of the surface. `beside`: made by make_beside()
+/// Returns the key of the colours of the atoms in a picture. structure: read with request.mark_atoms() if anything
+/// is drawn in addition to the surface. drawn: one truth value per atom of the surface. `extras`: made by make_extras()
 /// from the same structure, request and scheme. Throws InputError if colours are by a number that the atoms do not have
 /// (color_atoms).
 ColorKey figure_key(const Structure& structure, const ColorScheme& scheme, DrawnAtoms drawn,
-                    const FigureRequest& request, const BesideSurface& beside);
+                    const FigureRequest& request, const FigureExtras& extras);
 
-/// Returns the key of a molecule that is drawn, and of everything in `beside`. If a cut may open its surface, all atoms
+/// Returns the key of a molecule that is drawn, and of everything in `extras`. If a cut may open its surface, all atoms
 /// count, else only atoms with a part of it.
-ColorKey key_of(const Molecule& molecule, const FigureRequest& request = {}, const BesideSurface& beside = {});
+ColorKey key_of(const Molecule& molecule, const FigureRequest& request = {}, const FigureExtras& extras = {});
 
 /// Returns the key for all frames of a run. If the scene has no legend but may have additional surfaces, everything in
 /// addition to the molecule's surface is left out.

@@ -49,9 +49,11 @@ SurfaceObject surface_of(const FigureObjectRequest& request, const Structure& al
 ColorScheme scheme_of(const FigureObjectRequest& request, const Structure& structure, std::size_t shown,
                       const ColorScheme& scheme) {
   ColorScheme own = request.color ? *request.color : scheme;
+  if (request.is_companion && own.by != ColorScheme::By::element_cpk) own.by = ColorScheme::By::element;
   if (request.color && own.uses_file()) own.set_numbers(scheme.file);
+  if (request.color && request.shapes) own.by = scheme_of_shapes(own.by, *request.shapes);
   if (!request.color)
-    own = request.shapes ? scheme_beside(structure, shown, std::move(own))
+    own = request.shapes ? extras_scheme(structure, shown, std::move(own), *request.shapes)
                          : with_scale_of(structure, shown, std::move(own));
   own.opacities = request.opacities;
   return own;
@@ -71,13 +73,26 @@ void color_surface(const FigureObjectRequest& request, const Structure& all, con
 
 }  // namespace
 
-void ask_for(std::span<const FigureObjectRequest> objects, ReadOptions& reading) {
+const FigureObjectRequest& request_of(std::span<const FigureObjectRequest> objects, std::size_t n) {
+  static const FigureObjectRequest kCompanions{
+      .atoms = parse_selection("ligand or ion"), .shapes = RepresentationRequest::Kind::sticks, .is_companion = true};
+  return n < objects.size() ? objects[n] : kCompanions;
+}
+
+std::vector<FigureObjectRequest> all_requests(std::span<const FigureObjectRequest> objects,
+                                              const Structure& structure) {
+  std::vector<FigureObjectRequest> all(objects.begin(), objects.end());
+  if (structure.companions == Companions::drawn) all.push_back(request_of(objects, objects.size()));
+  return all;
+}
+
+void mark_atoms(std::span<const FigureObjectRequest> objects, ReadOptions& reading) {
   if (!objects.empty() && reading.copy_mode == CopyMode::instances)
     throw RequestError(message("@instances@: copies of one surface cannot be drawn with other objects; leave it out"));
   if (reading.shown.size() + objects.size() > kMostShown)
     throw RequestError(message("@object@: at most {} sets of atoms are drawn beside a surface", kMostShown));
   for (const FigureObjectRequest& object : objects) {
-    reading.shown.push_back({"object", object.atoms});
+    reading.shown.push_back({"object", object.atoms, object.shapes && draws_each_atom(*object.shapes)});
     if (object.shapes == RepresentationRequest::Kind::backbone ||
         (object.color && object.color->uses(ColorScheme::By::secondary)))
       reading.secondary_structure = true;
@@ -87,18 +102,24 @@ void ask_for(std::span<const FigureObjectRequest> objects, ReadOptions& reading)
 std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> objects, const Structure& structure,
                                        std::size_t first_mark, const ColorScheme& scheme) {
   std::vector<FigureObject> made;
-  if (objects.empty()) return made;
+  if (objects.empty() && structure.companions != Companions::drawn) return made;
   const Structure all = structure_of_shown(structure);
   for (std::size_t n = 0; n < objects.size(); ++n) {
     const FigureObjectRequest& request = objects[n];
     const std::vector<bool> selected = marked_atoms(all, first_mark + n);
     FigureObject& object = made.emplace_back();
     if (request.shapes)
-      object.shapes.shapes =
-          shapes_of_atoms(all, *request.shapes, selected, *structure.shown_bonds, {request.radius, request.radius});
+      object.shapes.shapes = shapes_of_atoms(
+          all, *request.shapes, selected, *structure.shown_bonds,
+          {*request.shapes == RepresentationRequest::Kind::backbone ? std::nullopt : request.radius, request.radius});
     else
       object.surface = surface_of(request, all, selected);
     object.cut_atoms = cut_atoms(request.cuts, structure);
+  }
+  if (structure.companions == Companions::drawn) {
+    Shapes& shapes = made.emplace_back().shapes.shapes;
+    shapes = sticks(all, marked_atoms(all, kCompanionSticks), *structure.shown_bonds, kStickRadius);
+    append(shapes, spheres(all, marked_atoms(all, kCompanionSpheres)));
   }
   color_objects(objects, structure, scheme, made);
   return made;
@@ -109,9 +130,10 @@ void color_objects(std::span<const FigureObjectRequest> requests, const Structur
   if (objects.empty()) return;
   const Structure all = structure_of_shown(structure);
   for (std::size_t n = 0; n < objects.size(); ++n) {
-    const ColorScheme own = scheme_of(requests[n], structure, all.atoms.size(), scheme);
+    const FigureObjectRequest& request = request_of(requests, n);
+    const ColorScheme own = scheme_of(request, structure, all.atoms.size(), scheme);
     if (objects[n].surface)
-      color_surface(requests[n], all, own, *objects[n].surface);
+      color_surface(request, all, own, *objects[n].surface);
     else
       objects[n].shapes.coloring = color_atoms(all, own);
   }

@@ -35,6 +35,11 @@ struct FigureObjectRequest {
   std::vector<Cut> cuts{};
   CapStyle cap{};
   bool thickens = false;  ///< PictureObject::thickens
+
+  bool is_companion = false;  ///< true for the object of all companions (Companions); users cannot request it
+
+  /// True if its colours do not follow the molecule's scheme.
+  bool has_own_colors() const { return color.has_value() || is_companion; }
 };
 
 /// A drawn object: a surface, or shapes. Atoms are places in shown_atoms().
@@ -46,12 +51,20 @@ struct FigureObject {
 
 /// Makes read_structure mark the atoms of the objects, after the sets that it already marks. Throws RequestError for
 /// more sets than it can mark, and for copies as instances.
-void ask_for(std::span<const FigureObjectRequest> objects, ReadOptions& reading);
+void mark_atoms(std::span<const FigureObjectRequest> objects, ReadOptions& reading);
 
-/// Returns one object per request. structure: read with ask_for(). first_mark: number of sets of atoms that are marked
-/// for other purposes. scheme: the molecule's colours. Surfaces are computed on the CPU. Throws InputError for a
-/// surface without atoms and for colours by a number that the atoms do not have, and the errors of computing a surface
-/// (surface_objects).
+/// Returns the request of the n-th object in a figure. After the objects of the requests comes the object of the
+/// companions, if the structure has any: ligands as sticks and ions as spheres, coloured by element and by the rules of
+/// the molecule's scheme.
+const FigureObjectRequest& request_of(std::span<const FigureObjectRequest> objects, std::size_t n);
+
+/// Returns the requests of all objects in a figure of this structure.
+std::vector<FigureObjectRequest> all_requests(std::span<const FigureObjectRequest> objects, const Structure& structure);
+
+/// Returns the objects of all_requests(). structure: read with mark_atoms(). first_mark: number of sets of atoms that
+/// are marked for other purposes. scheme: the molecule's colours. Surfaces are computed on the CPU. Throws InputError
+/// for a surface without atoms and for colours by a number that the atoms do not have, and the errors of computing a
+/// surface (surface_objects).
 std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> objects, const Structure& structure,
                                        std::size_t first_mark, const ColorScheme& scheme);
 

@@ -160,7 +160,7 @@ std::uint64_t reference_of(const RunRequest& request, const Trajectory& trajecto
 
 }  // namespace
 
-bool RunRequest::asked() const {
+bool RunRequest::is_requested() const {
   return !trajectories.empty() || !frames.empty() || stride != 1 || repeat != 1 || !begin.empty() || !end.empty() ||
          interpolate != 1 || !only.empty();
 }

@@ -51,7 +51,7 @@ struct RunRequest {
   std::string index_folder;  ///< folder for indices of frames; empty: none are kept
 
   /// True if a run is requested.
-  bool asked() const;
+  bool is_requested() const;
 };
 
 /// The molecule at one frame.
@@ -77,7 +77,7 @@ enum class Velocities {
 /// A run of frames of one molecule, which are read one after another.
 class FrameRun {
  public:
-  /// Opens the trajectory and selects the atoms. Selections are used as they are, so settle_selections() must be called
+  /// Opens the trajectory and selects the atoms. Selections are used as they are, so freeze_selections() must be called
   /// before. Throws InputError; RequestError for requests that exclude each other, whose texts name options of the
   /// program.
   FrameRun(const MoleculeRequest& molecule, const RunRequest& request, Velocities velocities = Velocities::none);
@@ -86,11 +86,11 @@ class FrameRun {
   /// Returns the structure at the first frame of the run.
   const Structure& structure() const { return structure_; }
   /// Returns the structure with all atoms that any frame may have.
-  const Structure& reach() const { return file_ ? file_->possible_structure() : structure_; }
+  const Structure& possible_structure() const { return file_ ? file_->possible_structure() : structure_; }
   /// Returns all atoms of the file, with the file's positions.
   std::vector<Atom> all_atoms();
   /// True if the structures of two frames may have different atoms, drawn by the surface or in addition to it.
-  bool chooses_anew() const { return file_ != nullptr; }
+  bool selects_per_frame() const { return file_ != nullptr; }
   /// True if the surfaces of two frames may have different atoms.
   bool atoms_change() const { return atoms_change_; }
   /// Return the numbers of the frames of the run, and of the frames that are to be made here. A number is the place in

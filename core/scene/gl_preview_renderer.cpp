@@ -22,9 +22,9 @@ class GlPreviewRenderer final : public PreviewRenderer {
     by_cpu_->set_coloring(coloring);
     visible_.set_coloring(coloring);
   }
-  void set_figure(const FigureRequest& request, std::shared_ptr<const BesideSurface> beside) override {
-    layered_ = request.hides_surface || !request.cuts.empty() || (beside && !beside->empty());
-    by_cpu_->set_figure(request, std::move(beside));
+  void set_figure(const FigureRequest& request, std::shared_ptr<const FigureExtras> extras) override {
+    layered_ = request.hides_surface || !request.cuts.empty() || (extras && !extras->empty());
+    by_cpu_->set_figure(request, std::move(extras));
   }
 
   bool draw(double probe_radius, const Camera& camera, const RenderSettings& settings,

@@ -8,16 +8,11 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/scene/representations.h"
 
 namespace meniscus {
 
 std::vector<bool> hidden_atoms(const Selection& shown, const Structure& structure) {
-  // A selection such as the surroundings of a ligand is valid even if the ligand is only drawn in addition to the
-  // surface.
-  std::vector<bool> visible =
-      structure.extra_atoms.empty() ? shown.evaluate(structure.atoms) : shown.evaluate(shown_atoms(structure));
-  visible.resize(structure.atoms.size());
+  std::vector<bool> visible = shown.evaluate(structure);
   if (std::find(visible.begin(), visible.end(), true) == visible.end()) {
     throw InputError(structure.file, 0,
                      fmt::format("none of the {} atoms used is shown by {}; {}", with_thousands(structure.atoms.size()),

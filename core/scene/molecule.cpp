@@ -19,7 +19,7 @@
 #include "core/queries/surface_parts.h"
 #include "core/scene/area_columns.h"
 #include "core/scene/hidden_atoms.h"
-#include "core/scene/map_reach.h"
+#include "core/scene/map_coverage.h"
 #include "core/scene/surface_objects.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/residues.h"
@@ -40,7 +40,9 @@ void refuse_trajectory(const std::string& path) {
 
 ReadOptions reading_of(const MoleculeRequest& request) {
   ReadOptions reading = request.reading;
-  if (request.division.instances != InstanceMode::none) reading.copy_mode = CopyMode::instances;
+  if (request.division.instances == InstanceMode::none) return reading;
+  reading.copy_mode = CopyMode::instances;
+  reading.companions = Companions::none;
   return reading;
 }
 
@@ -150,8 +152,9 @@ void require_colors_shared(const Structure& structure, const ColorScheme& color)
         message("@color lipophilicity@ sums over all atoms, so copies must be made of atoms; leave @instances@ out"));
 }
 
-std::vector<bool> patch_atoms(const Selection& patches, const std::vector<Atom>& atoms) {
-  std::vector<bool> selected = patches.evaluate(atoms);
+std::vector<bool> patch_atoms(const Selection& patches, const Structure& structure) {
+  const std::vector<Atom>& atoms = structure.atoms;
+  std::vector<bool> selected = patches.evaluate(structure);
   if (std::ranges::find(selected, true) == selected.end())
     throw RequestError(message("@patches {}@: selects none of the {} atoms of the surface; {}",
                                in_quotes(patches.text()), with_thousands(atoms.size()), patches.why_none(atoms)));
@@ -209,7 +212,7 @@ Molecule MoleculeBuilder::build(Structure structure) {
   }
   if (!hidden.empty()) hide(hidden, molecule.objects);
   if (request_.patches && request_.surface.drawn) {
-    const std::vector<bool> selected = patch_atoms(*request_.patches, molecule.structure.atoms);
+    const std::vector<bool> selected = patch_atoms(*request_.patches, molecule.structure);
     for (SurfaceObject& object : molecule.objects) {
       std::vector<bool> chosen;
       for (const std::uint32_t atom : object.atom) chosen.push_back(selected[atom]);

@@ -61,8 +61,8 @@ std::unique_ptr<StructureFile> open_molecule(const MoleculeRequest& request);
 /// Returns the colour scheme with the numbers of its file, if it has one. Throws InputError.
 ColorScheme color_of(const MoleculeRequest& request);
 
-/// Returns, per atom, true if it belongs to these patches. Throws RequestError if none does.
-std::vector<bool> patch_atoms(const Selection& patches, const std::vector<Atom>& atoms);
+/// Returns, per atom of the surface, true if it belongs to these patches. Throws RequestError if none does.
+std::vector<bool> patch_atoms(const Selection& patches, const Structure& structure);
 
 /// Groups of atoms, and the areas that they bury of each other.
 struct Burial {

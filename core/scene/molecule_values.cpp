@@ -179,9 +179,9 @@ void complete_molecule(Scene& scene) {
 
 namespace meniscus {
 
-Scene readied(Scene scene) {
+Scene prepared_scene(Scene scene) {
   MoleculeRequest& molecule = scene.molecule;
-  scene.figure.ask_for(molecule.reading);
+  scene.figure.mark_atoms(molecule.reading);
   if (molecule.color.uses(ColorScheme::By::secondary)) molecule.reading.secondary_structure = true;
   if (!molecule.interface) return scene;
   if (!molecule.reading.shown.empty())

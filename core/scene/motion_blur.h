@@ -23,7 +23,7 @@ namespace meniscus {
 /// frames.
 class MotionBlur {
  public:
-  /// scene: a run, made by readied(), after settle_selections(); it must outlive this object.
+  /// scene: a run, made by prepared_scene(), after freeze_selections(); it must outlive this object.
   /// moments: number of moments in a picture, at least 2. cameras: one for all frames, or one per frame. context:
   /// computes surfaces on GL; nullptr: on the CPU. Throws RequestError for an interface, and for frames without moments
   /// between them: see RunRequest::interpolate.

@@ -103,7 +103,7 @@ PanelPage::PanelPage(std::vector<Panel> panels, const PanelArrangement& arrangem
   }
   std::vector<ColorKey> keys;
   for (const Panel& panel : panels)
-    keys.push_back(key_of(panel.figure.molecule, panel.scene.figure, panel.figure.beside));
+    keys.push_back(key_of(panel.figure.molecule, panel.scene.figure, panel.figure.extras));
   conflicts_ = color_conflicts(keys, "panel");
   arrange(arrangement, shape, panels.size());
   const int count = static_cast<int>(panels.size()), rows = (count + columns_ - 1) / columns_;

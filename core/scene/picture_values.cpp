@@ -99,7 +99,7 @@ Written write_side(const Property& property, const Scene& scene) {
 }
 
 std::optional<float>& number_of(const Property& property, LookRequest& look) {
-  return *std::ranges::find(look_numbers(), property.key, &LookNumber::key)->asked(look);
+  return *std::ranges::find(look_numbers(), property.key, &LookNumber::key)->requested(look);
 }
 
 /// Reads a number of the look; widths of lines are lengths.

@@ -85,9 +85,9 @@ class CpuPreviewRenderer : public PreviewRenderer {
 class CpuSurfaceRenderer final : public CpuPreviewRenderer {
  public:
   void set_coloring(const Coloring& coloring) override { coloring_ = std::make_shared<const Coloring>(coloring); }
-  void set_figure(const FigureRequest& request, std::shared_ptr<const BesideSurface> beside) override {
+  void set_figure(const FigureRequest& request, std::shared_ptr<const FigureExtras> extras) override {
     request_ = request;
-    beside_ = std::move(beside);
+    extras_ = std::move(extras);
   }
 
   std::optional<PickedPoint> pick(glm::ivec2 pixel) const override {
@@ -107,8 +107,8 @@ class CpuSurfaceRenderer final : public CpuPreviewRenderer {
     surface_ = std::move(surface);
   }
   bool paint(const Camera& camera, const RenderSettings& settings, const std::function<bool()>& stop) override {
-    drawn_ = {surface_, coloring_, beside_,
-              picture_objects(*surface_, *coloring_, request_, beside_.get(), camera, surface_->atoms)};
+    drawn_ = {surface_, coloring_, extras_,
+              picture_objects(*surface_, *coloring_, request_, extras_.get(), camera, surface_->atoms)};
     return renderer().draw(drawn_.objects, camera, settings, stop);
   }
 
@@ -117,10 +117,10 @@ class CpuSurfaceRenderer final : public CpuPreviewRenderer {
     const PictureObject& shown = drawn_.objects[point.object];
     if (shown.surface == drawn_.surface.get()) {
       point.object = 0;
-    } else if (shown.shapes == &drawn_.beside->shapes.shapes) {
+    } else if (shown.shapes == &drawn_.extras->shapes.shapes) {
       point.object = 1;
     } else {
-      const std::vector<FigureObject>& objects = drawn_.beside->objects;
+      const std::vector<FigureObject>& objects = drawn_.extras->objects;
       const auto own = std::ranges::find_if(objects, [&](const FigureObject& object) {
         return shown.surface ? object.surface && &object.surface->surface == shown.surface
                              : &object.shapes.shapes == shown.shapes;
@@ -134,13 +134,13 @@ class CpuSurfaceRenderer final : public CpuPreviewRenderer {
   struct Drawn {
     std::shared_ptr<const Surface> surface;
     std::shared_ptr<const Coloring> coloring;
-    std::shared_ptr<const BesideSurface> beside;
+    std::shared_ptr<const FigureExtras> extras;
     std::vector<PictureObject> objects;
   };
 
   std::shared_ptr<const Coloring> coloring_;
   FigureRequest request_;
-  std::shared_ptr<const BesideSurface> beside_;
+  std::shared_ptr<const FigureExtras> extras_;
   Drawn drawn_;
   std::shared_ptr<const Surface> surface_;  // surface of atoms(); nullptr: not computed yet, or given up
 };
@@ -155,8 +155,8 @@ class CpuCopiesRenderer final : public CpuPreviewRenderer {
     color_objects();
   }
   void set_figure([[maybe_unused]] const FigureRequest& request,
-                  [[maybe_unused]] std::shared_ptr<const BesideSurface> beside) override {
-    assert(request.plain() && !beside);  // copies are shown whole
+                  [[maybe_unused]] std::shared_ptr<const FigureExtras> extras) override {
+    assert(request.plain() && !extras);  // copies are shown whole
   }
 
   std::optional<PickedPoint> pick(glm::ivec2 pixel) const override {
@@ -216,8 +216,8 @@ class PlacedAtomsRenderer final : public PreviewRenderer {
     keep_parts_apart(all);
     renderer_->set_coloring(all);
   }
-  void set_figure(const FigureRequest& request, std::shared_ptr<const BesideSurface> beside) override {
-    renderer_->set_figure(request, std::move(beside));
+  void set_figure(const FigureRequest& request, std::shared_ptr<const FigureExtras> extras) override {
+    renderer_->set_figure(request, std::move(extras));
   }
 
   bool draw(double probe_radius, const Camera& camera, const RenderSettings& settings,

@@ -22,7 +22,7 @@
 namespace meniscus {
 
 class EglContext;
-struct BesideSurface;
+struct FigureExtras;
 struct FigureRequest;
 
 /// Draws computed surfaces and shapes into pictures in memory, one after another, for files. This one draws on the CPU.
@@ -74,7 +74,7 @@ class PreviewRenderer {
 
   /// Sets cuts, opacities, hidden atoms, and everything drawn in addition to the surface (nullptr: nothing). Such views
   /// are cast on the CPU, whichever device draws the others.
-  virtual void set_figure(const FigureRequest& request, std::shared_ptr<const BesideSurface> beside) = 0;
+  virtual void set_figure(const FigureRequest& request, std::shared_ptr<const FigureExtras> extras) = 0;
 
   /// Draws a finished picture over the look's background. probe_radius: Å, >= 0. stop: called now and then on this
   /// thread, also between the stages of a surface; if it returns true, the picture is given up: draw() returns false,
@@ -91,7 +91,7 @@ class PreviewRenderer {
   virtual glm::ivec2 size() const = 0;
   /// Returns the point that a pixel of the last drawn picture shows; nothing if the pixel shows background. pixel:
   /// column, row from the top. Its object is 0 for the surface, with its atoms; 1 for the shapes drawn in addition, 2 +
-  /// n for the n-th of BesideSurface::objects, whose atoms are places in shown_atoms(). For copies see
+  /// n for the n-th of FigureExtras::objects, whose atoms are places in shown_atoms(). For copies see
   /// make_cpu_copies_renderer().
   virtual std::optional<PickedPoint> pick(glm::ivec2 pixel) const = 0;
 

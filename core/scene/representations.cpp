@@ -23,12 +23,12 @@ using By = ColorScheme::By;
 
 }  // namespace
 
-void Representations::ask_for(ReadOptions& reading) const {
+void Representations::mark_atoms(ReadOptions& reading) const {
   if (!empty() && reading.copy_mode == CopyMode::instances)
     throw RequestError(
         message("@instances@: copies of one surface cannot be drawn with sticks, balls or spheres; leave it out"));
   for (const RepresentationRequest& request : requests) {
-    reading.shown.push_back({shape_word(request.kind), request.atoms});
+    reading.shown.push_back({shape_word(request.kind), request.atoms, draws_each_atom(request.kind)});
     // It is found for all atoms of the file, because hydrogen bonds lead to residues that are not shown.
     if (request.kind == Kind::backbone) reading.secondary_structure = true;
   }
@@ -50,13 +50,14 @@ Shapes found(const Structure& all, Shapes shapes, const std::vector<bool>& selec
 
 Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>& selected,
                        const std::vector<Bond>& bonds, const ShapeRadii& radii) {
+  const double tube = radii.tube_radius.value_or(kTubeRadius);
   switch (kind) {
     case Kind::sticks:
       return sticks(all, selected, bonds, radii.stick_radius.value_or(kStickRadius));
     case Kind::balls_and_sticks:
       return balls_and_sticks(all, selected, bonds, kBallShare, radii.stick_radius.value_or(kThinStickRadius));
     case Kind::backbone:
-      return backbone(all, selected, radii.tube_radius.value_or(kTubeRadius));
+      return cartoon(all, selected, tube, radii.stick_radius.value_or(kStickRadius * tube / kTubeRadius));
     case Kind::bases:
       return found(all, bases(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, kind, "base");
     case Kind::sugar_symbols:
@@ -69,10 +70,12 @@ Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>&
 }
 
 ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorScheme scheme) {
+  scheme.by = resolved_scheme(structure, scheme.by);
   for (ColorRule& rule : scheme.rules) rule.paint = with_scale_of(structure, shown, std::move(rule.paint));
   if (!scheme.has_scale() || scheme.of_points()) return scheme;
   const ColorScale scale = color_scale(structure, scheme);
-  if (scale.map == ColorMap::categorical && shown > structure.atoms.size())
+  const auto has_number = [](const Atom& atom) { return (atom.shown & ~kCompanionBits) != 0; };
+  if (scale.map == ColorMap::categorical && std::ranges::any_of(structure.extra_atoms, has_number))
     throw RequestError(
         message("@map categorical@: atoms beside the surface may have numbers that it has no colour for; choose "
                 "another @map@"));
@@ -85,7 +88,13 @@ ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorSc
   return scheme;
 }
 
-ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorScheme scheme) {
+ColorScheme::By scheme_of_shapes(By scheme, Kind kind) {
+  if (scheme != By::automatic) return scheme;
+  return kind == Kind::backbone ? By::chain : By::chain_element;
+}
+
+ColorScheme extras_scheme(const Structure& structure, std::size_t shown, ColorScheme scheme, Kind kind) {
+  scheme.by = scheme_of_shapes(scheme.by, kind);
   if (scheme.by == By::kind || scheme.by == By::component || scheme.of_points()) scheme.by = By::element;
   scheme.opacities.clear();  // opacities apply to the surface only, which is transparent to show what is in it
   return with_scale_of(structure, shown, std::move(scheme));
@@ -118,10 +127,28 @@ ColoredShapes shown_shapes(const Structure& structure, const Representations& re
   ColoredShapes shown;
   if (representations.empty()) return shown;
   const Structure all = structure_of_shown(structure);
-  for (std::size_t bit = 0; bit < representations.requests.size(); ++bit)
-    append(shown.shapes, shapes_of_atoms(all, representations.requests[bit].kind, marked_atoms(all, bit),
-                                         *structure.shown_bonds, representations));
-  shown.coloring = color_atoms(all, scheme_beside(structure, all.atoms.size(), scheme));
+  const std::vector<RepresentationRequest>& requests = representations.requests;
+  unsigned tubes = 0;
+  for (std::size_t bit = 0; bit < requests.size(); ++bit)
+    if (requests[bit].kind == Kind::backbone) tubes |= 1u << bit;
+  std::vector<std::uint32_t> of_backbones;
+  for (std::size_t bit = 0; bit < requests.size(); ++bit) {
+    const Kind kind = requests[bit].kind;
+    std::vector<bool> marked = marked_atoms(all, bit);
+    // Tubes have the bases of polymers already.
+    for (std::size_t n = 0; kind == Kind::bases && n < marked.size(); ++n)
+      if ((all.atoms[n].shown & tubes) != 0 && all.atoms[n].kind == AtomClass::polymer) marked[n] = false;
+    const Shapes own = shapes_of_atoms(all, kind, marked, *structure.shown_bonds, representations);
+    if (kind == Kind::backbone) of_backbones.insert(of_backbones.end(), own.mesh.atoms.begin(), own.mesh.atoms.end());
+    append(shown.shapes, own);
+  }
+  const auto colors = [&](Kind kind) {
+    return color_atoms(all, extras_scheme(structure, all.atoms.size(), scheme, kind));
+  };
+  shown.coloring = colors(Kind::sticks);
+  if (scheme.by != By::automatic || of_backbones.empty()) return shown;
+  const Coloring by_chain = colors(Kind::backbone);
+  for (const std::uint32_t atom : of_backbones) shown.coloring.atom[atom] = by_chain.atom[atom];
   return shown;
 }
 

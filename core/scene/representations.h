@@ -26,6 +26,12 @@ struct RepresentationRequest {
 inline constexpr const char* kShapeWords[] = {"sticks", "balls", "spheres", "tube", "bases", "glycans"};
 constexpr const char* shape_word(RepresentationRequest::Kind kind) { return kShapeWords[static_cast<int>(kind)]; }
 
+/// True if a shape shows every atom, or the whole sugar, that it is made of.
+constexpr bool draws_each_atom(RepresentationRequest::Kind kind) {
+  using Kind = RepresentationRequest::Kind;
+  return kind != Kind::backbone && kind != Kind::bases;
+}
+
 /// Radii of shapes, Å; nothing: the default radii.
 struct ShapeRadii {
   std::optional<double> stick_radius;  ///< of bases, too; default: kStickRadius, with balls kThinStickRadius
@@ -39,7 +45,7 @@ struct Representations : ShapeRadii {
   bool empty() const { return requests.empty(); }
   /// Makes read_structure mark the atoms, keep atoms that the surface leaves out, and find their bonds. Bonds are found
   /// once, at the positions that are read, so that they are the same in all frames of a run.
-  void ask_for(ReadOptions& reading) const;
+  void mark_atoms(ReadOptions& reading) const;
 };
 
 /// Returns the structure's atoms, followed by the atoms drawn in addition to the surface. The `atom` of a shape is a
@@ -57,16 +63,22 @@ Shapes shapes_of_atoms(const Structure& all, RepresentationRequest::Kind kind, c
 
 /// Returns the scheme for all shown atoms with the ranges that it has for the surface's atoms, so that a number has one
 /// colour on everything that is drawn. shown: number of shown atoms. Numbers that are known for the surface's atoms
-/// only are missing for others. Throws RequestError for a map that gives each number its own colour.
+/// only are missing for others. By::automatic becomes resolved_scheme(). Throws RequestError for a map that gives each
+/// number its own colour.
 ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorScheme scheme);
 
-/// Returns with_scale_of() for shapes: opaque, and by element if the scheme applies to surfaces only.
-ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorScheme scheme);
+/// Returns the scheme that By::automatic means for shapes: `chain` for backbones, else `chain_element`. Returns any
+/// other scheme as it is.
+ColorScheme::By scheme_of_shapes(ColorScheme::By scheme, RepresentationRequest::Kind kind);
+
+/// Returns with_scale_of() for shapes of one kind: opaque, and by element if the scheme applies to surfaces only.
+ColorScheme extras_scheme(const Structure& structure, std::size_t shown, ColorScheme scheme,
+                          RepresentationRequest::Kind kind);
 
 /// Returns the shapes of shown_atoms() at the positions of the structure, with the colours of the surface: chains have
 /// the same colours, numbers the same scale. A scheme for surfaces only (patch kinds, components) is replaced by
-/// elements. structure: as read with ask_for(). Throws InputError for colours by a number that the atoms do not have,
-/// and RequestError for an assembly of instances.
+/// elements. structure: as read with mark_atoms(). Throws InputError for colours by a number that the atoms do not
+/// have, and RequestError for an assembly of instances.
 ColoredShapes shown_shapes(const Structure& structure, const Representations& representations,
                            const ColorScheme& scheme);
 

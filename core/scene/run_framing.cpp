@@ -108,6 +108,16 @@ glm::dvec3 mean_center(std::span<const Ball> balls) {
   return sum / static_cast<double>(balls.size());
 }
 
+/// Returns the balls of some atoms. followed: one value for each of shown_atoms().
+std::vector<Ball> followed_balls(const Structure& structure, const std::vector<bool>& followed) {
+  const auto beside = followed.begin() + static_cast<std::ptrdiff_t>(structure.atoms.size());
+  std::vector<Ball> balls = standing_balls(structure, {followed.begin(), beside});
+  for (std::size_t n = 0; n < structure.extra_atoms.size() && structure.atoms.size() + n < followed.size(); ++n)
+    if (beside[static_cast<std::ptrdiff_t>(n)])
+      balls.push_back({structure.extra_atoms[n].position, structure.extra_atoms[n].radius});
+  return balls;
+}
+
 /// The differences between the camera of each frame and the camera that the run starts with.
 class CameraCourse {
  public:
@@ -122,14 +132,14 @@ class CameraCourse {
                   "show it N times"));
     if (!motion.follow) return;
     followed_ = followed_of(frames.first());
-    start_ = mean_center(standing_balls(frames.first_shown(), followed_));
+    start_ = mean_center(followed_balls(frames.first_shown(), followed_));
     follows_others_ = run.atoms_change() || motion.follow->uses_positions();
   }
 
   bool follows() const { return !followed_.empty(); }
   glm::dvec3 shift(const Structure& read, const Structure& shown) const {
     if (!follows()) return glm::dvec3(0.0);
-    return mean_center(standing_balls(shown, follows_others_ ? followed_of(read) : followed_)) - start_;
+    return mean_center(followed_balls(shown, follows_others_ ? followed_of(read) : followed_)) - start_;
   }
   double angle(std::uint64_t place) const {
     return 2.0 * std::numbers::pi * motion_.turns * static_cast<double>(place) / count_;
@@ -138,7 +148,7 @@ class CameraCourse {
 
  private:
   std::vector<bool> followed_of(const Structure& structure) const {
-    std::vector<bool> followed = motion_.follow->evaluate(structure.atoms);
+    std::vector<bool> followed = motion_.follow->evaluate(shown_atoms(structure));
     if (std::ranges::find(followed, true) == followed.end())
       throw RequestError(message("@follow {}@: selects none of the {} atoms of the surface{}",
                                  in_quotes(motion_.follow->text()), with_thousands(followed.size()),
@@ -184,7 +194,8 @@ void include(const Structure& structure, RunExtent& extent) {
   };
   for (const Ball& ball : standing_balls(structure))
     for (Box* const box : {&extent.surface, &extent.shown}) include_ball(ball, *box);
-  for (const Atom& atom : structure.extra_atoms) include_ball({atom.position, atom.radius}, extent.shown);
+  for (const Atom& atom : structure.extra_atoms)
+    if (is_drawn_beside(atom)) include_ball({atom.position, atom.radius}, extent.shown);
 }
 
 }  // namespace
@@ -213,14 +224,14 @@ std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionReque
   std::vector<glm::dvec3> shifts(numbers.size(), glm::dvec3(0.0));
   const bool frames_all = !given.path && (!given.still || view.zoom_to);
   if (frames_all || course.follows() || extent) {
-    const bool aims_anew = frames.run().chooses_anew() || (show && show->uses_positions()) ||
-                           (view.zoom_to && view.zoom_to->uses_positions());
+    const bool aims_per_frame = frames.run().selects_per_frame() || (show && show->uses_positions()) ||
+                                (view.zoom_to && view.zoom_to->uses_positions());
     frames.survey([&](std::uint64_t place, const Structure& read, const Structure& shown_there) {
       if (extent) include(shown_there, *extent);
       shifts[place] = course.shift(read, shown_there);
       if (!frames_all) return;
       const std::vector<Ball> filling =
-          aims_anew ? framed_there(view, show, read, shown_there) : aim.framed(shown_there);
+          aims_per_frame ? framed_there(view, show, read, shown_there) : aim.framed(shown_there);
       if (filling.empty()) return;
       decisive.add(motion.moves() ? before_camera(filling, shifts[place], course.pivot(), basis.up, course.angle(place))
                                   : filling);
@@ -270,7 +281,7 @@ void share_colors(ColorScheme& color, const FrameRun& frames) {
   if (color.takes_file())
     throw RequestError(message(
         "@color-by-file@ needs @color-range LO:HI@ or @select-once@ where @select@ chooses other atoms in each frame"));
-  color.frames_range = color_scale(frames.reach(), color).range;
+  color.frames_range = color_scale(frames.possible_structure(), color).range;
 }
 
 /// Measures a scheme without its rules and without buried areas.
@@ -296,19 +307,19 @@ void measure_colors(ColorScheme& color, ShownFrames& frames) {
   for (ColorRule& rule : color.rules) measure_scheme(rule.paint, frames);
   if (color.by != ColorScheme::By::buried && color.by != ColorScheme::By::accessibility) return;
   // The numbers are set with each frame.
-  const Structure& reach = frames.run().reach();
-  color.file = {.path = reach.file, .numbers = std::vector<double>(reach.atoms.size(), 0.0)};
+  const Structure& possible = frames.run().possible_structure();
+  color.file = {.path = possible.file, .numbers = std::vector<double>(possible.atoms.size(), 0.0)};
   if (color.by == ColorScheme::By::accessibility) return;
   if (!color.range) color.frames_range = std::array{0.0, frames.most_buried()};
 }
 
-Structure numbered_reach(const FrameRun& frames) {
-  Structure reach = frames.reach();
-  reach.frame = frames.structure().frame;
-  return reach;
+Structure numbered_structure(const FrameRun& frames) {
+  Structure possible = frames.possible_structure();
+  possible.frame = frames.structure().frame;
+  return possible;
 }
 
-std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme, const Coloring& beside) {
+std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme, const Coloring& extras) {
   std::vector<glm::vec3> colors;
   const auto add = [&](const glm::vec3& color) {
     if (std::ranges::find(colors, color) == colors.end()) colors.push_back(color);
@@ -325,7 +336,7 @@ std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme&
       for (const glm::vec3& color : coloring.atom) add(color);
     }
   }
-  for (const glm::vec3& color : beside.atom) add(color);
+  for (const glm::vec3& color : extras.atom) add(color);
   return colors;
 }
 

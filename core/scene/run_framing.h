@@ -106,11 +106,12 @@ RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motio
 /// can be read, and RequestError if the atoms change from frame to frame (fluctuations).
 void measure_colors(ColorScheme& color, ShownFrames& frames);
 
-/// Returns FrameRun::reach() with the number of the first frame, because a file may have numbers for that frame.
-Structure numbered_reach(const FrameRun& frames);
+/// Returns FrameRun::possible_structure() with the number of the first frame, because a file may have numbers for that
+/// frame.
+Structure numbered_structure(const FrameRun& frames);
 
 /// Returns all colours that a frame of the run may have, in the order of the atoms; for components, all their colours.
-/// scheme: must not change with the frames. `beside`: the colours of everything drawn in addition to the surface.
-std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme, const Coloring& beside = {});
+/// scheme: must not change with the frames. `extras`: the colours of everything drawn in addition to the surface.
+std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme, const Coloring& extras = {});
 
 }  // namespace meniscus

@@ -17,8 +17,8 @@
 #include "core/camera/open_side.h"
 #include "core/color/color_schemes.h"
 #include "core/scene/figure_key.h"
+#include "core/scene/frozen_selections.h"
 #include "core/scene/scene_values.h"
-#include "core/scene/settled_selections.h"
 
 namespace meniscus {
 namespace {
@@ -67,7 +67,7 @@ std::vector<Sought> sought_in(const Scene& scene, const std::vector<Atom>& atoms
   return sought;
 }
 
-void look_for(std::vector<Sought>& sought, const std::vector<Atom>& atoms, const Framebuffer& picture) {
+void find_seen(std::vector<Sought>& sought, const std::vector<Atom>& atoms, const Framebuffer& picture) {
   const std::unordered_set<std::uint32_t> seen(picture.atom.begin(), picture.atom.end());
   for (Sought& one : sought)
     one.is_seen =
@@ -87,7 +87,7 @@ std::string advice(const Sought& hidden, const std::vector<Atom>& atoms, const C
   ViewRequest turned;
   turned.turns = {{1, degrees(std::atan2(-x, z))}, {0, degrees(std::atan2(y, std::hypot(x, z)))}};
   std::vector<Sought> again{hidden};
-  look_for(again, atoms, cast(view_camera(turned, camera, {all, all, {}}), size));
+  find_seen(again, atoms, cast(view_camera(turned, camera, {all, all, {}}), size));
   if (!again.front().is_seen) return "no side was found that shows them";
   std::string words;
   for (const Turn& turn : turned.turns)
@@ -107,8 +107,8 @@ Survey survey_of(const Scene& scene, const Structure& structure, const Camera& c
   return [&camera, sentences, atoms = std::move(atoms), sought = std::move(sought), few = smaller(size, kFewPixels),
           many = smaller(size, kMostPixels)](const CastSurvey& cast) {
     std::vector<Sought> found = sought;
-    look_for(found, atoms, cast(camera, few));
-    if (few != many && !std::ranges::all_of(found, &Sought::is_seen)) look_for(found, atoms, cast(camera, many));
+    find_seen(found, atoms, cast(camera, few));
+    if (few != many && !std::ranges::all_of(found, &Sought::is_seen)) find_seen(found, atoms, cast(camera, many));
     for (const Sought& one : found) {
       if (one.label) one.label->is_hidden = !one.is_seen;
       if (sentences && !one.is_seen)
@@ -129,7 +129,7 @@ PictureLayout::PictureLayout(const Scene& scene, const ColorKey& key) : size(sce
 }
 
 Strips scene_strips(const Scene& scene, glm::ivec2 size) {
-  return strips_for(strip_contents(scene.annotations, scene.frames.asked()), scene.annotations.letters, size);
+  return strips_for(strip_contents(scene.annotations, scene.frames.is_requested()), scene.annotations.letters, size);
 }
 
 SurfaceRequest picture_request(const Scene& scene) {
@@ -145,17 +145,17 @@ RenderSettings render_settings(const Scene& scene, const PictureLayout& layout) 
   settings.samples = scene.image.samples;
   settings.aovs = scene.image.aovs;
   settings.mattes = scene.image.cryptomatte;
-  settings.look = look_of(scene.look, scene.picture.size(), scene.image.background,
-                          hues_of(scene.molecule.color, scene.legend.asked(), uses_atoms(scene.figure.cuts)),
-                          scene.molecule.patches.has_value());
+  settings.look =
+      look_of(scene.look, scene.picture.size(), scene.image.background,
+              hues_of(scene.molecule.color, uses_atoms(scene.figure.cuts)), scene.molecule.patches.has_value());
   return settings;
 }
 
 void check_picture(const Scene& scene) {
   scene.figure.check();
   const auto has_color = [](const FigureObjectRequest& object) { return object.color.has_value(); };
-  if (scene.legend.asked() && scene.molecule.color.by == ColorScheme::By::fixed && scene.molecule.color.rules.empty() &&
-      std::ranges::none_of(scene.figure.objects, has_color))
+  if (scene.legend.is_requested() && scene.molecule.color.by == ColorScheme::By::fixed &&
+      scene.molecule.color.rules.empty() && std::ranges::none_of(scene.figure.objects, has_color))
     throw RequestError(message("@legend@ has nothing to explain: everything has one colour; choose another @color@"));
 }
 
@@ -170,13 +170,13 @@ Framebuffer finished_picture(Framebuffer molecule, const Annotations& annotation
   return layout.legend ? layout.legend->add_to(molecule, background) : molecule;
 }
 
-SceneFigure made_figure(const Scene& asked, const EglContext* context) {
-  if (asked.frames.asked())
+SceneFigure made_figure(const Scene& requested, const EglContext* context) {
+  if (requested.frames.is_requested())
     throw RequestError("frames: this makes the picture of one molecule; `meniscus render` makes those of a run");
-  if (asked.image.extent)
+  if (requested.image.extent)
     throw RequestError("image.extent: this draws the complete surface; `meniscus render` draws without it");
-  Scene scene = readied(asked);
-  settle_selections(scene);
+  Scene scene = prepared_scene(requested);
+  freeze_selections(scene);
   scene.molecule.surface.cpu = context == nullptr;
   const GivenCameras given = given_cameras(scene.picture, scene.run_camera);
   Structure structure = read_molecule(scene.molecule);
@@ -185,10 +185,10 @@ SceneFigure made_figure(const Scene& asked, const EglContext* context) {
   return {std::move(scene), given, std::move(aim), std::move(figure)};
 }
 
-Framebuffer scene_picture(const Scene& asked, StillRenderer& renderer, const EglContext* context) {
-  check_picture(asked);
-  auto [scene, given, aim, figure] = made_figure(asked, context);
-  const PictureLayout layout(scene, key_of(figure.molecule, scene.figure, figure.beside));
+Framebuffer scene_picture(const Scene& requested, StillRenderer& renderer, const EglContext* context) {
+  check_picture(requested);
+  auto [scene, given, aim, figure] = made_figure(requested, context);
+  const PictureLayout layout(scene, key_of(figure.molecule, scene.figure, figure.extras));
   const Camera camera = aim.camera(layout.size, given.still, aim.viewed(figure));
   Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);
   const Survey survey = survey_of(scene, figure.molecule.structure, camera, layout.size.size(), annotations);

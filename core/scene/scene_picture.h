@@ -56,7 +56,7 @@ Framebuffer finished_picture(Framebuffer molecule, const Annotations& annotation
 
 /// A scene of one molecule, read and computed, before it is drawn.
 struct SceneFigure {
-  Scene scene;  ///< changed by settle_selections()
+  Scene scene;  ///< changed by freeze_selections()
   GivenCameras given;
   ViewAim aim;
   Figure figure;

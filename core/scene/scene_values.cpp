@@ -23,7 +23,9 @@ namespace {
 constexpr double kMillimetersPerInch = 25.4, kPointsPerInch = 72.0;
 
 /// True if the length is known in pixels: a length on paper needs the resolution.
-bool is_settled(const Length& length, double dots_per_inch) { return length.per_inch == 0.0 || dots_per_inch > 0.0; }
+bool is_known_in_pixels(const Length& length, double dots_per_inch) {
+  return length.per_inch == 0.0 || dots_per_inch > 0.0;
+}
 
 }  // namespace
 
@@ -48,7 +50,7 @@ Length parse_length(const std::string& text) {
 int side_in_pixels(const std::string& text, double dots_per_inch) {
   const Length length = parse_length(text);
   const double pixels = std::round(length.pixels(dots_per_inch));
-  if (is_settled(length, dots_per_inch) && !(pixels >= 1.0 && pixels <= kLargestSide))
+  if (is_known_in_pixels(length, dots_per_inch) && !(pixels >= 1.0 && pixels <= kLargestSide))
     throw RequestError(
         fmt::format("{} makes {:.0f} pixels; a side has 1 to {}", in_quotes(text), pixels, kLargestSide));
   return static_cast<int>(pixels);
@@ -57,7 +59,7 @@ int side_in_pixels(const std::string& text, double dots_per_inch) {
 double pixels_in_range(const Property& property, const std::string& text, double dots_per_inch, const char* what) {
   const Length length = parse_length(text);
   const double pixels = length.pixels(dots_per_inch);
-  if (!is_settled(length, dots_per_inch) || property.is_within(pixels)) return pixels;
+  if (!is_known_in_pixels(length, dots_per_inch) || property.is_within(pixels)) return pixels;
   throw RequestError(fmt::format("{} makes {:.4g} pixels; {} {} to {}", in_quotes(text), pixels, what, property.lowest,
                                  property.highest));
 }

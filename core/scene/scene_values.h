@@ -53,6 +53,6 @@ void complete(Scene& scene);
 /// addition to the surface, and of an interface only the atoms of both sides. The copy must not be saved, because a
 /// saved copy would have a selection that the user did not choose. Throws ValueError if something else is to be drawn
 /// with an interface.
-Scene readied(Scene scene);
+Scene prepared_scene(Scene scene);
 
 }  // namespace meniscus

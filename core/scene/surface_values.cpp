@@ -132,9 +132,11 @@ std::string opacity_text(const OpacityRule& rule) {
 
 /// Sets the three values that this property is short for. They are written instead of it.
 void read_look_into(const Property&, Texts texts, Scene& scene) {
-  scene.picture.zoom_to = parse_selection(texts.back());
+  parse_selection(texts.back());
+  const std::string first = fmt::format("first ({})", texts.back());
+  scene.picture.zoom_to = parse_selection(first);
   scene.picture.direction = parse_view_direction("open");
-  scene.figure.cuts.push_back(parse_cut(fmt::format("before {}", texts.back())));
+  scene.figure.cuts.push_back(parse_cut("before " + first));
 }
 
 std::optional<glm::vec3> atom_or_color(const std::string& text) { return parse_color_or("atom", text); }
@@ -187,6 +189,7 @@ Written write_objects(const Property&, const Scene& scene) {
 
 constexpr auto kSurfaceRows = std::to_array<SceneValue>({
     plain("surface.shown", [](auto& s) { return &s.figure.hides_surface; }),
+    plain("shapes.bare", [](auto& s) { return &s.figure.bare; }),
     coded<parse_interface, interface_text>("surface.interface", [](auto& s) { return &s.molecule.interface; }),
     worded<SurfaceKind::ses, SurfaceKind::sas, SurfaceKind::vdw>("surface.kind",
                                                                  [](auto& s) { return &s.molecule.surface.kind; }),

@@ -191,7 +191,7 @@ Transition::Side Transition::side_of(Shot shot) {
   const Figure& figure = shot.figure;
   std::vector<ClipPlane> planes;
   if (!shot.scene.figure.hides_surface || shot.scene.figure.cuts_all)
-    planes = surface_planes(shot.scene.figure, figure.beside.cut_atoms, shot.camera, figure.molecule.objects);
+    planes = surface_planes(shot.scene.figure, figure.extras.cut_atoms, shot.camera, figure.molecule.objects);
   const Look look = settings_of(shot).look;
   return {std::move(shot), std::move(planes), look};
 }
@@ -210,7 +210,7 @@ Transition::Transition(Shot from, Shot to, const EglContext* context)
     }
   }
   // Frames of a run have other positions, even if their scenes are equal.
-  const bool is_of_run = first.frames.asked() || second.frames.asked();
+  const bool is_of_run = first.frames.is_requested() || second.frames.is_requested();
   is_steady_ = !is_of_run && from_.shot.camera.projection == to_.shot.camera.projection &&
                look_between(from_.look, to_.look, 1.0) == look_between(to_.look, from_.look, 0.0) &&
                std::ranges::all_of(properties(),
@@ -246,7 +246,7 @@ MoleculeShot Transition::shot(const Side& side, const Side& other, double share)
                   : make_figure(MoleculeBuilder(scene.molecule, context_).build(side.shot.figure.molecule.structure),
                                 scene.figure);
   scene.figure.cuts = cuts_at(planes_between(from_.planes, to_.planes, balls_, share));
-  figure.beside.cut_atoms.clear();
+  figure.extras.cut_atoms.clear();
   RenderSettings settings = settings_of(side.shot);
   settings.size = place(share).size;
   settings.look = look_between(side.look, other.look, way);

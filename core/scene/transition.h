@@ -21,7 +21,7 @@ namespace meniscus {
 
 /// A figure of a scene, ready to be drawn.
 struct Shot {
-  Scene scene;  ///< made by readied(), after settle_selections()
+  Scene scene;  ///< made by prepared_scene(), after freeze_selections()
   Figure figure;
   Camera camera;
   std::shared_ptr<const PictureLayout> layout;

@@ -71,8 +71,8 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
     shown_.flip();
   }
   framed_ = shown_;
-  for (std::size_t a = 0; a < framed_.size(); ++a) framed_[a] = framed_[a] || structure.atoms[a].shown != 0;
-  beside_.assign(structure.extra_atoms.size(), true);
+  for (std::size_t a = 0; a < framed_.size(); ++a) framed_[a] = framed_[a] || is_drawn_beside(structure.atoms[a]);
+  for (const Atom& atom : structure.extra_atoms) frames_extra_.push_back(is_drawn_beside(atom));
   frames_all_ = !request.zoom_to;
   if (request.zoom_to) {
     const std::vector<Atom> atoms = shown_atoms(structure);
@@ -81,15 +81,16 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
       throw RequestError(message("@zoom-to {}@: selects none of the {} atoms that are shown; {}",
                                  in_quotes(request.zoom_to->text()), with_thousands(atoms.size()),
                                  request.zoom_to->why_none(atoms)));
-    const auto first_beside = framed_.begin() + static_cast<std::ptrdiff_t>(structure.atoms.size());
-    beside_.assign(first_beside, framed_.end());
-    framed_.erase(first_beside, framed_.end());
+    const auto first_extra = framed_.begin() + static_cast<std::ptrdiff_t>(structure.atoms.size());
+    frames_extra_.assign(first_extra, framed_.end());
+    framed_.erase(first_extra, framed_.end());
   }
-  balls_beside_ = framed_beside(structure);
+  extra_balls_ = framed_extras(structure);
   using Axes = ViewDirection::Frame;
   if (request.direction && request.direction->frame == Axes::open && !request.zoom_to)
     throw RequestError(message("@view open@ looks at the atoms of @zoom-to@; add it"));
-  if (!request.direction || (request.direction->frame != Axes::symmetry && request.direction->frame != Axes::beside))
+  if (!request.direction ||
+      (request.direction->frame != Axes::symmetry && request.direction->frame != Axes::symmetry_side))
     return;
   symmetry_ = symmetry_axis(copy_motions(structure));
   if (!symmetry_)
@@ -98,29 +99,29 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
                 "another side"));
 }
 
-std::vector<Ball> ViewAim::framed_beside(const Structure& structure) const {
+std::vector<Ball> ViewAim::framed_extras(const Structure& structure) const {
   std::vector<Ball> balls;
   for (std::size_t n = 0; n < structure.extra_atoms.size(); ++n)
-    if (beside_[n]) balls.push_back({structure.extra_atoms[n].position, structure.extra_atoms[n].radius});
+    if (frames_extra_[n]) balls.push_back({structure.extra_atoms[n].position, structure.extra_atoms[n].radius});
   return balls;
 }
 
 ViewedAtoms ViewAim::viewed(const Figure& figure) const {
   ViewedAtoms seen = viewed(figure.molecule.objects);
   if (!frames_all_) return seen;
-  const std::vector<Ball> drawn = figure.beside.balls();
+  const std::vector<Ball> drawn = figure.extras.balls();
   seen.framed.insert(seen.framed.end(), drawn.begin(), drawn.end());
   return seen;
 }
 
 ViewedAtoms ViewAim::viewed(std::span<const SurfaceObject> objects) const {
   const std::vector<Ball> all = placed_balls(objects);
-  if (shown_.empty() && framed_.empty() && balls_beside_.empty()) return {all, all};
+  if (shown_.empty() && framed_.empty() && extra_balls_.empty()) return {all, all};
   std::vector<Ball> shown = picked(objects, shown_), framed = picked(objects, framed_);
   // The selected atoms may belong to a part of the surface that was dropped (--cavities).
   if (shown.empty()) shown = all;
   for (std::vector<Ball>* const balls : {&shown, &framed})
-    balls->insert(balls->end(), balls_beside_.begin(), balls_beside_.end());
+    balls->insert(balls->end(), extra_balls_.begin(), extra_balls_.end());
   if (framed.empty()) framed = shown;
   return {shown, framed};
 }
@@ -138,8 +139,8 @@ std::vector<Ball> ViewAim::shown(const Structure& structure) const { return stan
 
 std::vector<Ball> ViewAim::framed(const Structure& structure) const {
   std::vector<Ball> balls = standing_balls(structure, framed_);
-  const std::vector<Ball> beside = framed_beside(structure);
-  balls.insert(balls.end(), beside.begin(), beside.end());
+  const std::vector<Ball> extras = framed_extras(structure);
+  balls.insert(balls.end(), extras.begin(), extras.end());
   return balls;
 }
 

@@ -48,11 +48,11 @@ class ViewAim {
   const std::optional<glm::dvec3>& symmetry() const { return symmetry_; }
 
  private:
-  std::vector<Ball> framed_beside(const Structure& structure) const;
+  std::vector<Ball> framed_extras(const Structure& structure) const;
 
   std::vector<bool> shown_, framed_;  ///< per atom of the structure; empty: all
-  std::vector<bool> beside_;          ///< per atom of Structure::extra_atoms, true if it must fill the picture
-  std::vector<Ball> balls_beside_;    ///< the balls of these atoms
+  std::vector<bool> frames_extra_;    ///< per atom of Structure::extra_atoms, true if it must fill the picture
+  std::vector<Ball> extra_balls_;     ///< the balls of these atoms
   bool frames_all_ = true;            ///< true if no atoms were selected to fill the picture
   std::optional<glm::dvec3> symmetry_;
 };

@@ -12,7 +12,9 @@
 #include <string_view>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "core/structure/secondary_structure.h"
 
@@ -25,14 +27,15 @@ constexpr int kCapRings = 3;          // rings of vertices on a round end
 // Å; steps between bonded residues are 3.8 and 5 to 7.5.
 constexpr double kLongestStep = 4.5, kLongestPhosphateStep = 8.5;
 constexpr double kShortestStep = 0.5;  // Å; residues that are nearer are duplicates
-constexpr double kHelixWidth = 4.0, kStrandWidth = 3.5, kArrowWidth = 6.0;  // half widths, in radii
-constexpr double kArrowStep = 0.05;                                         // Å, the length of an arrow's shoulder
+// Half widths, and half the thickness of what is flat, in radii.
+constexpr double kHelixWidth = 3.0, kStrandWidth = 2.8, kArrowWidth = 4.6, kBandWidth = 2.8, kFlatness = 0.6;
+constexpr double kArrowStep = 0.05;  // Å, the length of an arrow's shoulder
 
 /// A residue that the middle line goes through.
 struct Guide {
   std::uint32_t atom;
   glm::dvec3 position;
-  std::optional<glm::dvec3> oxygen;
+  std::optional<glm::dvec3> beside;  ///< O of the peptide, or C1' of the nucleotide
   bool nucleic;
   SecondaryStructure kind;
   glm::dvec3 side{0.0};  ///< unit vector along the width; zero if it is not known
@@ -51,10 +54,11 @@ std::vector<Guide> guides_of(std::span<const Atom> atoms, const std::vector<bool
   std::vector<Guide> guides;
   for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
     const Atom& head = sorted[first];
-    std::optional<std::size_t> alpha, phosphorus, sugar, oxygen;
+    std::optional<std::size_t> alpha, phosphorus, sugar, oxygen, base;
     for (; last < order.size() && sorted[last].residue == head.residue && sorted[last].copy == head.copy; ++last) {
       const Atom& atom = sorted[last];
       if (is_any(atom.name, {"O", "O1", "OT1", "OC1"}) && !oxygen) oxygen = last;
+      if (is_any(atom.name, {"C1'", "C1*"}) && !base) base = last;
       if (!selected[order[last]] || atom.kind == AtomClass::ion || atom.kind == AtomClass::water) continue;
       const bool bead = atom.name == "BB" && atom.element == 0;  // Martini's bead for the backbone of a residue
       if (((atom.name == "CA" && atom.element == 6) || bead) && !alpha) alpha = last;
@@ -64,7 +68,7 @@ std::vector<Guide> guides_of(std::span<const Atom> atoms, const std::vector<bool
     const std::optional<std::size_t> guide = alpha ? alpha : sugar && phosphorus ? phosphorus : sugar;
     if (!guide) continue;
     guides.push_back({order[*guide], sorted[*guide].position, {}, !alpha, kinds[*guide]});
-    if (alpha && oxygen) guides.back().oxygen = sorted[*oxygen].position;
+    if (const auto beside = alpha ? oxygen : base) guides.back().beside = sorted[*beside].position;
   }
   return guides;
 }
@@ -96,17 +100,19 @@ glm::dvec3 any_normal_to(const glm::dvec3& v) {
   return glm::normalize(glm::cross(v, helper));
 }
 
-/// Sets the directions along the width: in the peptide planes, or else across the curve. From one to the next they
-/// never turn around.
+/// Sets the directions along the width: in the peptide planes, across the way to the bases, or else across the curve.
+/// From one to the next they never turn around.
 void find_sides(std::vector<Guide>& piece) {
   glm::dvec3 last(0.0);
   for (std::size_t n = 0; n < piece.size(); ++n) {
     const glm::dvec3 &before = piece[n > 0 ? n - 1 : n].position, &here = piece[n].position,
                      &behind = piece[n + 1 < piece.size() ? n + 1 : n].position;
     glm::dvec3 side(0.0);
-    if (piece[n].oxygen) {
+    if (piece[n].beside && piece[n].nucleic) {
+      side = glm::cross(behind - before, *piece[n].beside - here);
+    } else if (piece[n].beside) {
       const glm::dvec3 along = n + 1 < piece.size() ? behind - here : here - before;
-      side = glm::cross(glm::cross(along, *piece[n].oxygen - here), along);
+      side = glm::cross(glm::cross(along, *piece[n].beside - here), along);
     } else {
       side = glm::cross(behind - before, before + behind - 2.0 * here);
     }
@@ -118,12 +124,14 @@ void find_sides(std::vector<Guide>& piece) {
   }
 }
 
-/// Smooths strands, which zigzag from residue to residue, so that their ribbon goes through the middle.
-void smooth_strands(std::vector<Guide>& piece) {
+/// Smooths strands, which zigzag from residue to residue, so that their ribbon goes through the middle, and the
+/// directions of bands of nucleic acids.
+void smooth_ribbons(std::vector<Guide>& piece) {
   const std::vector<Guide> given = piece;
   for (std::size_t n = 1; n + 1 < piece.size(); ++n) {
-    if (given[n].kind != SecondaryStructure::strand) continue;
-    piece[n].position = 0.25 * (given[n - 1].position + 2.0 * given[n].position + given[n + 1].position);
+    const bool is_strand = given[n].kind == SecondaryStructure::strand;
+    if (!is_strand && !given[n].nucleic) continue;
+    if (is_strand) piece[n].position = 0.25 * (given[n - 1].position + 2.0 * given[n].position + given[n + 1].position);
     const glm::dvec3 side = given[n - 1].side + 2.0 * given[n].side + given[n + 1].side;
     if (glm::length(side) > 1e-6) piece[n].side = glm::normalize(side);
   }
@@ -156,9 +164,12 @@ class Sweep {
   }
 
  private:
-  double half_width(std::size_t n) const {
-    if (piece_[n].kind == SecondaryStructure::helix) return kHelixWidth * radius_;
-    return piece_[n].kind == SecondaryStructure::strand ? kStrandWidth * radius_ : radius_;
+  /// Returns half the width and half the height of a residue's ribbon or tube.
+  glm::dvec2 half_size(std::size_t n) const {
+    if (piece_[n].nucleic) return radius_ * glm::dvec2(kBandWidth, kFlatness);
+    if (piece_[n].kind == SecondaryStructure::helix) return radius_ * glm::dvec2(kHelixWidth, kFlatness);
+    if (piece_[n].kind == SecondaryStructure::strand) return radius_ * glm::dvec2(kStrandWidth, kFlatness);
+    return glm::dvec2(radius_);
   }
 
   /// True for the last residue of a strand before another kind or the end: an arrow leads to it.
@@ -172,21 +183,22 @@ class Sweep {
     const std::size_t last = piece_.size() - 1;
     for (std::size_t n = 0; n < last; ++n) {
       const bool arrow = ends_strand(n + 1);
-      if (arrow) add_section(n, -kArrowStep / glm::distance(piece_[n].position, piece_[n + 1].position), half_width(n));
+      if (arrow) add_section(n, -kArrowStep / glm::distance(piece_[n].position, piece_[n + 1].position), half_size(n));
+      const glm::dvec2 tube(radius_), shoulder = radius_ * glm::dvec2(kArrowWidth, kFlatness);
       for (int step = 0; step < kSteps; ++step) {
         const double t = double(step) / kSteps;
         const double smooth = t * t * (3.0 - 2.0 * t);
-        double width = half_width(n) + smooth * (half_width(n + 1) - half_width(n));
-        if (ends_strand(n)) width = radius_ + smooth * (half_width(n + 1) - radius_);
-        if (arrow) width = radius_ * (kArrowWidth + t * (1.0 - kArrowWidth));
-        add_section(n, t, width);
+        if (arrow)
+          add_section(n, t, glm::mix(shoulder, tube, t));
+        else
+          add_section(n, t, glm::mix(ends_strand(n) ? tube : half_size(n), half_size(n + 1), smooth));
       }
     }
-    add_section(last - 1, 1.0, ends_strand(last) ? radius_ : half_width(last));
+    add_section(last - 1, 1.0, ends_strand(last) ? glm::dvec2(radius_) : half_size(last));
   }
 
   /// Adds a section at the share t of the way from residue n to the next; t may be a little less than 0.
-  void add_section(std::size_t n, double t, double width) {
+  void add_section(std::size_t n, double t, const glm::dvec2& half) {
     const auto point = [&](std::ptrdiff_t k) {
       const auto count = static_cast<std::ptrdiff_t>(piece_.size());
       if (k < 0) return 2.0 * piece_[0].position - piece_[1].position;
@@ -209,8 +221,8 @@ class Sweep {
       side -= glm::dot(side, section.tangent) * section.tangent;
     }
     section.side = glm::length(side) < 1e-3 ? any_normal_to(section.tangent) : glm::normalize(side);
-    section.half_width = width;
-    section.half_height = radius_;
+    section.half_width = half.x;
+    section.half_height = half.y;
     section.atom = piece_[t < 0.5 ? n : n + 1].atom;
     sections_.push_back(section);
   }
@@ -313,7 +325,7 @@ Shapes backbone(const Structure& structure, const std::vector<bool>& selected, d
       continue;
     }
     find_sides(piece);
-    smooth_strands(piece);
+    smooth_ribbons(piece);
     Sweep(piece, radius).add_to(shapes.mesh);
   }
   return shapes;
@@ -462,6 +474,15 @@ class BaseDrawer {
 };
 
 }  // namespace
+
+Shapes cartoon(const Structure& structure, const std::vector<bool>& selected, double tube_radius, double base_radius) {
+  Shapes shapes = backbone(structure, selected, tube_radius);
+  std::vector<bool> polymer(selected.size());
+  for (std::size_t n = 0; n < polymer.size(); ++n)
+    polymer[n] = selected[n] && structure.atoms[n].kind == AtomClass::polymer;
+  append(shapes, bases(structure, polymer, base_radius));
+  return shapes;
+}
 
 Shapes bases(const Structure& structure, const std::vector<bool>& selected, double radius) {
   BaseDrawer drawer(structure, radius);

@@ -10,15 +10,16 @@
 
 namespace meniscus {
 
-/// Half the thickness (Å) of all parts of the backbone, and half the width of tubes.
-inline constexpr double kTubeRadius = 0.3;
+/// The radius of tubes, Å. Ribbons are 0.6 times as thick.
+inline constexpr double kTubeRadius = 0.45;
 
 /// Returns a closed mesh for each unbroken piece of at least two residues, and a sphere for each single one. A residue
 /// is represented by its selected CA atom, in nucleotides by P or else C4', in Martini models by BB.
 ///
-/// Helices are ribbons with a width of 8 radii, along the direction of the peptide planes (M. Carson and C. E. Bugg, J.
-/// Mol. Graph. 4, 121, 1986; computed from O, if present). Strands have a width of 7 radii and end in arrows. All else
-/// is a tube. The middle line is a Catmull-Rom spline through these atoms, smoothed in strands. Kinds are those of
+/// Helices are ribbons with a width of 6 radii, along the direction of the peptide planes (M. Carson and C. E. Bugg, J.
+/// Mol. Graph. 4, 121, 1986; computed from O, if present). Strands have a width of 5.6 radii and end in arrows. Nucleic
+/// acids are bands as wide as strands, with their flat side to the bases (to C1', if present). All else is a tube. The
+/// middle line is a Catmull-Rom spline through these atoms, smoothed in strands. Kinds are those of
 /// Atom::secondary, or of secondary_structure() of these atoms. Pieces end where the chain, model or copy changes and
 /// where neighbours are farther apart than 4.5 Å (CA) or 8.5 Å (P). Each vertex has the atom of the nearer residue.
 /// `radius` is in Å, above 0.
@@ -42,5 +43,9 @@ std::vector<std::uint32_t> file_order(std::span<const Atom> atoms);
 /// their atoms, so that modified bases have them, too; a ring that is incomplete or not closed is left out. Plates have
 /// the colour of C4, and rims the colours of their atoms.
 Shapes bases(const Structure& structure, const std::vector<bool>& selected, double radius = kStickRadius);
+
+/// Returns backbone() and, for the nucleotides of polymers among the selected atoms, bases(). Radii are in Å.
+Shapes cartoon(const Structure& structure, const std::vector<bool>& selected, double tube_radius = kTubeRadius,
+               double base_radius = kStickRadius);
 
 }  // namespace meniscus

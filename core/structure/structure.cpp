@@ -3,8 +3,10 @@
 #include "core/structure/structure.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -33,6 +35,8 @@ constexpr ReasonWords kReasonWords[] = {
     {kExcludedHydrogen, "hydrogen", "s"},
     {kExcludedWater, "water"},
     {kExcludedIon, "free ion", "s"},
+    {kExcludedLigand, "of ligands"},
+    {kExcludedLipid, "of lipids"},
     {kExcludedAssembly, "outside the assembly"},
 };
 
@@ -60,22 +64,49 @@ std::string label_of(const Atom& atom) {
                      atom.insertion_code == ' ' ? "" : std::string(1, atom.insertion_code));
 }
 
-std::string reasons_text(const std::map<std::string, std::size_t>& excluded) {
+namespace {
+
+/// Returns "of 3 ligands (2 HEM, NAP)": the residues of one reason, the most frequent first.
+std::string residues_text(std::string_view what, const std::map<std::string, std::size_t>& residues) {
+  constexpr std::size_t kNamed = 4;
+  std::vector<std::pair<std::string, std::size_t>> by_count(residues.begin(), residues.end());
+  std::ranges::stable_sort(by_count, std::greater(), &std::pair<std::string, std::size_t>::second);
+  std::size_t count = 0, named = 0;
+  std::string names;
+  for (const auto& [name, times] : by_count) {
+    count += times;
+    if (named++ >= kNamed) continue;
+    names += names.empty() ? "" : ", ";
+    names += (times > 1 && by_count.size() > 1 ? with_thousands(times) + " " : "") + escaped(name);
+  }
+  if (named > kNamed) names += fmt::format(" and {} more", named - kNamed);
+  return fmt::format("of {} {}{} ({})", with_thousands(count), what, count == 1 ? "" : "s", names);
+}
+
+}  // namespace
+
+std::string reasons_text(const std::map<std::string, std::size_t>& excluded,
+                         const std::map<std::string, std::map<std::string, std::size_t>>& residues) {
   std::string text;
   for (const auto& [reason, words, plural] : kReasonWords) {
     const auto found = excluded.find(reason);
     if (found == excluded.end()) continue;
-    text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", with_thousands(found->second), words,
+    const auto named = residues.find(reason);
+    text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", with_thousands(found->second),
+                        named == residues.end() ? words : residues_text(reason, named->second),
                         found->second == 1 ? "" : plural);
   }
   return text;
 }
 
 std::string ReadReport::sentence() const {
-  const std::string left_out = reasons_text(excluded);
-  return fmt::format("{} {} read; {} left out; {} used{}{}", with_thousands(read), read == 1 ? "atom" : "atoms",
-                     left_out.empty() ? "none" : left_out, with_thousands(used), assembled.empty() ? "" : "; ",
-                     assembled);
+  const std::string left_out = reasons_text(excluded, residues);
+  return fmt::format("{} {} read; {} left out; {} used{}{}{}", with_thousands(read), read == 1 ? "atom" : "atoms",
+                     left_out.empty() ? "none" : left_out, with_thousands(used),
+                     excluded.contains(kExcludedLigand)  ? message(" (@select all@ adds ligands)")
+                     : excluded.contains(kExcludedLipid) ? message(" (@select all@ adds lipids)")
+                                                         : "",
+                     assembled.empty() ? "" : "; ", assembled);
 }
 
 std::string AddedFile::sentence() const {

@@ -60,10 +60,24 @@ struct Atom {
   std::uint32_t copy = 0;  ///< number of the copy in an assembly, from 0
   /// pLDDT, 0 to 100, if the file has it separately from B-factors; otherwise NaN.
   float confidence = std::numeric_limits<float>::quiet_NaN();
-  /// Bit n is set if the n-th set of atoms drawn in addition to the surface has the atom (ReadOptions::shown).
-  std::uint16_t shown = 0;
+  /// Bit n is set if the n-th set of atoms drawn in addition to the surface has the atom (ReadOptions::shown), and one
+  /// of the bits kCompanionSticks and so on if the atom is one of its companions.
+  std::uint32_t shown = 0;
   SecondaryStructure secondary = SecondaryStructure::unknown;  ///< secondary structure of its residue
 };
+
+/// The companions of a surface: ligands and ions that it leaves out because it is that of a polymer, and that pictures
+/// draw in addition to it. `none`: there are none; `hidden`: they are not drawn, but selections may see them.
+enum class Companions : std::uint8_t { none, hidden, drawn };
+
+/// The bits of Atom::shown for companions.
+inline constexpr std::size_t kCompanionSticks = 29;   ///< drawn as sticks
+inline constexpr std::size_t kCompanionSpheres = 30;  ///< drawn as spheres
+inline constexpr std::size_t kHiddenCompanion = 31;   ///< not drawn, but selections see the atom
+inline constexpr std::uint32_t kCompanionBits =
+    1u << kCompanionSticks | 1u << kCompanionSpheres | 1u << kHiddenCompanion;
+/// True if the atom is drawn in addition to a surface.
+inline bool is_drawn_beside(const Atom& atom) { return (atom.shown & ~(1u << kHiddenCompanion)) != 0; }
 
 /// Returns "'CA' in ALA A12" for messages, or "'C' (atom 5)" if the format has no residues. Only the name is escaped.
 std::string label_of(const Atom& atom);
@@ -86,17 +100,21 @@ struct ReadReport {
   /// As `excluded`, but only atoms that have a partial charge and occupy space. Atoms that are excluded as
   /// kExcludedAltloc, kExcludedVirtual or kExcludedRadius occupy none.
   std::map<std::string, std::size_t> charged;
+  /// For kExcludedLigand and kExcludedLipid the number of residues by their name.
+  std::map<std::string, std::map<std::string, std::size_t>> residues;
   std::size_t used = 0;
   std::size_t models = 1;  ///< number of models in the file
   std::string assembled;   ///< description of the assembly of the used atoms; empty without an assembly
   std::vector<Warning> warnings;
 
-  /// Returns "5,684 atoms read; 215 water left out; 5,469 used".
+  /// Returns "5,684 atoms read; 43 of 1 ligand (HEM), 215 water left out; 5,426 used".
   std::string sentence() const;
 };
 
 /// Returns "127 of radius zero, 58 water": the number of atoms for each reason, in the order of the constants below.
-std::string reasons_text(const std::map<std::string, std::size_t>& excluded);
+/// residues: as in ReadReport.
+std::string reasons_text(const std::map<std::string, std::size_t>& excluded,
+                         const std::map<std::string, std::map<std::string, std::size_t>>& residues = {});
 
 /// The reasons of ReadReport::excluded, in the order in which they are tried.
 inline constexpr const char* kExcludedModel = "other_model";  ///< in a model that is not read
@@ -111,8 +129,11 @@ inline constexpr const char* kExcludedElement = "unknown_element";
 inline constexpr const char* kExcludedRadius = "zero_radius";  ///< a radius of 0 in the file
 /// Hydrogen, if radii are of united atoms or the user leaves it out.
 inline constexpr const char* kExcludedHydrogen = "hydrogen";
-inline constexpr const char* kExcludedWater = "water";               ///< water that was not requested
-inline constexpr const char* kExcludedIon = "ion";                   ///< a free ion that was not requested
+inline constexpr const char* kExcludedWater = "water";  ///< water that was not requested
+inline constexpr const char* kExcludedIon = "ion";      ///< a free ion that was not requested
+/// In a ligand or lipid that no polymer has bound, where no atoms are selected and the file has a polymer.
+inline constexpr const char* kExcludedLigand = "ligand";
+inline constexpr const char* kExcludedLipid = "lipid";
 inline constexpr const char* kExcludedAssembly = "not_in_assembly";  ///< in a chain that is not in the assembly
 
 /// Atoms that have the same radius for the same reason.
@@ -179,6 +200,7 @@ struct Structure {
   /// Bonds of the atoms that are drawn in addition to the surface, as places in `atoms` followed by `extra_atoms`. It
   /// may be null if there are no such atoms.
   std::shared_ptr<const std::vector<Bond>> shown_bonds;
+  Companions companions = Companions::none;
   std::optional<std::uint64_t> frame;  ///< number of the frame in its trajectory, from 0; none without a trajectory
   /// Copies: each of `atoms` is in exactly one entry; empty: atoms are only at their positions.
   std::vector<Instances> instances;

@@ -68,7 +68,7 @@ Surface build_surface(std::span<const Ball> atoms, double probe_radius, const Re
 }
 
 std::unique_ptr<ConvexPlanes> planes_for(ClipPlanes planes, const Surface& surface, const ReducedSurface& rs) {
-  if (planes == ClipPlanes::left_out) return std::make_unique<PlanesWhenAsked>(surface, rs);
+  if (planes == ClipPlanes::left_out) return std::make_unique<PlanesOnDemand>(surface, rs);
   return std::make_unique<ListedPlanes>(surface);
 }
 

@@ -23,8 +23,8 @@ namespace {
 
 constexpr double kSlack = 1e-9;  // relative: of areas and volumes that may be 0 or whole
 constexpr double kLargest = std::numeric_limits<double>::max();
-constexpr double kBeside = 1e-5;  // Å for a probe of radius 0: the largest shift of a plane by merged probes
-constexpr double kClose = 1e-3;   // Å: half the distance of probes whose bisector rounding may turn
+constexpr double kLargestShift = 1e-5;  // Å for a probe of radius 0: the largest shift of a plane by merged probes
+constexpr double kClose = 1e-3;         // Å: half the distance of probes whose bisector rounding may turn
 
 std::array<glm::dvec3, 32> spread_directions() {
   std::array<glm::dvec3, 32> directions;
@@ -135,7 +135,7 @@ class Examination {
     for (std::uint32_t n = 0; n < patch.side_count; ++n)
       for (std::uint32_t m = 0; m < patch.contact_count; ++m) {
         const glm::dvec3 d = s_.atoms[s_.contacts[patch.first_contact + m]].center - patch.center;
-        if (glm::dot(s_.planes[patch.first_plane + n].normal, d) > kBeside * (1 + s_.probe_radius)) {
+        if (glm::dot(s_.planes[patch.first_plane + n].normal, d) > kLargestShift * (1 + s_.probe_radius)) {
           add_atoms_of(patch);
           return;
         }

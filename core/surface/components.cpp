@@ -170,12 +170,12 @@ class SideTest {
       : s_(surface), planes_(planes), farthest_(surface.components.size()) {}
 
   std::vector<Farthest> run() {
-    look_at_borders();
-    look_at_poles(
+    find_border_extents();
+    find_pole_extents(
         s_.convex, [&](const ConvexPatch& patch) { return s_.atoms[patch.atom]; },
         [&](std::uint32_t n) { return planes_.cut_off(n, kDirection); }, &Farthest::convex);
     if (s_.probe_radius > 0)
-      look_at_poles(
+      find_pole_extents(
           s_.concave,
           [&](const ConcavePatch& patch) {
             return Ball{patch.center, s_.probe_radius};
@@ -191,18 +191,18 @@ class SideTest {
 
  private:
   // Finds the extents of the borders. Each thread has its own list; the largest number is the same in any order.
-  void look_at_borders() {
+  void find_border_extents() {
     tbb::enumerable_thread_specific<std::vector<double>> lists(
         [&] { return std::vector<double>(farthest_.size(), -std::numeric_limits<double>::infinity()); });
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.borders.size(), 1024), [&](const auto& range) {
       std::vector<double>& farthest = lists.local();
-      for (std::size_t n = range.begin(); n != range.end(); ++n) look_at(s_.borders[n], farthest);
+      for (std::size_t n = range.begin(); n != range.end(); ++n) include(s_.borders[n], farthest);
     });
     for (const std::vector<double>& list : lists)
       for (std::size_t c = 0; c < list.size(); ++c) farthest_[c].border = std::max(farthest_[c].border, list[c]);
   }
 
-  void look_at(const Border& border, std::vector<double>& farthest) const {
+  void include(const Border& border, std::vector<double>& farthest) const {
     const std::uint32_t face = border.face[0] != kNone ? border.face[0] : border.face[1];
     if (face == kNone) return;
     double& best = farthest[s_.faces[face].component];
@@ -212,15 +212,15 @@ class SideTest {
   // Returns the extent that a pole must exceed to matter: a convex pole that of the borders, a concave pole also that
   // of the convex poles.
   static double threshold(const Farthest& farthest, double Farthest::*which) {
-    const double beside = which == &Farthest::concave ? std::max(farthest.convex, farthest.border) : farthest.border;
-    return std::max(farthest.*which, beside);
+    const double others = which == &Farthest::concave ? std::max(farthest.convex, farthest.border) : farthest.border;
+    return std::max(farthest.*which, others);
   }
 
   // Finds the extents of the poles in one table of patches. `ball_of` returns the sphere of a patch, `without_pole` is
   // true if the patch's planes cut off the pole.
   template <typename Patch, typename BallOf, typename WithoutPole>
-  void look_at_poles(const std::vector<Patch>& patches, const BallOf& ball_of, const WithoutPole& without_pole,
-                     double Farthest::*which) {
+  void find_pole_extents(const std::vector<Patch>& patches, const BallOf& ball_of, const WithoutPole& without_pole,
+                         double Farthest::*which) {
     tbb::enumerable_thread_specific<std::vector<std::uint32_t>> lists;  // patches that contain their pole
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, patches.size(), 64), [&](const auto& range) {
       for (std::size_t n = range.begin(); n != range.end(); ++n) {

@@ -34,10 +34,10 @@ bool reaches(const CuspProblem& problem, std::uint32_t s, const glm::dvec3& othe
   return geometry::reaches_bisector(reach, problem.probe_radius, distance);
 }
 
-void settle_neighbors(const CuspProblem& problem, CutLists& cuts) {
-  CutLists settled;
-  settled.first.assign(1, 0);
-  settled.probe.reserve(cuts.probe.size());
+void correct_neighbors(const CuspProblem& problem, CutLists& cuts) {
+  CutLists corrected;
+  corrected.first.assign(1, 0);
+  corrected.probe.reserve(cuts.probe.size());
   std::vector<std::uint32_t> list;
   for (std::uint32_t s = 0; s < problem.count(); ++s) {
     const auto known = cuts.of(s);
@@ -48,10 +48,10 @@ void settle_neighbors(const CuspProblem& problem, CutLists& cuts) {
     }
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
-    settled.probe.insert(settled.probe.end(), list.begin(), list.end());
-    settled.first.push_back(static_cast<std::uint32_t>(settled.probe.size()));
+    corrected.probe.insert(corrected.probe.end(), list.begin(), list.end());
+    corrected.first.push_back(static_cast<std::uint32_t>(corrected.probe.size()));
   }
-  cuts = std::move(settled);
+  cuts = std::move(corrected);
 }
 
 std::vector<std::array<std::uint32_t, 2>> mutual_pairs(const CutLists& cuts) {

@@ -91,7 +91,7 @@ bool reaches(const CuspProblem& problem, std::uint32_t s, const glm::dvec3& othe
 /// probes nearly coincide. Partners on a spindle circle always cut each other, because both patches end in its axis
 /// cusps. The probes at the ends of an arc of at most half a turn, on a circle as large as the probe, never cut each
 /// other, because every point nearer to the other probe lies past the axis.
-void settle_neighbors(const CuspProblem& problem, CutLists& cuts);
+void correct_neighbors(const CuspProblem& problem, CutLists& cuts);
 
 /// Returns the pairs s < t in which each probe is in the other's list.
 std::vector<std::array<std::uint32_t, 2>> mutual_pairs(const CutLists& cuts);

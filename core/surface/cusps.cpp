@@ -60,7 +60,7 @@ class CuspSearch {
     find_gaps();
     CutLists cuts = tracer.list_cuts(problem_);
     if (within_) keep_cuts_within_components(cuts);
-    settle_neighbors(problem_, cuts);
+    correct_neighbors(problem_, cuts);
     adopt_all(tracer.trace(problem_, cuts));
     std::sort(found_.begin(), found_.end(), [](const FoundArc& a, const FoundArc& b) {
       return std::tie(a.arc.probe, a.by) < std::tie(b.arc.probe, b.by);

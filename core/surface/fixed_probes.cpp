@@ -196,7 +196,7 @@ class Placement {
       }
     }
     for (const Members& cluster : members_)
-      if (!cluster.more.empty()) settle(cluster);
+      if (!cluster.more.empty()) place_members(cluster);
     if (std::ranges::any_of(height_, [](double h) { return geometry::is_flat(h); }))
       parts_.exact_within = std::max(parts_.exact_within, geometry::kLargestGrowth);
   }
@@ -224,7 +224,7 @@ class Placement {
 
   // Places all members of a merged probe at the position of the member that is highest over its atoms, because that
   // position is the most accurate.
-  void settle(const Members& cluster) {
+  void place_members(const Members& cluster) {
     std::uint32_t sharpest = cluster.first;
     for (const std::uint32_t t : cluster.more)
       if (height_[t] > height_[sharpest]) sharpest = t;

@@ -114,7 +114,7 @@ class Measurement {
   // is known to lie inside or outside the face.
   double area_about_pole(const Face& face, const glm::dvec3& center, double radius, bool seen_from_inside,
                          std::vector<SphereArc>& loop) const {
-    const Antipode antipode = face.kind == PatchKind::concave ? beside_concave(s_.concave[face.patch])
+    const Antipode antipode = face.kind == PatchKind::concave ? outside_concave(s_.concave[face.patch])
                                                               : farthest_known(face, center, radius, loop);
     double area = antipode.inside ? 4 * std::numbers::pi : 0;
     for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
@@ -131,7 +131,7 @@ class Measurement {
 
   // A concave patch lies in a half-space of the probe: it is within all sides, hence behind the plane whose normal is
   // the sum of theirs. The patch is at least a quarter turn away from that normal.
-  Antipode beside_concave(const ConcavePatch& patch) const {
+  Antipode outside_concave(const ConcavePatch& patch) const {
     glm::dvec3 normal(0.0);
     for (std::uint32_t n = patch.first_plane; n < patch.first_plane + patch.side_count; ++n)
       normal += s_.planes[n].normal;

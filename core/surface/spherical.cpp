@@ -205,14 +205,14 @@ bool lies_left_of(std::span<const SphereArc> inner, std::span<const SphereArc> l
   bool left = false;
   // True if the point is as near to a corner of the loop as the clearest point is to the whole loop: then it is not
   // clearer.
-  const auto beside_corner = [&](const glm::dvec3& point) {
+  const auto near_corner = [&](const glm::dvec3& point) {
     return std::ranges::any_of(loop,
                                [&](const SphereArc& arc) { return !arc.whole && glm::dot(arc.to, point) >= nearest; });
   };
   for (const SphereArc& arc : inner)
     for (const double part : {0.5, 0.2, 0.8}) {
       const glm::dvec3 point = rotated(arc, part * arc.sweep);
-      if (beside_corner(point)) continue;
+      if (near_corner(point)) continue;
       const Side side = side_of_loop(point, loop);
       if (const double distance = side.distance(); distance > clearest) {
         clearest = distance;

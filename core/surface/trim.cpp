@@ -242,14 +242,14 @@ class ConvexTrimmer::Search {
 
   // Requests for bordering circles alone do not need the balls.
   const Balls& balls() const {
-    std::call_once(balls_asked_, [&] { balls_.emplace(*this); });
+    std::call_once(balls_made_, [&] { balls_.emplace(*this); });
     return *balls_;
   }
 
   const Surface& s_;
   AtomNumbers numbers_;
   double largest_;
-  mutable std::once_flag balls_asked_;
+  mutable std::once_flag balls_made_;
   mutable std::optional<Balls> balls_;
   std::vector<std::uint32_t> first_;
   std::vector<BorderArc> arcs_;

@@ -48,10 +48,10 @@ class ConvexTrimmer {
 
 /// Clip planes found on request, by a trimmer that the first request makes. Several threads may call all members at
 /// once.
-class PlanesWhenAsked final : public ConvexPlanes {
+class PlanesOnDemand final : public ConvexPlanes {
  public:
   /// Keeps references: surface and reduced surface must outlive this object.
-  PlanesWhenAsked(const Surface& surface, const ReducedSurface& rs) : s_(surface), rs_(rs) {}
+  PlanesOnDemand(const Surface& surface, const ReducedSurface& rs) : s_(surface), rs_(rs) {}
 
   std::vector<Plane> of(std::uint32_t convex, PlaneChoice choice) const override {
     return trimmer().planes_of(convex, choice);
@@ -62,13 +62,13 @@ class PlanesWhenAsked final : public ConvexPlanes {
 
  private:
   const ConvexTrimmer& trimmer() const {
-    std::call_once(asked_, [&] { trimmer_.emplace(s_, rs_); });
+    std::call_once(made_, [&] { trimmer_.emplace(s_, rs_); });
     return *trimmer_;
   }
 
   const Surface& s_;
   const ReducedSurface& rs_;
-  mutable std::once_flag asked_;
+  mutable std::once_flag made_;
   mutable std::optional<ConvexTrimmer> trimmer_;
 };
 

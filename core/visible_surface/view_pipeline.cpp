@@ -64,7 +64,7 @@ const GpuPack& ViewPipeline::prepare(const PictureFrame& frame, StageClock& cloc
 
 void ViewPipeline::prepare_once(const PictureFrame& frame, StageClock& clock) {
   if (!uploaded_) upload_atoms(clock);
-  look(frame, clock);
+  find_occluders(frame, clock);
   if (!all_probes_found_ || !visible_.keeps_all() || extent_ == Extent::paper) {
     all_probes_found_ = false;
     arcs_open_ = can_trust();
@@ -87,22 +87,22 @@ bool ViewPipeline::can_trust() const {
          probe_neighbors_.can_trust(probes_.capacity());
 }
 
-void ViewPipeline::ask(Readback& readback) {
+void ViewPipeline::request_counts(Readback& readback) {
   if (arcs_open_) {
-    visible_.ask(readback);
-    arcs_.ask(readback);
-    readback.ask(probe_counters_, 0, probe_counts_);
-    probe_neighbors_.ask(readback);
+    visible_.request_counts(readback);
+    arcs_.request_counts(readback);
+    readback.request(probe_counters_, 0, probe_counts_);
+    probe_neighbors_.request_counts(readback);
   }
-  if (primitives_open_) readback.ask(scene_.counters, 0, primitive_counts_);
+  if (primitives_open_) readback.request(scene_.counters, 0, primitive_counts_);
 }
 
-bool ViewPipeline::settle() {
+bool ViewPipeline::take_counts() {
   if (!arcs_open_ && !primitives_open_) return true;
-  bool had_room = !arcs_open_ || settle_arcs_and_probes();
+  bool had_room = !arcs_open_ || take_arc_counts();
   if (primitives_open_)
-    had_room =
-        settle_all({&scene_.primitives, &scene_.rows}, primitive_counts_) && primitive_counts_[2] == 0 && had_room;
+    had_room = take_list_counts({&scene_.primitives, &scene_.rows}, primitive_counts_) && primitive_counts_[2] == 0 &&
+               had_room;
   stats_.primitives = scene_.primitives.count();
   all_probes_found_ = had_room && (all_probes_found_ || visible_.keeps_all());
   arcs_open_ = primitives_open_ = false;
@@ -111,9 +111,9 @@ bool ViewPipeline::settle() {
 }
 
 // False if anything needs the host's attention; the repeated frame then finds out what.
-bool ViewPipeline::settle_arcs_and_probes() {
-  if (!visible_.settle() || !arcs_.settle() || !settle_all({&probes_}, probe_counts_) || !is_closed() ||
-      !probe_neighbors_.settle())
+bool ViewPipeline::take_arc_counts() {
+  if (!visible_.take_counts() || !arcs_.take_counts() || !take_list_counts({&probes_}, probe_counts_) || !is_closed() ||
+      !probe_neighbors_.take_counts())
     return false;
   stats_.kept_atoms = visible_.known();
   stats_.circles = arcs_.circles.stats();
@@ -138,9 +138,9 @@ void ViewPipeline::upload_atoms(StageClock& clock) {
 }
 
 // Group 1 (section 3.2 of the paper).
-void ViewPipeline::look(const PictureFrame& frame, StageClock& clock) {
+void ViewPipeline::find_occluders(const PictureFrame& frame, StageClock& clock) {
   const GpuStage stage(clock, "visible atoms");
-  visible_.look(atoms_, middle_, probe_radius_, frame, extent_ != Extent::visible || scene_.some_hidden);
+  visible_.begin_view(atoms_, middle_, probe_radius_, frame, extent_ != Extent::visible || scene_.some_hidden);
   visible_.draw_occluders(arcs_.neighbors.balls, atom_count(), scene_.tile_depths);
 }
 

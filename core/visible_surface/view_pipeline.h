@@ -61,8 +61,8 @@ class ViewPipeline final : public Drawable {
   /// Grows the radii slightly where ties keep the arcs around the view from closing (compute_surface.h). Throws
   /// OpenSurfaceError if that does not help, GpuError, CapacityError.
   const GpuPack& prepare(const PictureFrame& frame, StageClock& clock) override;
-  void ask(Readback& readback) override;
-  bool settle() override;
+  void request_counts(Readback& readback) override;
+  bool take_counts() override;
 
   /// Returns the statistics of the last picture.
   const ViewStats& stats() const { return stats_; }
@@ -71,9 +71,9 @@ class ViewPipeline final : public Drawable {
   void take_atoms(std::vector<Ball> atoms);
   void prepare_once(const PictureFrame& frame, StageClock& clock);
   bool can_trust() const;
-  bool settle_arcs_and_probes();
+  bool take_arc_counts();
   void upload_atoms(StageClock& clock);
-  void look(const PictureFrame& frame, StageClock& clock);
+  void find_occluders(const PictureFrame& frame, StageClock& clock);
   void keep_atoms(StageClock& clock);
   void find_arcs(StageClock& clock);
   void find_fixed_probes(const PictureFrame& frame, StageClock& clock);

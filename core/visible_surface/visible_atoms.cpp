@@ -38,8 +38,8 @@ bool VisibleAtoms::theorem_applies(std::span<const Ball> atoms, double probe_rad
   });
 }
 
-void VisibleAtoms::look(std::span<const Ball> atoms, const glm::dvec3& middle, double probe_radius,
-                        const PictureFrame& frame, bool keep_all) {
+void VisibleAtoms::begin_view(std::span<const Ball> atoms, const glm::dvec3& middle, double probe_radius,
+                              const PictureFrame& frame, bool keep_all) {
   probe_radius_ = static_cast<float>(probe_radius);
   const glm::dvec3 eye = frame.camera.position - middle;
   const double farthest = tbb::parallel_reduce(
@@ -115,16 +115,16 @@ std::uint32_t VisibleAtoms::keep(const Buffer& balls, const Buffer& balls_low, s
   trusted_ = counting == Counting::later ? most_kept(atom_count) : atom_count;
   if (counting == Counting::later) return trusted_;
   Readback readback;
-  ask(readback);
+  request_counts(readback);
   readback.read();
   return known_ = counted_;
 }
 
-void VisibleAtoms::ask(Readback& readback) {
-  readback.ask(before, before.byte_count() - sizeof counted_, {&counted_, 1});
+void VisibleAtoms::request_counts(Readback& readback) {
+  readback.request(before, before.byte_count() - sizeof counted_, {&counted_, 1});
 }
 
-bool VisibleAtoms::settle() {
+bool VisibleAtoms::take_counts() {
   if (counted_ > trusted_) return false;
   known_ = counted_;
   return true;

@@ -33,8 +33,8 @@ class VisibleAtoms {
   /// Starts one view of `atoms`, whose middle is `middle`; must come before everything else. Returns whether the
   /// theorem applies: an eye in the solid sees walls behind vdW spheres, and then all atoms are kept, as with
   /// `keep_all`.
-  void look(std::span<const Ball> atoms, const glm::dvec3& middle, double probe_radius, const PictureFrame& frame,
-            bool keep_all);
+  void begin_view(std::span<const Ball> atoms, const glm::dvec3& middle, double probe_radius, const PictureFrame& frame,
+                  bool keep_all);
 
   /// True if this view keeps all atoms.
   bool keeps_all() const { return view_.keep_all != 0; }
@@ -49,8 +49,8 @@ class VisibleAtoms {
   /// Returns that upper limit for this number of atoms.
   std::uint32_t most_kept(std::uint32_t atom_count) const { return std::min(atom_count, known_ + known_ / 8 + 64); }
   /// For Counting::later: requests the counts that the host needs, which also show whether the limit held.
-  void ask(Readback& readback);
-  bool settle();
+  void request_counts(Readback& readback);
+  bool take_counts();
   /// Returns the number as counted last.
   std::uint32_t known() const { return known_; }
 

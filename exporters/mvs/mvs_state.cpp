@@ -121,7 +121,7 @@ std::string timestamp() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtim
 
 }  // namespace
 
-json tree_of(const path_tracers::Scene& scene) {
+json tree_of(const path_tracers::PathTracerScene& scene) {
   json children = json::array({node("canvas", {{"background_color", "white"}}), camera_node(scene.camera)});
   for (const path_tracers::SceneItem& item : scene.items)
     for (json& group : nodes_of(item, scene.origin)) children.push_back(std::move(group));

@@ -28,7 +28,7 @@ struct Sequence {
 
 /// Returns the tree of a scene, in the molecule's coordinates rounded to 0.001 Å. The viewer computes normals and
 /// lights. Each triangle has one colour, the mean of the colours of its corners.
-nlohmann::json tree_of(const path_tracers::Scene& scene);
+nlohmann::json tree_of(const path_tracers::PathTracerScene& scene);
 
 /// Returns an archive for viewers (.mvsx). Equal states give equal bytes; the time in it is source_date(). states: at
 /// least one. Throws CapacityError for 4 GiB or more.

@@ -67,7 +67,7 @@ struct PageFigure {
   std::vector<ClipPlane> clip{};                             ///< cut it, at first
   CapStyle cap{};                                            ///< where they do
   bool thickens = false;                                     ///< PictureObject::thickens
-  std::vector<PageObject> beside{};                          ///< of atoms, too
+  std::vector<PageObject> extras{};                          ///< drawn in addition to the surface
   std::span<const Atom> atoms{};  ///< SurfaceObject::atom and those of shapes are places here
   Camera camera;                  ///< at first
   std::vector<PageView> views{};  ///< beside the first one

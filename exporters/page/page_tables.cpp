@@ -84,7 +84,7 @@ PictureFrame frame_around(const glm::dvec3& pivot) {
 /// The only one that there is beside 0.
 double probe_of(const PageFigure& figure) {
   double probe = figure.surface ? figure.surface->surface.probe_radius : 0.0;
-  for (const PageObject& object : figure.beside)
+  for (const PageObject& object : figure.extras)
     if (object.surface) probe = std::max(probe, object.surface->surface.probe_radius);
   return probe;
 }
@@ -115,7 +115,7 @@ Tables::Tables(const PageFigure& figure) : figure_(figure) {
     objects.emplace_back().surface = &figure.surface->surface;
     objects.back().coloring = &figure.surface->coloring;
   }
-  for (const PageObject& object : figure.beside) {
+  for (const PageObject& object : figure.extras) {
     PictureObject& made = objects.emplace_back();
     if (object.surface) made.surface = &object.surface->surface;
     if (object.shapes) made.shapes = &object.shapes->shapes;
@@ -130,7 +130,7 @@ Tables::Tables(const PageFigure& figure) : figure_(figure) {
                         static_cast<float>(ball.radius));
   // What planes cut is packed whole: the points of hidden atoms, too, tell what is solid.
   if (figure.surface) add_surface(*figure.surface, has_cuts(figure), figure.has_own_colors ? kHasOwnColors : 0);
-  for (const PageObject& object : figure.beside) {
+  for (const PageObject& object : figure.extras) {
     if (object.surface)
       add_surface(*object.surface, false, kIsBeside | (object.has_own_colors ? kHasOwnColors : 0));
     else
@@ -216,10 +216,10 @@ void Tables::add_surface(const SurfaceObject& object, bool whole, std::uint32_t 
 }
 
 void Tables::add_shapes(const ColoredShapes& shapes) {
-  RayCastPack beside;
-  pack_shapes(shapes.shapes, shapes.coloring, frame_, placement_.slack, beside);
+  RayCastPack extras;
+  pack_shapes(shapes.shapes, shapes.coloring, frame_, placement_.slack, extras);
   // A sphere of its own is told from the patch of an atom by its index.
-  add_records(std::move(beside), kShapeIndex);
+  add_records(std::move(extras), kShapeIndex);
   std::vector<std::uint32_t> all(shapes.coloring.atom.size());
   for (std::uint32_t n = 0; n < all.size(); ++n) all[n] = n;
   add_atoms(shapes.coloring, all);

@@ -95,7 +95,7 @@ bool is_cut_or_seen_through(const PictureObject& object) { return object.surface
 
 /// Where the objects of a picture stand in a page. Throws RequestError for two that are cut or seen through, and for
 /// probes that differ.
-void place_objects(const std::vector<PictureObject>& objects, const SurfaceObject& whole, const BesideSurface& beside,
+void place_objects(const std::vector<PictureObject>& objects, const SurfaceObject& whole, const FigureExtras& extras,
                    const FigureRequest& request, PageFigure& shown) {
   const auto refuse = [](const char* why) {
     throw RequestError(fmt::format("{}: pages show {}; make them alike, or use render", option_name("object"), why));
@@ -115,18 +115,18 @@ void place_objects(const std::vector<PictureObject>& objects, const SurfaceObjec
       return object->surface ? other.surface && &other.surface->surface == object->surface
                              : &other.shapes.shapes == object->shapes;
     };
-    const auto own = std::ranges::find_if(beside.objects, same);
-    if (own != beside.objects.end())
+    const auto own = std::ranges::find_if(extras.objects, same);
+    if (own != extras.objects.end())
       made = {own->surface ? &*own->surface : nullptr, own->surface ? nullptr : &own->shapes,
-              request.objects[static_cast<std::size_t>(own - beside.objects.begin())].color.has_value()};
+              request_of(request.objects, static_cast<std::size_t>(own - extras.objects.begin())).has_own_colors()};
     else
-      made = {object->surface ? &whole : nullptr, object->shapes ? &beside.shapes : nullptr, false};
+      made = {object->surface ? &whole : nullptr, object->shapes ? &extras.shapes : nullptr, false};
     if (object->surface && object->surface->probe_radius > 0.0) {
       if (probe && *probe != object->surface->probe_radius) refuse("surfaces of one probe, not of several");
       probe = object->surface->probe_radius;
     }
     if (object != main) {
-      shown.beside.push_back(made);
+      shown.extras.push_back(made);
       continue;
     }
     shown.surface = made.surface;
@@ -150,24 +150,24 @@ const Coloring& coloring_of(const PageObject& object) {
 void add_schemes(const std::vector<OtherColors>& others, const Figure& figure, const FigureRequest& request,
                  const SurfaceObject& whole, PageFigure& shown) {
   const Structure& structure = figure.molecule.structure;
-  std::vector<PageObject> parts = shown.beside;
+  std::vector<PageObject> parts = shown.extras;
   if (shown.surface) parts.insert(parts.begin(), {shown.surface, nullptr, false});
   std::vector<const Coloring*> own;
   for (const PageObject& part : parts) own.push_back(&coloring_of(part));
-  BesideSurface beside = figure.beside;
+  FigureExtras extras = figure.extras;
   // What is the n-th object here was so there.
   const auto there = [&](const PageObject& part) -> const Coloring& {
-    if (part.shapes == &figure.beside.shapes) return beside.shapes.coloring;
-    for (std::size_t n = 0; n < beside.objects.size(); ++n) {
-      const FigureObject& here = figure.beside.objects[n];
-      if (part.shapes == &here.shapes) return beside.objects[n].shapes.coloring;
-      if (here.surface && part.surface == &*here.surface) return beside.objects[n].surface->coloring;
+    if (part.shapes == &figure.extras.shapes) return extras.shapes.coloring;
+    for (std::size_t n = 0; n < extras.objects.size(); ++n) {
+      const FigureObject& here = figure.extras.objects[n];
+      if (part.shapes == &here.shapes) return extras.objects[n].shapes.coloring;
+      if (here.surface && part.surface == &*here.surface) return extras.objects[n].surface->coloring;
     }
     throw std::logic_error("the page has a part that its figure lacks");
   };
   for (const OtherColors& other : others)
     shown.more_schemes.push_back(scheme_at(other, own, [&] {
-      color_beside(structure, request, other.scheme, beside);
+      color_extras(structure, request, other.scheme, extras);
       std::vector<Coloring> made;
       for (const PageObject& part : parts)
         made.push_back(part.surface == &whole ? color_object(structure, whole.atom, other.scheme, 0) : there(part));
@@ -207,13 +207,13 @@ void check_scene(const Scene& scene) {
                                    option_name("clip"), kMostPlanes, scene.figure.cuts.size()));
 }
 
-std::vector<OtherColors> other_colors(const Structure& structure, const ColorScheme& asked,
+std::vector<OtherColors> other_colors(const Structure& structure, const ColorScheme& requested,
                                       const std::function<void(ColorScheme&)>& measure) {
   std::vector<OtherColors> others;
   for (const char* const word :
        {"element", "chain", "residue", "secondary", "kind", "hydrophobicity", "bfactor", "charge", "rainbow"}) {
     ColorScheme scheme = parse_color_scheme(word).value();
-    if (scheme.by == asked.by && asked.rules.empty()) continue;
+    if (scheme.by == resolved_scheme(structure, requested.by) && requested.rules.empty()) continue;
     try {
       if (measure) measure(scheme);
       ColorKey key = color_key(structure, scheme);
@@ -240,8 +240,7 @@ PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& fra
   // Colours by a scale are those of its legend, so that a scheme may have a look of its own.
   const auto look_by = [&](ColorScheme scheme) {
     scheme.opacities = scene.molecule.color.opacities;
-    return look_of(scene.look, shown.size, scene.image.background,
-                   hues_of(scheme, scene.legend.asked(), uses_atoms(scene.figure.cuts)),
+    return look_of(scene.look, shown.size, scene.image.background, hues_of(scheme, uses_atoms(scene.figure.cuts)),
                    scene.molecule.patches.has_value());
   };
   shown.look = look_by(scene.molecule.color);
@@ -252,12 +251,13 @@ PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& fra
   shown.facts = facts_of(figure.molecule, surface, scene);
   shown.facts.insert(shown.facts.end(), frame.facts.begin(), frame.facts.end());
   const std::vector<PictureObject> objects =
-      picture_objects(surface.surface, surface.coloring, scene.figure, &figure.beside, frame.camera, balls);
-  place_objects(objects, surface, figure.beside, scene.figure, shown);
+      picture_objects(surface.surface, surface.coloring, scene.figure, &figure.extras, frame.camera, balls);
+  place_objects(objects, surface, figure.extras, scene.figure, shown);
   const Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);
   shown.labels = annotations.labels;
   shown.atoms = atoms;
-  const ColorScheme& scheme = figure.molecule.color;
+  ColorScheme scheme = figure.molecule.color;
+  scheme.by = resolved_scheme(figure.molecule.structure, scheme.by);
   shown.scheme = scheme.by == ColorScheme::By::fixed || !scheme.rules.empty() ? "given" : scheme_word(scheme);
   add_schemes(frame.others, figure, scene.figure, surface, shown);
   for (std::size_t n = 0; n < frame.others.size(); ++n)
@@ -267,14 +267,14 @@ PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& fra
   return pack_frame(shown);
 }
 
-std::string scene_page(const Scene& asked) {
-  check_scene(asked);
-  SceneFigure made = made_figure(asked, nullptr);
+std::string scene_page(const Scene& requested) {
+  check_scene(requested);
+  SceneFigure made = made_figure(requested, nullptr);
   const Camera camera = made.aim.camera(made.scene.picture, made.given.still, made.aim.viewed(made.figure));
   const Molecule& molecule = made.figure.molecule;
   const SceneFrame frame{camera,
                          {},
-                         key_of(molecule, made.scene.figure, made.figure.beside),
+                         key_of(molecule, made.scene.figure, made.figure.extras),
                          other_colors(molecule.structure, molecule.color),
                          {}};
   PageWriter page;
@@ -305,12 +305,12 @@ std::string surface_page(const Surface& surface, const Coloring& colors, const S
   shown.fades_always = look.look.depth_cue.has_value();
   shown.scheme = "given";
   if (structure)
-    for (const OtherColors& other : other_colors(*structure, {})) {
+    for (const OtherColors& other : other_colors(*structure, {.by = ColorScheme::By::element})) {
       shown.more_schemes.push_back(scheme_at(
           other, {&colors}, [&] { return std::vector{color_object(*structure, object.atom, other.scheme, 0)}; }));
       if (other.scheme.uses_scale())
         shown.more_schemes.back().look =
-            look_of(look.look, shown.size, look.image.background, hues_of(other.scheme, false, false));
+            look_of(look.look, shown.size, look.image.background, hues_of(other.scheme, false));
     }
   std::vector<PictureObject> objects(1);
   objects.front().surface = &object.surface;

@@ -37,7 +37,7 @@ struct OtherColors {
 
 /// Those schemes that need nothing but the file. structure: with all atoms that any frame may have. measure: takes from
 /// all frames what the colours of a scheme mean in each; nothing: there is one frame.
-std::vector<OtherColors> other_colors(const Structure& structure, const ColorScheme& asked,
+std::vector<OtherColors> other_colors(const Structure& structure, const ColorScheme& requested,
                                       const std::function<void(ColorScheme&)>& measure = {});
 
 /// What a page has of a scene at one frame, beside the figure.

@@ -30,7 +30,7 @@ void include_places(const SceneItem& item, const Include& include) {
 
 }  // namespace
 
-Extent extent_of(const Scene& scene) {
+Extent extent_of(const PathTracerScene& scene) {
   Box box;
   for (const SceneItem& item : scene.items)
     include_places(item, [&](const glm::dvec3& x, double radius) {
@@ -40,7 +40,7 @@ Extent extent_of(const Scene& scene) {
   return {0.5 * (box.low + box.high), 0.5 * glm::length(box.high - box.low)};
 }
 
-Lights lights_of(const Scene& scene) {
+Lights lights_of(const PathTracerScene& scene) {
   const ViewBasis view = view_basis(scene.camera);
   const auto from = [&](double x, double y, double z) {
     return glm::normalize(x * view.right + y * view.up - z * view.forward);

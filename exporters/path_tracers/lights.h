@@ -40,11 +40,11 @@ struct Extent {
   double radius = 1.0;     ///< Å
 };
 /// Returns a ball around all copies of all items.
-Extent extent_of(const Scene& scene);
+Extent extent_of(const PathTracerScene& scene);
 
 /// Returns the lights of a scene, at fixed directions relative to the camera. Glass reflects and refracts its
 /// surroundings, so it gets softboxes; all other materials get distant lights.
-Lights lights_of(const Scene& scene);
+Lights lights_of(const PathTracerScene& scene);
 
 /// The index of refraction of glass, and its absorption coefficient in 1/Å, as in the POV-Ray scene.
 inline constexpr double kGlassIor = 1.45;

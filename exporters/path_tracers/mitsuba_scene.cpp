@@ -48,7 +48,7 @@ std::string look_at(const glm::dvec3& origin, const glm::dvec3& forward, const g
 
 class MitsubaWriter {
  public:
-  MitsubaWriter(const Scene& scene, std::string name)
+  MitsubaWriter(const PathTracerScene& scene, std::string name)
       : scene_(scene), name_(std::move(name)), extent_(extent_of(scene)), basis_(view_basis(scene.camera)) {}
 
   std::string write() {
@@ -216,7 +216,7 @@ class MitsubaWriter {
 
   static constexpr double kNearClip = 0.01;  // Å; must not be 0
 
-  const Scene& scene_;
+  const PathTracerScene& scene_;
   std::string name_;
   Extent extent_;
   ViewBasis basis_;
@@ -228,6 +228,8 @@ class MitsubaWriter {
 
 }  // namespace
 
-std::string mitsuba_text(const Scene& scene, const std::string& name) { return MitsubaWriter(scene, name).write(); }
+std::string mitsuba_text(const PathTracerScene& scene, const std::string& name) {
+  return MitsubaWriter(scene, name).write();
+}
 
 }  // namespace meniscus::path_tracers

@@ -69,8 +69,8 @@ enum class Material {
   wax       ///< light scatters below the surface
 };
 
-/// A whole scene.
-struct Scene {
+/// A whole scene for a path tracer.
+struct PathTracerScene {
   std::vector<SceneItem> items;
   glm::dvec3 origin{0.0};          ///< origin of its coordinates in the molecule's coordinates, Å
   Camera camera;                   ///< in the molecule's coordinates
@@ -80,11 +80,11 @@ struct Scene {
 
 /// Returns the scene for Mitsuba 3 (W. Jakob et al., "Mitsuba 3 renderer", 2022; its documentation, "Scene XML file
 /// format"). Meshes are counted from 1 over all items; mesh n is the file <name>_<n>.ply with colours of vertices.
-std::string mitsuba_text(const Scene& scene, const std::string& name);
+std::string mitsuba_text(const PathTracerScene& scene, const std::string& name);
 
 /// Returns the scene for pbrt-v4 (M. Pharr, W. Jakob & G. Humphreys, "Physically based rendering", 4th edition, 2023;
 /// its documentation, "pbrt-v4 input file format"). Mesh files are named as for Mitsuba. Each mesh must have a single
 /// colour (split_colors()).
-std::string pbrt_text(const Scene& scene, const std::string& name);
+std::string pbrt_text(const PathTracerScene& scene, const std::string& name);
 
 }  // namespace meniscus::path_tracers

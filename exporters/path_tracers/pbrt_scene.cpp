@@ -46,7 +46,7 @@ glm::dmat3 axes_along(const glm::dvec3& z) {
 
 class PbrtWriter {
  public:
-  PbrtWriter(const Scene& scene, std::string name) : scene_(scene), name_(std::move(name)) {}
+  PbrtWriter(const PathTracerScene& scene, std::string name) : scene_(scene), name_(std::move(name)) {}
 
   std::string write() {
     begin();
@@ -184,7 +184,7 @@ class PbrtWriter {
                   fmt::format("ObjectInstance \"object_{}\"", n + 1)});
   }
 
-  const Scene& scene_;
+  const PathTracerScene& scene_;
   std::string name_;
   std::string text_;
   std::size_t meshes_ = 0;
@@ -193,6 +193,6 @@ class PbrtWriter {
 
 }  // namespace
 
-std::string pbrt_text(const Scene& scene, const std::string& name) { return PbrtWriter(scene, name).write(); }
+std::string pbrt_text(const PathTracerScene& scene, const std::string& name) { return PbrtWriter(scene, name).write(); }
 
 }  // namespace meniscus::path_tracers

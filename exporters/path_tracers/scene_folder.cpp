@@ -214,8 +214,8 @@ void write_mesh(OutputFile& file, const SceneMesh& mesh, bool with_colors) {
 
 }  // namespace
 
-SceneReport write_scene(const Scene& given, const SceneTarget& target) {
-  Scene scene = given;
+SceneReport write_scene(const PathTracerScene& given, const SceneTarget& target) {
+  PathTracerScene scene = given;
   std::erase_if(scene.items, [](const SceneItem& item) { return item.empty(); });
   if (scene.items.empty()) throw RequestError("no part of the surface is shown, so there is no scene to write");
   OutputFolder output(target.folder, target.existing);

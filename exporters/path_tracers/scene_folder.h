@@ -54,7 +54,7 @@ struct SceneReport {
 
 /// Writes <name>.xml or <name>.pbrt, and <name>_1.ply and so on, all or none. Throws RequestError if the scene shows
 /// nothing, and OutputError.
-SceneReport write_scene(const Scene& scene, const SceneTarget& target);
+SceneReport write_scene(const PathTracerScene& scene, const SceneTarget& target);
 
 /// Splits a mesh into meshes of one colour, in the order in which colours occur. Colours are rounded to 8 bits per
 /// channel of sRGB, and colours that then agree are one. All corners of a triangle must have one colour.

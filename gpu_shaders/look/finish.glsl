@@ -90,9 +90,12 @@ GEOMETRY real step_ink(pixel_row a, real depth_a, pixel_row b, real depth_b) {
   return select(depth_a == real(kNothing) && depth_b == real(kNothing), real(0.0), ink);
 }
 
-// True if two points belong to different parts. A mark is four times the number of the part, plus 2 on a surface that
-// has patches, or plus 3 in a patch.
-GEOMETRY truth parts_differ(integer mark_a, integer mark_b) { return (mark_a >> 2) != (mark_b >> 2); }
+// True if a line separates two points because they belong to different parts. A mark is four times the number of the
+// part, plus 2 on a surface that has patches, plus 3 in a patch, or plus 1 on a cap that has one colour for all parts.
+GEOMETRY truth parts_differ(integer mark_a, integer mark_b) {
+  truth separable = (mark_a & 3) != 1 && (mark_b & 3) != 1;
+  return separable && (mark_a >> 2) != (mark_b >> 2);
+}
 
 // True if the border of a patch runs between two pixels that have hits: both are on the surface with patches, the
 // surface is continuous between them, and exactly one of them is in a patch.

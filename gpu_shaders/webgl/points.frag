@@ -87,7 +87,7 @@ void main() {
 #ifdef LAYERS
   if (met.y == kOnPlane) {
     albedo = on_cap(albedo, x, met.z);
-    mark &= ~3u;  // caps have no patches
+    mark = (mark & ~3u) | (cap_color.a > 0.0 ? 1u : 0u);  // caps have no patches, and lines only between colours
   }
   alpha = of_atom.a * surface_opacity;
   if (thickens > 0.0 && alpha > 0.0 && alpha < 1.0) alpha = film_opacity(alpha, uintBitsToFloat(met.w));

@@ -18,7 +18,7 @@ TOKEN = re.compile(
     r'//[^\n]*|/\*.*?\*/|R"(\w*)\((.*?)\)\1"|\'(?:\\.|[^\'\\\n])\'|"((?:\\.|[^"\\\n])*)"|#include[^\n]*|[A-Za-z_]\w*'
     r'|\d[\w\'.]*|\s+|.', re.S)
 #: What makes the statement around a text one that says it to people.
-SAYS = re.compile(r"throw|return|fail|fault|refuse|warn|note|say|complain|trouble|error|why|reason|notes|hints|advice"
+SAYS = re.compile(r"throw|return|fail|fault|refuse|warn|note|say|log_line|complain|trouble|error|why|reason|notes|hints|advice"
                   r"|Error|emplace_back|push_back|missing|advice", re.I)
 #: What a text of a generated file or a table of help begins with.
 GENERATED = re.compile(r"\s*(<|#|//|\$|\{|ply\\n|[a-z]+ \\\"|%)")

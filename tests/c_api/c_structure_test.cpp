@@ -178,6 +178,19 @@ TEST_F(CStructure, TakesWhatTheOptionsSay) {
   EXPECT_EQ(column<std::uint32_t>(structure_of(path, &options), MENISCUS_STRUCTURE_COPIES)[4], 1u);
 }
 
+TEST_F(CStructure, LeavesLigandsOfAPolymerOutUnlessAtomsAreSelected) {
+  std::string text = kMolecule;
+  text.insert(text.find("ENDMDL"),
+              "HETATM    8  C1  LIG A 301      50.000   0.000   0.000  1.00 25.00           C  \n");
+  const std::string with_ligand = folder.file("ligand.pdb", text);
+  meniscus_read_options options = reading();
+  EXPECT_EQ(texts(structure_of(with_ligand, &options), MENISCUS_STRUCTURE_NAMES),
+            (std::vector<std::string>{"N", "CA", "H", "N"}));
+  options.select = "all";
+  EXPECT_EQ(texts(structure_of(with_ligand, &options), MENISCUS_STRUCTURE_NAMES),
+            (std::vector<std::string>{"N", "CA", "H", "N", "C1"}));
+}
+
 TEST_F(CStructure, TakesRadiiFromFilesAndExpressions) {
   const std::string table = folder.file("table.txt", "ALA N 1.9\n* CA 2.1\n");
   const char* const tables[] = {table.c_str()};

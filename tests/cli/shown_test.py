@@ -148,6 +148,33 @@ class BeforeWork(Workplace):
         self.assertEqual(len(list(self.folder.glob("g_*.png"))), 4)
         self.refused(2, "--repeat", "export", "povray", "slab.pdb", "--turntable", "1", "-o", "scene")
 
+    def test_a_film_has_the_size_of_a_screen(self):
+        def size(name):
+            done = subprocess.run(["ffprobe", "-v", "error", "-show_entries", "stream=width,height", "-of", "csv=p=0", name],
+                                  cwd=self.folder, capture_output=True, text=True, check=True)
+            return done.stdout.strip()
+
+        turn = ["render", "slab.pdb", "--turntable", "1", "--fps", "0.5", "--samples", "1", "--device", "cpu"]
+        self.made(*turn, "-o", "a.mp4", "--save-scene", "a.json")
+        self.made(*turn, "-o", "a.gif")
+        self.made(*turn, "-o", "b.mp4", "--width", "128px")
+        self.assertEqual([size(name) for name in ("a.mp4", "a.gif", "b.mp4")], ["1920,1080", "960,540", "128,96"])
+        self.assertEqual(json.loads((self.folder / "a.json").read_text())["image"]["size"], "1920x1080")
+
+    def test_one_ligand_of_several_is_looked_into(self):
+        far = [("C1", "LIG", chain, 90, (4.5, 4.5 + y, 5.0)) for chain, y in (("L", 0.0), ("M", 40.0))]
+        self.write("far.pdb", pdb(slab() + slab(z=10.0, chain="B") + far))
+        look = ["render", "far.pdb", "--select", "polymer", "--sticks", "ligand", "--color", "grey", "--color", "ligand=red", *SMALL]
+        said = self.made(*look, "--look-into", "ligand", "-o", "a.png", "--save-scene", "a.json")
+        self.assertIn("'ligand' is at several places, the first two 40 Å apart, and the first is shown; name one, such as "
+                      "'resid 90 and chain M'", said)
+        self.made(*look, "--look-into", "chain L", "-o", "b.png")
+        self.made("render", "--scene", "a.json", "-o", "c.png")
+        self.assertTrue((self.pixels("a.png") == self.pixels("b.png")).all())
+        self.assertTrue((self.pixels("a.png") == self.pixels("c.png")).all())
+        self.assertIn("the picture has all of them", self.made(*look, "--zoom-to", "ligand", "-o", "d.png"))
+        self.assertNotIn("places", self.made(*look, "--zoom-to", "polymer", "-o", "e.png"))
+
     def test_pictures_that_take_hours(self):
         huge = self.scene("huge.json", image={"size": "65535x65535", "samples": 1024})
         for words in (["render", "--scene", huge], ["film", huge, huge], ["panels", huge, huge]):

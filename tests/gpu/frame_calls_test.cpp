@@ -197,7 +197,7 @@ TEST_F(FrameCalls, HostsPartOfAFrame) {
     EXPECT_LT(still, 2.0 + 1e-4 * count);
     EXPECT_LT(moving, 5.0 + 6e-4 * count);
     plan({});
-    WorkProof::current().settle();
+    WorkProof::current().resync();
   }
 }
 

@@ -65,7 +65,7 @@ TEST_F(GpuCore, HardwareAskedForIsHardwareOrAnError) {
 TEST_F(GpuCore, HearsOfResets) {
   const std::optional<ForeignContext> current = current_egl_context();
   ASSERT_TRUE(current);
-  if (!current->tells_resets) GTEST_SKIP() << context_.renderer() << " cannot tell";
+  if (!current->reports_resets) GTEST_SKIP() << context_.renderer() << " cannot tell";
   EXPECT_NO_THROW(require_living_context());
 }
 

@@ -132,7 +132,7 @@ class LostWork : public ::testing::Test {
         EXPECT_LE(lost, outcome.gpu_error) << "a lost context unnoticed at " << n;
         found_out += outcome.gpu_error;
         plan({});
-        WorkProof::current().settle();  // as a new context would have it
+        WorkProof::current().resync();  // as a new context would have it
       }
     }
     EXPECT_GT(found_out, static_cast<int>(dispatches));
@@ -231,7 +231,7 @@ TEST_F(LostWork, OfGroupsThatTheGpuCounts) {
       plan({Kind::drop_one, lost});
       EXPECT_THROW(run(times), GpuError) << lost << " of " << times;
       plan({});
-      WorkProof::current().settle();
+      WorkProof::current().resync();
     }
   }
 }
@@ -249,7 +249,7 @@ TEST_F(LostWork, AnAccountThatCannotBeReadProvesNothing) {
     plan({Kind::no_reads});
     EXPECT_THROW(WorkProof::current().verify(), GpuError);
     plan({});
-    EXPECT_EQ(WorkProof::current().settle().finished, 2u);
+    EXPECT_EQ(WorkProof::current().resync().finished, 2u);
   }
 }
 

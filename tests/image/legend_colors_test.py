@@ -114,6 +114,21 @@ class LegendColors(unittest.TestCase):
         found = self.places(faded)
         self.assertGreater(abs(found[-1] - 1.0) + abs(found[-2] - NUMBERS[-2] / NUMBERS[-1]), 0.0)
 
+    def test_a_legend_does_not_change_the_molecule(self):
+        with tempfile.TemporaryDirectory() as folder:
+            molecule = pathlib.Path(folder) / "spheres.pdb"
+            molecule.write_text(spheres())
+            for scheme in ("chain", "bfactor"):
+                for preset in ("publication", "cover", "soft", "classic"):
+                    pictures = []
+                    for legend in ([], ["--legend-file", pathlib.Path(folder) / "legend.png"]):
+                        picture = pathlib.Path(folder) / "picture.png"
+                        subprocess.run([PROGRAM, "render", molecule, "-o", picture, "--force", "--color", scheme, "--preset", preset,
+                                        "--background", "white", "--size", "200x150", *legend], check=True, capture_output=True)
+                        pictures.append(picture_of(picture))
+                    with self.subTest(scheme=scheme, preset=preset):
+                        self.assertTrue((pictures[0] == pictures[1]).all())
+
     def test_the_classes_of_confidence_have_exactly_their_colours(self):
         """Unlit, each sphere has the colour of its class, and so has a box of the legend."""
         wanted = [(0x00, 0x53, 0xD6), (0x65, 0xCB, 0xF3), (0xFF, 0xDB, 0x13), (0xFF, 0x7D, 0x45)]

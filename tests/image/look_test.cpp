@@ -442,10 +442,11 @@ TEST_F(Looks, PresentedPicturesAreThePictureOverItsBackground) {
 
 // What covers already what lies in it shall not fade it, too.
 TEST(LookOfASeenThroughSurface, HasNoDepthCueUnlessItIsAskedFor) {
-  const auto look = [](std::initializer_list<const char*> opacities, const LookRequest& request = {}) {
+  constexpr glm::vec3 kPaper(1.0f);
+  const auto look = [&](std::initializer_list<const char*> opacities, const LookRequest& request = {}) {
     ColorScheme color;
     for (const char* rule : opacities) color.opacities.push_back(parse_opacity_rule(rule));
-    return look_of(request, {640, 480}, {}, hues_of(color, false, false));
+    return look_of(request, {640, 480}, kPaper, hues_of(color, false));
   };
   const Look opaque = look({});
   EXPECT_GT(opaque.depth_cue, 0.0f);
@@ -458,6 +459,26 @@ TEST(LookOfASeenThroughSurface, HasNoDepthCueUnlessItIsAskedFor) {
   LookRequest asked;
   asked.depth_cue = 0.2f;
   EXPECT_EQ(look({"0.3"}, asked).depth_cue, 0.2f);
+}
+
+TEST(LookOfAPreset, FadesLittleAndNotAtAllWithoutABackground) {
+  LookRequest request;
+  for (const LookPreset preset : {LookPreset::publication, LookPreset::cover, LookPreset::soft}) {
+    request.preset = preset;
+    EXPECT_EQ(look_of(request, {640, 480}, glm::vec3(1.0f), Hues::free).depth_cue, 0.1f);
+    EXPECT_EQ(look_of(request, {640, 480}, {}, Hues::free).depth_cue, 0.0f);
+  }
+  request.depth_cue = 0.3f;
+  EXPECT_EQ(look_of(request, {640, 480}, {}, Hues::free).depth_cue, 0.3f);
+}
+
+TEST(LookOfNumbers, TakesLessLightFromDarkColors) {
+  ColorScheme color;
+  const Look free = look_of({}, {640, 480}, {}, hues_of(color, false));
+  color.by = ColorScheme::By::bfactor;
+  const Look kept = look_of({}, {640, 480}, {}, hues_of(color, false));
+  EXPECT_LT(kept.ambient_occlusion, free.ambient_occlusion);
+  EXPECT_GT(kept.material.ambient, free.material.ambient);
 }
 
 }  // namespace

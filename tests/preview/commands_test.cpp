@@ -28,7 +28,7 @@ TEST(PreviewCommands, MakeAnotherStateAndLeaveTheOneTheyGet) {
   Exporter exporter{folder.path(), {}};
   const EditHistory history;
   const auto told = [&](const PreviewState& one) {
-    return tell_state(CommandReader(Json::object()), {one, state, history, molecule, pictures, exporter});
+    return get_state(CommandReader(Json::object()), {one, state, history, molecule, pictures, exporter});
   };
   const Json before = told(state);
   const std::vector<std::pair<const char*, Renewal>> kCommands{

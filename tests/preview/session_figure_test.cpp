@@ -30,14 +30,14 @@ END
 
 class FigureSession : public SessionCase {
  protected:
-  FigureSession() {
+  explicit FigureSession(const std::optional<Selection>& selection = parse_selection("polymer")) {
     const std::string file = folder_.file("three.pdb", kThree);
     ReadOptions reading;
-    reading.selection = parse_selection("polymer");
+    reading.selection = selection;
     SessionContext context;
     context.read_shown = [file, reading](const FigureRequest& figure, std::size_t) {
       ReadOptions shown = reading;
-      figure.ask_for(shown);
+      figure.request_atoms(shown);
       return read_structure(file, shown);
     };
     begin(read_structure(file, reading), context);
@@ -314,6 +314,23 @@ TEST_F(FigureSession, WithoutItsFileNothingCanBeDrawnBeside) {
   const Json reply = session.apply({{"command", "represent"}, {"as", "sticks"}, {"selection", "all"}});
   EXPECT_FALSE(reply["ok"]);
   EXPECT_NE(reply["error"].get<std::string>().find("cannot be read again"), std::string::npos);
+}
+
+class CompanionSession : public FigureSession {
+ protected:
+  CompanionSession() : FigureSession(std::nullopt) {}
+};
+
+TEST_F(CompanionSession, TheLigandIsBesideTheSurfaceAndNoObjectOfTheUser) {
+  EXPECT_EQ(session_->structure().atoms.size(), 4u);
+  expect_ok(R"({"command":"zoom_to","selection":"ligand"})");
+  const Json pick = apply(R"({"command":"pick","x":40,"y":30})");
+  ASSERT_TRUE(pick["hit"]) << pick;
+  EXPECT_EQ(pick["residue"], "LIG");
+  EXPECT_EQ(pick["kind"], "shape");
+  EXPECT_TRUE(state()["objects"].empty());
+  expect_ok(R"({"command":"show","selection":"within 5 of ligand"})");
+  expect_ok(R"({"command":"paint","selection":"within 4.6 of ligand","color":"red"})");
 }
 
 TEST_F(FigureSession, ObjectsHaveLooksAndAtomsOfTheirOwn) {

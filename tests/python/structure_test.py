@@ -116,6 +116,14 @@ class Program(Files):
         for kind in ("sas", "vdw"):
             self.same(self.told(self.pdb, "--surface", kind), meniscus.read(self.pdb), kind=kind)
 
+    def test_says_the_same_of_a_ligand(self):
+        rows = [*atoms(), ("C1", "C", "LIG", "L", 1, (20.0, 0.0, 0.0)), ("O1", "O", "LIG", "L", 1, (21.3, 0.0, 0.0))]
+        self.pdb.write_text(pdb(rows, water=False).replace("ATOM     65", "HETATM   65").replace("ATOM     66", "HETATM   66"))
+        polymer = meniscus.read(self.pdb)
+        self.assertEqual(polymer.report, "66 atoms read; 2 of 1 ligand (LIG) left out; 64 used (select all adds ligands)")
+        self.same(self.told(self.pdb), polymer)
+        self.assertEqual(len(meniscus.read(self.pdb, select="all")), 66)
+
     def test_says_the_same_where_a_file_is_refused(self):
         for words, options in ((["--select", "chain Z"], {"select": "chain Z"}),
                                (["--model", "3"], {"model": 3}),

@@ -137,14 +137,14 @@ ClientNumber Clients::join(std::shared_ptr<Client> client) {
 }
 
 void Clients::give_control(ClientNumber client) {
-  const auto tell = [this](ClientNumber who, bool controls_now) {
+  const auto announce = [this](ClientNumber who, bool controls_now) {
     const auto found = sockets.find(who);
     if (found != sockets.end())
       found->second->send(text_message(json_line({{"event", "role"}, {"controls", controls_now}})));
   };
   if (controls(client)) return;
-  tell(std::exchange(controller, client), false);
-  tell(client, true);
+  announce(std::exchange(controller, client), false);
+  announce(client, true);
 }
 
 void Clients::leave(ClientNumber client) {

@@ -59,13 +59,13 @@ glm::ivec2 fitting(glm::ivec2 size) {
   return glm::max(glm::min(size, glm::ivec2(glm::vec2(room) / std::max(scale, 1.0f))), kLeast);
 }
 
-GLFWwindow* create_window(const std::string& title, glm::ivec2 size, bool tell_resets) {
+GLFWwindow* create_window(const std::string& title, glm::ivec2 size, bool reports_resets) {
   glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, tell_resets ? GLFW_LOSE_CONTEXT_ON_RESET : GLFW_NO_ROBUSTNESS);
+  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, reports_resets ? GLFW_LOSE_CONTEXT_ON_RESET : GLFW_NO_ROBUSTNESS);
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);

@@ -43,7 +43,7 @@ class DesktopWindow {
   double seconds() const;  ///< since the start of the program
   const ContextDescription& context() const { return context_; }
   ForeignContext gl(const std::string& kernel_folder) const {
-    return {gl_.display, gl_.context, gl_.tells_resets, kernel_folder};
+    return {gl_.display, gl_.context, gl_.reports_resets, kernel_folder};
   }
   GLFWwindow* glfw() { return window_; }
 

@@ -29,7 +29,7 @@ void ExportPanel::draw() {
                                  {"blender", "Blender file", ".mns"},
                                  {"camera", "camera (JSON)", "_camera.json"},
                                  {"camera_path", "camera keys (JSON)", "_path.json"}};
-  take_wishes();
+  take_options();
   label("As");
   if (ImGui::BeginCombo("##format", kFormats[format_].shown)) {
     for (int f = 0; f < static_cast<int>(std::size(kFormats)); ++f)
@@ -48,34 +48,35 @@ void ExportPanel::draw() {
   const std::string word = kFormats[format_].word;
   if (word == "film")
     plain(link_.state()["frames"] > 1 ? "all frames, as many a second as they are played" : "one turn in 6 s");
-  if (word == "png" || word == "scene" || word == "film") picture_wishes();
+  if (word == "png" || word == "scene" || word == "film") picture_controls();
   if (word == "scene") {
     if (ImGui::Button(fmt::format("Open {}###open", path).c_str())) link_.send({{"command", "open"}, {"path", path}});
     tooltip("A scene of this molecule; undo brings back what is shown now");
   }
-  if (ImGui::Button("Copy command")) link_.send(wished({{"command", "render_command"}}));
+  if (ImGui::Button("Copy command")) link_.send(with_picture_options({{"command", "render_command"}}));
   tooltip("The command that makes this picture, into the clipboard");
-  if (go && word == "scene") link_.send(wished({{"command", "save"}, {"path", path}, {"force", replace_}}));
+  if (go && word == "scene")
+    link_.send(with_picture_options({{"command", "save"}, {"path", path}, {"force", replace_}}));
   if (go && word != "scene") {
     const Json command{{"command", "export"}, {"format", word}, {"path", path}, {"force", replace_}, {"wait", false}};
-    link_.send(word == "png" || word == "film" ? wished(command) : command);
+    link_.send(word == "png" || word == "film" ? with_picture_options(command) : command);
   }
   progress();
 }
 
 /// Those that a scene came with are in the fields until someone types others.
-void ExportPanel::take_wishes() {
-  const Json& wishes = link_.state()["export"];
-  if (wishes == wishes_) return;
-  wishes_ = wishes;
-  const auto number = [&](const char* key) { return wishes[key].is_number() ? wishes[key].get<int>() : 0; };
+void ExportPanel::take_options() {
+  const Json& options = link_.state()["export"];
+  if (options == options_) return;
+  options_ = options;
+  const auto number = [&](const char* key) { return options[key].is_number() ? options[key].get<int>() : 0; };
   width_ = number("width");
   height_ = number("height");
   samples_ = number("samples");
-  transparent_ = wishes["transparent"];
+  transparent_ = options["transparent"];
 }
 
-void ExportPanel::picture_wishes() {
+void ExportPanel::picture_controls() {
   label("Pixels");
   int size[] = {width_, height_};
   if (ImGui::InputInt2("##size", size)) {
@@ -90,15 +91,15 @@ void ExportPanel::picture_wishes() {
 
 void ExportPanel::progress() {
   if (!question_.running()) return;
-  const Json& told = question_.told();
-  const std::string stage = told.value("stage", "begin");
-  ImGui::ProgressBar(static_cast<float>(told.value("share", 0.0)), {-5.0f * ImGui::GetFontSize(), 0.0f},
-                     fmt::format("{}, {:.0f} s", stage, told.value("seconds", 0.0)).c_str());
+  const Json& state = question_.state();
+  const std::string stage = state.value("stage", "begin");
+  ImGui::ProgressBar(static_cast<float>(state.value("share", 0.0)), {-5.0f * ImGui::GetFontSize(), 0.0f},
+                     fmt::format("{}, {:.0f} s", stage, state.value("seconds", 0.0)).c_str());
   ImGui::SameLine();
   if (ImGui::Button("Cancel")) link_.send({{"command", "cancel_export"}});
 }
 
-Json ExportPanel::wished(Json command) const {
+Json ExportPanel::with_picture_options(Json command) const {
   if (samples_ > 0) command["samples"] = samples_;
   command["transparent"] = transparent_;
   if (width_ <= 0 && height_ <= 0) return command;

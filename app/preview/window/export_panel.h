@@ -28,17 +28,17 @@ class ExportPanel {
   bool line_is_fault() const { return line_is_fault_; }
 
  private:
-  void picture_wishes();
-  void take_wishes();
+  void picture_controls();
+  void take_options();
   void progress();
-  nlohmann::json wished(nlohmann::json command) const;
+  nlohmann::json with_picture_options(nlohmann::json command) const;
 
   SessionLink& link_;
   std::string name_ = "view";
   int format_ = 0;
   bool replace_ = false, transparent_ = false;
   int samples_ = 0, width_ = 0, height_ = 0;  ///< of an exported picture; 0: as shown
-  nlohmann::json wishes_;                     ///< of the session, as they were taken last
+  nlohmann::json options_;                    ///< of the session, as they were taken last
   ExportQuestion question_;
   bool name_wanted_ = false;
   std::string line_;

@@ -137,7 +137,7 @@ void SessionThread::draw(LiveView& view) {
     else if (view.fault().empty())
       return;  // given up for what is new
   }
-  tell(view);
+  publish(view);
 }
 
 void SessionThread::offer(const PreviewSession& session) {
@@ -147,7 +147,7 @@ void SessionThread::offer(const PreviewSession& session) {
     pictures_.offer(session.rgba(), session.picture_size());
 }
 
-void SessionThread::tell(const LiveView& view) {
+void SessionThread::publish(const LiveView& view) {
   PreviewSession& session = view.session();
   nlohmann::json state = session.apply({{"command", "state"}}), stats = session.apply({{"command", "stats"}});
   const bool full = session.is_drawn(Quality::full);
@@ -261,7 +261,7 @@ bool ExportQuestion::take(const SessionReply& reply, double time) {
   number_ = 0;
   due_ = time + kAskAgain;
   running_ = reply.reply.value("running", false);
-  told_ = reply.reply;
+  state_ = reply.reply;
   return true;
 }
 

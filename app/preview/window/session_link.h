@@ -77,7 +77,7 @@ class SessionThread {
   Change waiting_change();
   void draw(LiveView& view);
   void offer(const PreviewSession& session);
-  void tell(const LiveView& view);
+  void publish(const LiveView& view);
 
   std::function<void()> wake_;
   PictureExchange pictures_;
@@ -182,13 +182,13 @@ class ExportQuestion {
 
   bool running() const { return running_; }
   /// The latest answer of "export_state"; null before the first.
-  const nlohmann::json& told() const { return told_; }
+  const nlohmann::json& state() const { return state_; }
 
  private:
   bool running_ = false;
   std::uint64_t number_ = 0;  // of the question that is under way; 0: none
   double due_ = 0.0;
-  nlohmann::json told_;
+  nlohmann::json state_;
 };
 
 }  // namespace meniscus

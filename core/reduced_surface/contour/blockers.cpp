@@ -69,8 +69,8 @@ namespace {
 constexpr std::int64_t kSurelyMisses = 0, kSurelyCovers = 1, kClose = -2;
 
 MENISCUS_VECTOR_CLONES
-void tell_apart(const geometry::Circle& circle, double first_weight, double noise, const Blockers::Columns& balls,
-                std::size_t count, std::int64_t* out) {
+void classify(const geometry::Circle& circle, double first_weight, double noise, const Blockers::Columns& balls,
+              std::size_t count, std::int64_t* out) {
   const geometry::Circle c = circle;
   const Blockers::Columns b = balls;
   MENISCUS_INDEPENDENT_STEPS
@@ -129,7 +129,7 @@ bool CircleMeetings::list_close(const geometry::Circle& circle, double noise, co
     near_.resize(room);
     ball_.resize(room + kLanes);
   }
-  tell_apart(circle, blockers.first_weight(), noise, blockers.columns(), room, near_.data());
+  classify(circle, blockers.first_weight(), noise, blockers.columns(), room, near_.data());
   if (skip < size) near_[skip] = kSurelyMisses;
   std::int64_t all = 0;
   for (std::size_t n = 0; n < size; ++n) all |= near_[n];

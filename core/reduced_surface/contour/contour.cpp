@@ -97,10 +97,10 @@ bool Contour::expose_surely(const glm::dvec3& d, double w1, const Blockers& bloc
     meetings_.find(circle(), unit_, blockers, skip);
     cover_in_turn(blockers);
   }
-  return settle();
+  return conclude();
 }
 
-bool Contour::settle() { return sure_ = !left_.exposed_doubtful; }
+bool Contour::conclude() { return sure_ = !left_.exposed_doubtful; }
 
 bool Contour::expose_at_once(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip) {
   if (!begin_surely(d, blockers.first_weight(), w1)) return sure_;
@@ -108,7 +108,7 @@ bool Contour::expose_at_once(const glm::dvec3& d, double w1, const Blockers& blo
   const CircleSweep::Outcome outcome = sweep_.find(meetings_, blockers);
   if (outcome == CircleSweep::Outcome::unknown) {
     cover_in_turn(blockers);
-    return settle();
+    return conclude();
   }
   if (outcome != CircleSweep::Outcome::whole) left_.cover_everything();
   if (outcome == CircleSweep::Outcome::one_arc) left_.expose_arc(sweep_.arc());

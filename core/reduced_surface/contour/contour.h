@@ -105,7 +105,7 @@ class Contour {
  private:
   bool begin_surely(const glm::dvec3& d, double w0, double w1);
   void cover_in_turn(const Blockers& blockers);
-  bool settle();
+  bool conclude();
   void expose_in_quad(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
                       std::span<const BlockedHalf> halves);
 
@@ -125,8 +125,8 @@ class TieWatch {
   /// Compares the second decision with the result of expose() for a circle in doubt. blockers, skip: as in expose();
   /// first: index of the atom that the blockers surround; index_of(label): the index of another atom.
   template <typename IndexOf>
-  void look(const Contour& decided, const Blockers& blockers, std::size_t skip, std::uint32_t first,
-            const IndexOf& index_of) {
+  void compare(const Contour& decided, const Blockers& blockers, std::size_t skip, std::uint32_t first,
+               const IndexOf& index_of) {
     shrunk_.restart(shrunk_weight(blockers.first_weight(), first));
     for (std::size_t n = 0; n < blockers.size(); ++n) {
       const Blockers::Ball ball = blockers[n];

@@ -266,7 +266,7 @@ bool SphereCover::is_near(const glm::dvec3& point, std::span<const std::uint8_t>
   return nearest > w.cos_near;
 }
 
-bool SphereCover::look(const Blockers& blockers) {
+bool SphereCover::test(const Blockers& blockers) {
   const WatchedDirections& w = watched();
   const std::size_t count = blockers.size(), room = whole_blocks(count);
   circles_.make_room(room);

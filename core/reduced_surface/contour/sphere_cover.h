@@ -23,13 +23,13 @@ namespace meniscus {
 class SphereCover {
  public:
   /// Tests the sphere of the blockers' first ball. False if all of it is surely covered: then nothing else is known.
-  bool look(const Blockers& blockers);
+  bool test(const Blockers& blockers);
 
   /// False if no point of the circle of the sphere and the n-th blocker lies near an uncovered direction: then all of
-  /// the circle is covered. Valid after look() returned true.
+  /// the circle is covered. Valid after test() returned true.
   bool circle_may_be_exposed(std::size_t n) const { return signs_[n] >= 0; }
 
-  /// Returns the numbers of the directions that are not surely covered. Valid after look() returned true.
+  /// Returns the numbers of the directions that are not surely covered. Valid after test() returned true.
   std::span<const std::uint8_t> uncovered() const { return {uncovered_numbers_.data(), uncovered_count_}; }
 
   /// True if a point of the sphere, given as a unit vector from its centre, is near one of these directions. All other

@@ -71,7 +71,7 @@ class Enumeration {
 
   std::vector<RsArc> run(CircleStats& stats) {
     // Nearly half of all atoms are buried, which is found quickly; their circles need no test.
-    for_each_group([&](std::size_t group, Worker& worker) { look_around(group, worker); });
+    for_each_group([&](std::size_t group, Worker& worker) { list_neighbors(group, worker); });
     for_each_group([&](std::size_t group, Worker& worker) { list_arcs(group, worker); });
     for (const Group& group : groups_) stats.pairs += group.pairs / 2;
     for (const Worker& worker : workers_) {
@@ -107,7 +107,7 @@ class Enumeration {
     return {group.uncovered.data() + first[0], group.uncovered.data() + first[1]};
   }
 
-  void look_around(std::size_t number, Worker& w) {
+  void list_neighbors(std::size_t number, Worker& w) {
     Group& group = groups_[number];
     group.first.assign(1, 0);
     group.first_uncovered.assign(1, 0);
@@ -116,7 +116,7 @@ class Enumeration {
       search_.append_neighbors(place, w.rows, group.neighbors);
       const std::size_t count = group.neighbors.size() - known;
       group.pairs += count;
-      if (look(place, known, group.neighbors, w)) {
+      if (test_sphere(place, known, group.neighbors, w)) {
         const std::span<const std::uint8_t> uncovered = w.cover.uncovered();
         group.uncovered.insert(group.uncovered.end(), uncovered.begin(), uncovered.end());
       } else {
@@ -132,10 +132,10 @@ class Enumeration {
 
   // Tests the sphere of an atom, whose neighbours are the last ones of the list from `first` on. Where they crowd,
   // neighbours that cover nothing that others do not cover are removed.
-  bool look(std::size_t place, std::size_t first, std::vector<std::uint32_t>& neighbors, Worker& w) {
+  bool test_sphere(std::size_t place, std::size_t first, std::vector<std::uint32_t>& neighbors, Worker& w) {
     const std::size_t count = neighbors.size() - first;
     search_.list_blockers(place, std::span(neighbors).subspan(first), w.blockers);
-    if (!w.cover.look(w.blockers)) return false;
+    if (!w.cover.test(w.blockers)) return false;
     if (count < kCrowd) return true;
     std::uint32_t open = 0;
     for (std::size_t n = 0; n < count; ++n) open += w.cover.circle_may_be_exposed(n) ? 1 : 0;
@@ -146,7 +146,7 @@ class Enumeration {
       if (!nested[n]) neighbors[kept++] = neighbors[first + n];
     neighbors.resize(kept);
     search_.list_blockers(place, std::span(neighbors).subspan(first), w.blockers);
-    return w.cover.look(w.blockers);
+    return w.cover.test(w.blockers);
   }
 
   // Moves the neighbours with open circles to the front; returns their number. Each is exchanged with the first of the
@@ -221,8 +221,8 @@ class Enumeration {
     const std::size_t doubtful = w.contour.doubtful_count();
     w.contour.expose(b.center, b.weight, w.nearest_first, skip);
     if (w.contour.doubtful_count() > doubtful)
-      w.ties.look(w.contour, w.nearest_first, skip, number_at(place),
-                  [&](std::uint32_t label) { return number_at(label); });
+      w.ties.compare(w.contour, w.nearest_first, skip, number_at(place),
+                     [&](std::uint32_t label) { return number_at(label); });
   }
 
   // Sorts arcs by atoms: the arcs of each atom are adjacent and already sorted.

@@ -64,14 +64,14 @@ void GpuCircles::expose_later(const BallBatch& batch, StageClock& clock) {
   start(batch, true, doubtful_.capacity());
 }
 
-void GpuCircles::ask(Readback& readback) { readback.ask(counters_, 0, counts_); }
+void GpuCircles::request_counts(Readback& readback) { readback.request(counters_, 0, counts_); }
 
-bool GpuCircles::settle(const BallBatch& batch) {
+bool GpuCircles::take_counts(const BallBatch& batch) {
   stats_ = {batch.pair_count, counts_[1], counts_[2], 0};
-  return settle_all({&arcs, &doubtful_}, counts_) && counts_[2] == 0;
+  return take_list_counts({&arcs, &doubtful_}, counts_) && counts_[2] == 0;
 }
 
-void GpuCircles::tell_count() {
+void GpuCircles::upload_count() {
   const std::uint32_t count = arcs.count();
   counters_.resize(sizeof counts_);
   counters_.write(0, &count, sizeof count);
@@ -132,7 +132,7 @@ void GpuCircles::decide_on_host(const BallBatch& batch, std::vector<glm::uvec2> 
     }
     const std::uint32_t i = near.ball, place = circle.y - near.first, j = near.labels[place];
     contour.expose(host_atoms_[j].center - host_atoms_[i].center, weights_[j], blockers, place);
-    ties.look(contour, blockers, place, i, [](std::uint32_t label) { return label; });
+    ties.compare(contour, blockers, place, i, [](std::uint32_t label) { return label; });
     if (contour.whole()) found.push_back({i, j, kNone, kNone});
     for (const ExposedArc& arc : contour.arcs()) found.push_back({i, j, arc.begin_by, arc.end_by});
   }
@@ -162,7 +162,7 @@ void GpuArcs::find(StageClock& clock) {
     circles.expose(batch, clock);
     listing.emplace(clock, "neighbors");
   });
-  circles.tell_count();
+  circles.upload_count();
 }
 
 void GpuArcs::find_later(StageClock& clock) {
@@ -173,11 +173,11 @@ void GpuArcs::find_later(StageClock& clock) {
   });
 }
 
-void GpuArcs::ask(Readback& readback) {
-  neighbors.ask(readback);
-  circles.ask(readback);
+void GpuArcs::request_counts(Readback& readback) {
+  neighbors.request_counts(readback);
+  circles.request_counts(readback);
 }
 
-bool GpuArcs::settle() { return neighbors.settle() && circles.settle(neighbors.known()); }
+bool GpuArcs::take_counts() { return neighbors.take_counts() && circles.take_counts(neighbors.known()); }
 
 }  // namespace meniscus

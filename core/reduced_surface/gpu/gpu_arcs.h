@@ -36,12 +36,12 @@ class GpuCircles {
   void expose(const BallBatch& batch, StageClock& clock);
 
   /// Appends the arcs of a single batch without reading back their number: no circle may be left to the host, and lists
-  /// must have had room. The counts come back with the frame; settle() returns true if both held.
+  /// must have had room. The counts come back with the frame; take_counts() returns true if both held.
   void expose_later(const BallBatch& batch, StageClock& clock);
-  void ask(Readback& readback);
-  bool settle(const BallBatch& batch);
+  void request_counts(Readback& readback);
+  bool take_counts(const BallBatch& batch);
   /// Writes the number of arcs that the host knows to the buffer that kernels read.
-  void tell_count();
+  void upload_count();
 
   /// Returns the counters for kernels: word 0 is the number of arcs, which may exceed the room.
   const Buffer& counters() const { return counters_; }
@@ -88,8 +88,8 @@ class GpuArcs {
 
   /// Computes the arcs without reading back any count, where neighbors.can_trust(): see GpuCircles::expose_later().
   void find_later(StageClock& clock);
-  void ask(Readback& readback);
-  bool settle();
+  void request_counts(Readback& readback);
+  bool take_counts();
 
   GpuNeighbors neighbors;
   GpuCircles circles;

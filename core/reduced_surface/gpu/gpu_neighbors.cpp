@@ -186,13 +186,13 @@ void GpuNeighbors::scan_counts(BallBatch& batch) {
   scan_(pair_first, batch.count, batch.pair_count);
 }
 
-void GpuNeighbors::ask(Readback& readback) {
-  readback.ask(ball_count_, 0, {&counted_.cut_short, 1});
-  readback.ask(first, trusted_.count * kWord, {&counted_.neighbors, 1});
-  readback.ask(pair_first, trusted_.count * kWord, {&counted_.pairs, 1});
+void GpuNeighbors::request_counts(Readback& readback) {
+  readback.request(ball_count_, 0, {&counted_.cut_short, 1});
+  readback.request(first, trusted_.count * kWord, {&counted_.neighbors, 1});
+  readback.request(pair_first, trusted_.count * kWord, {&counted_.pairs, 1});
 }
 
-bool GpuNeighbors::settle() {
+bool GpuNeighbors::take_counts() {
   known_ = {};
   if (counted_.cut_short != 0 || counted_.neighbors >= trusted_.neighbor_count || counted_.pairs >= trusted_.pair_count)
     return false;
@@ -203,7 +203,7 @@ bool GpuNeighbors::settle() {
 void GpuNeighbors::read_counts(BallBatch& batch) {
   trusted_ = batch;
   Readback readback;
-  ask(readback);
+  request_counts(readback);
   readback.read();
   if (counted_.cut_short != 0)
     throw CapacityError(message(

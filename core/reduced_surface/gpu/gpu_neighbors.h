@@ -78,8 +78,8 @@ class GpuNeighbors {
   /// True if this many balls fit into one batch, and the sizes of such a batch are known.
   bool can_trust(std::uint32_t entry_count) const { return entry_count <= kLargestBatch && known_.count > 0; }
   /// For Counting::later: requests the counts that the host needs, which also show whether there was room.
-  void ask(Readback& readback);
-  bool settle();
+  void request_counts(Readback& readback);
+  bool take_counts();
   /// Returns the size for kernels beyond which a list has no room.
   std::uint32_t list_limit() const { return counting_ == Counting::later ? trusted_.neighbor_count : ~0u; }
   /// Returns the sizes of the lists as they were counted last.

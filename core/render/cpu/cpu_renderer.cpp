@@ -203,7 +203,7 @@ void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
     cast_samples(first, std::min(step, task.settings.samples - first), task, interruption);
     if (task.after_sample) task.after_sample(first);
     if (!look.has_effects()) continue;
-    look_at(first, task, interruption);
+    apply_look(first, task, interruption);
   }
 }
 
@@ -229,7 +229,7 @@ void CpuRenderer::cast_samples(int first, int count, const BlockTask& task, Inte
   });
 }
 
-void CpuRenderer::look_at(int sample, const BlockTask& block, Interruption& interruption) {
+void CpuRenderer::apply_look(int sample, const BlockTask& block, Interruption& interruption) {
   const auto stage = clock_.stage("look");
   const glm::ivec2 picture_size = block.settings.size;
   const Look& look = block.settings.look;
@@ -242,7 +242,7 @@ void CpuRenderer::look_at(int sample, const BlockTask& block, Interruption& inte
   task.samples = samples_.lanes(look.traces_sky());
   task.light_maps = light_maps_.texels().data();
   task.sums = sums_.data();
-  if (block.scene.content().shows_through) look_at_front(sample, task, look, interruption);
+  if (block.scene.content().shows_through) apply_front_look(sample, task, look, interruption);
   find_shade(samples_, sample, look, task, interruption);
   for_each_until(interruption, task.view.size.y, [&](int y) { kernels_.finish_row(task, y); });
 }
@@ -270,7 +270,7 @@ void CpuRenderer::find_shade(BlockSamples& samples, int sample, const Look& look
 
 /// Finishes the first transparent point along each ray: shade, depth cue and lines are written to samples_.over, each
 /// premultiplied by the opacity there.
-void CpuRenderer::look_at_front(int sample, LaneLook task, const Look& look, Interruption& interruption) {
+void CpuRenderer::apply_front_look(int sample, LaneLook task, const Look& look, Interruption& interruption) {
   const glm::ivec2 size = task.view.size;
   const std::size_t pixel_count = static_cast<std::size_t>(size.x) * size.y;
   front_sums_.assign(pixel_count, glm::vec4(0.0f));

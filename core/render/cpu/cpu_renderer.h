@@ -110,9 +110,9 @@ class CpuRenderer {
   void cast(const BlockTask& task, Interruption& interruption);
   void resize_samples(const BlockTask& task);
   void cast_samples(int first, int count, const BlockTask& task, Interruption& interruption);
-  void look_at(int sample, const BlockTask& task, Interruption& interruption);
+  void apply_look(int sample, const BlockTask& task, Interruption& interruption);
   void find_shade(BlockSamples& samples, int sample, const Look& look, LaneLook& task, Interruption& interruption);
-  void look_at_front(int sample, LaneLook task, const Look& look, Interruption& interruption);
+  void apply_front_look(int sample, LaneLook task, const Look& look, Interruption& interruption);
   void present(const RenderSettings& settings);
 
   const LaneKernels& kernels_;

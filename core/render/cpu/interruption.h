@@ -21,7 +21,7 @@ class Interruption {
   explicit Interruption(const std::function<bool()>& stop) : stop_(stop) {}
 
   bool came() {
-    if (stop_ && !came_ && std::this_thread::get_id() == asked_ && stop_()) came_ = true;
+    if (stop_ && !came_ && std::this_thread::get_id() == caller_ && stop_()) came_ = true;
     return came_;
   }
 
@@ -32,7 +32,7 @@ class Interruption {
  private:
   double block_share_ = 0.0;
   const std::function<bool()>& stop_;
-  const std::thread::id asked_ = std::this_thread::get_id();
+  const std::thread::id caller_ = std::this_thread::get_id();
   std::atomic<bool> came_ = false;
 };
 

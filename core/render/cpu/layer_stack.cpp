@@ -424,9 +424,10 @@ void LayerStack::write(const LaneSamples& samples, std::size_t at, const LayerHi
   if (!samples.mark) return;
   const std::vector<float>* const marks = hit ? &layers_[hit->layer].scene.marks : nullptr;
   float mark = marks && !marks->empty() ? (*marks)[hit->atom] : 0.0f;
-  if (hit && hit->primitive == ray_cast::kOnPlane) {  // caps have no patches
+  if (hit && hit->primitive == ray_cast::kOnPlane) {  // caps have no patches, and lines only between colours
     const auto number = static_cast<std::uint32_t>(mark);
-    mark = static_cast<float>(number - number % Coloring::kMarksOfPart);
+    const std::uint32_t one_color = layers_[hit->layer].object->cap.color ? 1 : 0;
+    mark = static_cast<float>(number - number % Coloring::kMarksOfPart + one_color);
   }
   samples.mark[at] = mark;
 }

@@ -16,8 +16,8 @@ inline constexpr unsigned kAvx512 = 1u << 16 | 1u << 17 | 1u << 30 | 1u << 31;  
 /// True if the processor has all of them, and the system saves these registers of threads (`registers`: bits of XCR0).
 inline bool processor_has(unsigned wanted, unsigned registers) {
   unsigned a = 0, b = 0, c = 0, d = 0;
-  constexpr unsigned kSystemTells = 1u << 27;  // OSXSAVE
-  if (!__get_cpuid(1, &a, &b, &c, &d) || !(c & kSystemTells)) return false;
+  constexpr unsigned kOsSavesVectors = 1u << 27;  // OSXSAVE
+  if (!__get_cpuid(1, &a, &b, &c, &d) || !(c & kOsSavesVectors)) return false;
   std::uint32_t kept = 0, upper = 0;
   __asm__ volatile("xgetbv" : "=a"(kept), "=d"(upper) : "c"(0));
   return (kept & registers) == registers && __get_cpuid_count(7, 0, &a, &b, &c, &d) && (b & wanted) == wanted;

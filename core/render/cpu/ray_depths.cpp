@@ -153,8 +153,8 @@ void RayDepths::gather() {
 bool RayDepths::may_show(const glm::vec4& bound, float nearest) const {
   const glm::ivec4 pixels = TileFootprints(pixels_).of(bound);
   if (pixels.x >= pixels.y || pixels.z >= pixels.w) return false;
-  constexpr int kMostAsked = 16;  // rays
-  if ((pixels.y - pixels.x) * (pixels.w - pixels.z) * samples_ <= kMostAsked) return meets_ray(bound, pixels, nearest);
+  constexpr int kMostTested = 16;  // rays
+  if ((pixels.y - pixels.x) * (pixels.w - pixels.z) * samples_ <= kMostTested) return meets_ray(bound, pixels, nearest);
   const glm::ivec2 low(pixels.x, pixels.z), last(pixels.y - 1, pixels.w - 1);
   int level = 0;
   while ((last.x >> level) - (low.x >> level) > 1 || (last.y >> level) - (low.y >> level) > 1) ++level;

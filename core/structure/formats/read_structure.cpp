@@ -17,6 +17,7 @@
 #include "core/structure/bonds.h"
 #include "core/structure/formats/added_files.h"
 #include "core/structure/martini.h"
+#include "core/structure/outside_polymer.h"
 #include "core/structure/plausibility.h"
 #include "core/structure/secondary_structure.h"
 #include "core/structure/selection/selection.h"
@@ -50,9 +51,14 @@ bool has_charge_and_room(const Atom& atom, std::string_view reason) {
 template <typename Reason>
 void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& extra_atoms, ReadReport& report, Reason&& reason_of) {
   std::size_t kept = 0;
+  std::pair<std::uint32_t, std::uint32_t> last_residue{0xffffffffu, 0};
   for (std::size_t n = 0; n < atoms.size(); ++n) {
     if (const char* reason = reason_of(n)) {
       ++report.excluded[reason];
+      const std::pair residue{atoms[n].residue, atoms[n].copy};
+      if ((reason == kExcludedLigand || reason == kExcludedLipid) && residue != last_residue)
+        ++report.residues[reason][atoms[n].residue_name];
+      last_residue = residue;
       if (has_charge_and_room(atoms[n], reason)) ++report.charged[reason];
       if (atoms[n].shown != 0) extra_atoms.push_back(std::move(atoms[n]));
     } else {
@@ -116,6 +122,24 @@ class Choice {
   bool from_file_, hydrogens_;
 };
 
+/// Marks the companions: atoms outside of the polymer that pictures draw, and that neither the surface nor sticks,
+/// balls or spheres have.
+void mark_companions(std::vector<Atom>& atoms, const OutsidePolymer& outside, const Choice& choice,
+                     const ReadOptions& options) {
+  if (options.companions == Companions::none) return;
+  std::uint32_t drawn = 0;
+  for (std::size_t bit = 0; bit < options.shown.size(); ++bit)
+    if (options.shown[bit].each_is_drawn) drawn |= 1u << bit;
+  for (Atom& atom : atoms) {
+    const bool ion = atom.kind == AtomClass::ion;
+    if (!outside.drawn[atom.index] || (ion && options.keep_ions) || (atom.shown & drawn) != 0) continue;
+    if (choice.reason(atom, true, ion)) continue;
+    atom.shown |= 1u << (options.companions == Companions::hidden ? kHiddenCompanion
+                         : ion                                    ? kCompanionSpheres
+                                                                  : kCompanionSticks);
+  }
+}
+
 /// Sets Atom::shown. Throws InputError if a selection shows no atoms, except in a frame.
 void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, const Choice& choice,
                 const RadiiChoice& radii, const std::string& path, PositionScope scope) {
@@ -131,7 +155,7 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
     bool any = false;
     for (std::size_t n = 0; n < atoms.size(); ++n) {
       if (choice.reason(atoms[n], selected[n], named[n])) continue;
-      atoms[n].shown = static_cast<std::uint16_t>(atoms[n].shown | (1u << bit));
+      atoms[n].shown |= 1u << bit;
       any = true;
     }
     if (any || scope == PositionScope::frame) continue;
@@ -144,9 +168,9 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
 }
 
 /// Leaves out atoms for the reasons in structure.h, in their order.
-void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, std::vector<Atom>& extra_atoms,
-                  const ReadOptions& options, const RadiiChoice& radii, ReadReport& report, const std::string& path,
-                  PositionScope scope) {
+void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, const OutsidePolymer& outside,
+                  std::vector<Atom>& extra_atoms, const ReadOptions& options, const RadiiChoice& radii,
+                  ReadReport& report, const std::string& path, PositionScope scope) {
   const std::vector<bool> of_kept_altlocs = kept_alternates(atoms, options.altloc, report.warnings);
   leave_out(atoms, extra_atoms, report, [&](std::size_t n) -> const char* {
     if (!of_kept_altlocs[n]) return kExcludedAltloc;
@@ -162,7 +186,25 @@ void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, std:
   }
   const Choice choice(atoms, options, radii);
   mark_shown(atoms, options.shown, choice, radii, path, scope);
-  leave_out(atoms, extra_atoms, report, [&](std::size_t n) { return choice.reason(atoms[n], selected[n], named[n]); });
+  if (!outside.drawn.empty()) mark_companions(atoms, outside, choice, options);
+  leave_out(atoms, extra_atoms, report, [&](std::size_t n) -> const char* {
+    if (const char* reason = choice.reason(atoms[n], selected[n], named[n])) return reason;
+    if (outside.part.empty()) return nullptr;
+    switch (outside.part[atoms[n].index]) {
+      case OutsidePolymer::Part::ligand:
+        return kExcludedLigand;
+      case OutsidePolymer::Part::lipid:
+        return kExcludedLipid;
+      case OutsidePolymer::Part::inside:
+        break;
+    }
+    return nullptr;
+  });
+}
+
+/// True if atoms may be marked as shown in addition to the surface.
+bool marks_atoms(const ReadOptions& options) {
+  return !options.shown.empty() || options.companions != Companions::none;
 }
 
 /// Assigns radii to the atoms in `extra_atoms`. Returns the labels of those whose element is unknown.
@@ -366,10 +408,9 @@ struct StructureFile::Parts {
     if (options.trajectory_atoms) keep_trajectory_atoms(contents, *options.trajectory_atoms, file, report);
     place_atoms(contents, options, file);
     if (options.keep_topology)
-      topology = std::make_shared<const Topology>(
-          Topology{contents.atoms, options.shown.empty() ? std::move(contents.bonds) : contents.bonds,
-                   contents.without_positions});
+      topology = std::make_shared<const Topology>(Topology{contents.atoms, contents.bonds, contents.without_positions});
     add_files();
+    if (!options.selection && !options.takes_ligands) outside = outside_polymer(contents.atoms, contents.bonds);
     report.read = report.excluded[kExcludedTrajectory] + contents.atoms.size() + contents.other_model_atoms;
     report.excluded[kExcludedModel] = contents.other_model_atoms;
     std::erase_if(report.excluded, [](const auto& reason) { return reason.second == 0; });
@@ -423,7 +464,10 @@ struct StructureFile::Parts {
     const bool copies_first = assembly && names_copies(options);
     if (copies_first) copy_atoms(atoms, *assembly, structure);
     warn_of_missing_altloc(structure, atoms, options.altloc);
-    choose_atoms(atoms, contents.sites, structure.extra_atoms, options, *radii, structure.report, file.path, scope);
+    if (std::ranges::find(outside.drawn, true) != outside.drawn.end())
+      structure.companions = std::max(options.companions, Companions::hidden);
+    choose_atoms(atoms, contents.sites, outside, structure.extra_atoms, options, *radii, structure.report, file.path,
+                 scope);
     structure.atoms = std::move(atoms);
     structure.report.used = structure.atoms.size();
     refuse_no_atoms(structure);
@@ -449,6 +493,7 @@ struct StructureFile::Parts {
   const Reader& reader;
   FileContents contents;
   std::optional<AddedFiles> added;
+  OutsidePolymer outside;  ///< empty lists if atoms are selected
   ReadReport report;
   std::shared_ptr<const Topology> topology;
   std::optional<RadiiChoice> radii;
@@ -459,7 +504,7 @@ struct StructureFile::Parts {
 StructureFile::StructureFile(const std::string& path, const ReadOptions& options)
     : parts_(std::make_unique<Parts>(path, options)),
       possible_structure_(parts_->choose(parts_->contents.atoms, PositionScope::any)) {
-  if (options.shown.empty()) return;
+  if (!marks_atoms(options)) return;
   possible_structure_.shown_bonds =
       std::make_shared<const std::vector<Bond>>(find_shown_bonds(possible_structure_, parts_->contents));
   const std::size_t own = possible_structure_.atoms.size();
@@ -475,7 +520,7 @@ Structure StructureFile::at(std::span<const glm::dvec3> positions) const {
   std::vector<Atom> atoms = parts_->contents.atoms;
   for (std::size_t n = 0; n < positions.size(); ++n) atoms[n].position = positions[n];
   Structure structure = parts_->choose(std::move(atoms), PositionScope::frame);
-  if (!parts_->options.shown.empty())
+  if (marks_atoms(parts_->options))
     structure.shown_bonds =
         std::make_shared<const std::vector<Bond>>(bonds_by_place(structure, parts_->bonds_by_index));
   return structure;
@@ -492,7 +537,7 @@ std::size_t count_atoms(const std::string& path, const std::optional<Selection>&
 Structure read_structure(const std::string& path, const ReadOptions& options) {
   StructureFile::Parts parts(path, options);
   Structure structure = parts.choose(std::move(parts.contents.atoms), PositionScope::current);
-  if (!options.shown.empty())
+  if (marks_atoms(options))
     structure.shown_bonds = std::make_shared<const std::vector<Bond>>(find_shown_bonds(structure, parts.contents));
   return structure;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the atoms for a surface from a file. By default that is one model and one alternate location, without water and
-// ions.
+// Reads the atoms for a surface from a file. By default these are the polymers of one model at one alternate location.
 #pragma once
 
 #include <memory>
@@ -29,9 +28,10 @@ struct ShownAtoms {
   std::string option;  ///< name of the option that selects them, for messages: "sticks"
   /// Selection from the same atoms as ReadOptions::selection, with the same rule for water and ions.
   Selection atoms;
+  bool each_is_drawn = false;  ///< true if every atom is drawn, as by sticks and spheres; then it has no companion
 };
 
-/// The greatest number of ShownAtoms, which is the number of bits of Atom::shown.
+/// The greatest number of ShownAtoms. Atom::shown has a bit for each of them.
 inline constexpr std::size_t kMostShown = 16;
 
 /// The choice of atoms of a file, and of further data to read.
@@ -49,8 +49,10 @@ struct ReadOptions {
   std::optional<Selection> superpose_on{};
   /// Selects the atoms to use. It is evaluated on all atoms, including water and ions, except for virtual sites and the
   /// atoms of other models and other alternate locations. Selected water and ions are used only if the expression names
-  /// them (Selection::names) or with keep_water or keep_ions.
+  /// them (Selection::names) or with keep_water or keep_ions. Without a selection the polymers of the file are used,
+  /// and everything of a file that has none (outside_polymer.h).
   std::optional<Selection> selection = {};
+  bool takes_ligands = false;                  ///< true: without a selection, ligands and lipids are used, too
   std::vector<Selection> required_parts = {};  ///< parts of the selection, each of which must have atoms
   Hydrogens hydrogens = Hydrogens::automatic;
   RadiiOptions radii{};
@@ -64,12 +66,15 @@ struct ReadOptions {
   /// Atoms to show, at most kMostShown entries. Atom::shown, Structure::extra_atoms and, for all shown atoms,
   /// shown_bonds are filled in.
   std::vector<ShownAtoms> shown{};
+  /// If not `none`, companions are marked in Atom::shown and kept as `shown` atoms are, unless these draw them. There
+  /// are none with a selection.
+  Companions companions = Companions::none;
   bool secondary_structure = false;  ///< if true, Atom::secondary is computed for all atoms (secondary_structure.h)
 };
 
-/// Reads a file of any format in structure_formats.h, plain or gzipped; "-" is standard input. The default is: polymer
-/// and ligands, no water and free ions, the first model, the best alternate location, and the radii of the file (XYZR,
-/// PQR) or else Bondi's radii.
+/// Reads a file of any format in structure_formats.h, plain or gzipped; "-" is standard input. The default is: polymers
+/// with their bound sugars, or all of a file without a polymer; no water and free ions, the first model, the best
+/// alternate location, and the radii of the file (XYZR, PQR) or else Bondi's radii.
 /// Throws InputError as read_text_file and the readers do, and if there is no such model, nothing is selected, no atoms
 /// are left, or elements are unknown. Throws CapacityError.
 Structure read_structure(const std::string& path, const ReadOptions& options = {});

@@ -14,6 +14,7 @@
 #include "core/base/text.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/point_tree.h"
+#include "core/structure/selection/places.h"
 #include "core/structure/selection/selection_steps.h"
 #include "core/structure/structure.h"
 
@@ -188,6 +189,8 @@ class Evaluation {
     }
   }
 
+  void operator()(FirstStep) { top() = first_place(atoms_, top()); }
+
   void operator()(const FixedTest& test) {
     stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) {
       return test.atoms->contains({test.compares_copies ? atom.copy : 0, atom.index});
@@ -276,6 +279,15 @@ std::vector<bool> Selection::evaluate(std::span<const Atom> atoms) const {
   return evaluation.pop();
 }
 
+std::vector<bool> Selection::evaluate(const Structure& structure) const {
+  if (structure.extra_atoms.empty()) return evaluate(structure.atoms);
+  std::vector<Atom> atoms = structure.atoms;
+  atoms.insert(atoms.end(), structure.extra_atoms.begin(), structure.extra_atoms.end());
+  std::vector<bool> selected = evaluate(atoms);
+  selected.resize(structure.atoms.size());
+  return selected;
+}
+
 std::vector<bool> Selection::names(std::span<const Atom> atoms) const {
   std::set<std::string> names_of_others;
   for (const Atom& atom : atoms) {
@@ -324,7 +336,8 @@ bool Selection::uses_radius() const { return steps_->compare({AtomField::radius}
 
 bool Selection::uses_positions() const {
   return std::ranges::any_of(steps_->steps, [](const SelectionStep& step) {
-    return is_of_coordinates(step) || is_of_backbone(step) || std::holds_alternative<WithinStep>(step);
+    return is_of_coordinates(step) || is_of_backbone(step) || std::holds_alternative<WithinStep>(step) ||
+           std::holds_alternative<FirstStep>(step);
   });
 }
 
@@ -343,6 +356,9 @@ Selection::PossibleAtoms Selection::possible(std::span<const Atom> atoms) const 
         perhaps.top()[n] = within->includes_set || !certain.top()[n];
         certain.top()[n] = within->includes_set && certain.top()[n];
       }
+    } else if (std::holds_alternative<FirstStep>(step)) {
+      for (std::size_t n = 0; n < atoms.size(); ++n) possible.measured[n] = possible.measured[n] || perhaps.top()[n];
+      certain.top().assign(atoms.size(), false);
     } else {
       std::visit(certain, step);
       std::visit(perhaps, step);

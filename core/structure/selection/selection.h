@@ -13,6 +13,7 @@ namespace meniscus {
 
 struct Atom;
 struct SelectionSteps;
+struct Structure;
 
 /// A parsed expression. Copies share its data.
 class Selection {
@@ -22,6 +23,10 @@ class Selection {
   /// compares squared distances (Å) between atoms of this span in double precision, without periodic images. Time is
   /// linear in the number of atoms, and O(n log n) for `within`.
   std::vector<bool> evaluate(std::span<const Atom> atoms) const;
+
+  /// Returns one truth value for each of Structure::atoms. The expression sees Structure::extra_atoms, too, so that
+  /// "within 4 of ligand" is valid where the ligand is only drawn in addition to the surface.
+  std::vector<bool> evaluate(const Structure& structure) const;
 
   /// Returns for each atom whether it is water or an ion that the expression names. Water and ions are named by the
   /// keyword of their class or by a residue name without wildcards. An ion is also named by its element, or by an atom

@@ -341,7 +341,10 @@ class Parser {
         break;
       case WordKind::group:
         parse_operand(keyword);
-        steps_.push_back(WholeStep{found->which == 1});
+        if (found->which == 2)
+          steps_.push_back(FirstStep{});
+        else
+          steps_.push_back(WholeStep{found->which == 1});
         break;
       case WordKind::same:
         parse_same(keyword);

@@ -105,6 +105,8 @@ struct WithinStep {
 struct WholeStep {
   bool whole_chains;  ///< true for whole chains, false for whole residues
 };
+/// Keeps the first place of a set (first_place).
+struct FirstStep {};
 
 struct SelectionSteps;
 
@@ -116,7 +118,7 @@ struct FixedTest {
 };
 
 using SelectionStep = std::variant<FlagTest, TextTest, NumberTest, ResidueTest, CompareTest, NotStep, AndStep, OrStep,
-                                   WithinStep, WholeStep, FixedTest>;
+                                   WithinStep, WholeStep, FirstStep, FixedTest>;
 
 /// The steps of an expression. They are evaluated in order on a stack of sets, and leave one set.
 struct SelectionSteps {

@@ -78,6 +78,8 @@ constexpr SelectionWord kWords[] = {
     {"exwithin around", WordKind::distance, 0, "exwithin 5 of (EXPR)", "the same without EXPR itself"},
     {"byres byresidue", WordKind::group, 0, "byres (EXPR)", "whole residues that have an atom in EXPR"},
     {"bychain", WordKind::group, 1, "bychain (EXPR)", "whole chains that have an atom in EXPR"},
+    {"first", WordKind::group, 2, "first (EXPR)",
+     "its first residue, and those of EXPR with gaps of at most 10 Å to it"},
     {"same", WordKind::same, 0, "same residue as (EXPR)", "the same as byres; 'same chain as' is bychain"},
 
     {"not", WordKind::operation, 0, "not EXPR", "or !; binds most tightly"},
@@ -119,10 +121,10 @@ Rules:
   Lists of values: A B C, A,B,C or A+B+C. * stands for any letters and ? for one. Quotes ("..." or
   '...') take a value literally; they are needed for a value that is also a keyword.
   Ranges of residues are ordered by number and insertion code: 52 < 52A < 53.
-  After within, around, byres, bychain or same ... as, put EXPR in parentheses if and/or follows.
+  After within, around, byres, bychain, first or same ... as, put EXPR in parentheses if and/or follows.
   SET within 5 of (EXPR): atoms of SET near EXPR. (EXPR) around 5 and (EXPR) expand 5 work as in PyMOL.
   Distances are exact, between the atoms of the file, without periodic images. In a run of frames
-  within, x, y, z, helix, strand and coil are evaluated in each frame; with @select-once@ in the first
+  within, first, x, y, z, helix, strand and coil are evaluated in each frame; with @select-once@ in the first
   frame only.
   An atom without a value (B-factor, charge) never matches a comparison.
 
@@ -131,6 +133,10 @@ Water and free ions:
   selects them, unless @keep-water@ or @keep-ions@ is given or the expression names them: water by the
   keyword or its residue name; ions by the keyword, residue name, element or atom name (a name that other
   atoms of the file also have, such as CA, does not name an ion). Then the expression decides.
+
+Without @select@:
+  The surface is that of the polymers of the file, with modified residues and bound sugars. Files without
+  a polymer are taken whole. @select all@ takes ligands and lipids, too.
 )";
 
 }  // namespace

@@ -19,7 +19,7 @@ enum class WordKind : std::uint8_t {
   whole,     ///< whole numbers, ranges, or a comparison; `which` is an AtomField
   number,    ///< numbers, ranges, or a comparison; `which` is an AtomField
   distance,  ///< a distance and a set; `which` is 1 if the set itself belongs to the result
-  group,     ///< a set; `which` is 1 for whole chains
+  group,     ///< a set; `which` is 0 for whole residues, 1 for whole chains, 2 for the first place
   same,      ///< "residue as" or "chain as" and a set
   operation  ///< and, or, not
 };

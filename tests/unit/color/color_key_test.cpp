@@ -120,7 +120,7 @@ TEST(ColorKey, OfEveryPairOfSchemesExplainsWhatIsDrawnAndNoMore) {
           expect_true(structure, scheme, drawn);
           ++pairs;
         }
-  EXPECT_EQ(pairs, 23u * 23u * 5u * 2u);
+  EXPECT_EQ(pairs, 26u * 26u * 5u * 2u);
 }
 
 TEST(ColorKey, RulesOfASchemeHaveItsTitleAndEntries) {

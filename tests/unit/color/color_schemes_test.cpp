@@ -18,8 +18,10 @@ namespace {
 
 TEST(Colors, WordsAreReadStrictly) {
   for (const char* good :
-       {"element", "chain", "residue", "bfactor", "occupancy", "charge", "hydrophobicity", "kind", "component", "index",
-        "atom", "file", "secondary", "rainbow", "plddt", "conservation", "#00ff7F", "#0f7", "red"}) {
+       {"auto",      "element",   "chain",          "chain-element", "chain-okabe-ito", "residue", "bfactor",
+        "occupancy", "charge",    "hydrophobicity", "kind",          "component",       "index",   "atom",
+        "file",      "secondary", "rainbow",        "plddt",         "conservation",    "#00ff7F", "#0f7",
+        "red"}) {
     EXPECT_TRUE(parse_color_scheme(good)) << good;
   }
   for (const char* bad : {"", "Element", "#ff", "#-ff", "#00ff7g", "#-0ff7f", "#00ff7f0", "Red", "reddish", "#"}) {
@@ -57,12 +59,38 @@ TEST(Colors, AChainHasTheColourOfItsPlaceInTheFile) {
   Structure whole = four_atoms(), part = four_atoms();
   whole.chains = part.chains = {"Z", "B", "A"};
   part.atoms.erase(part.atoms.begin() + 2);  // all of B
-  EXPECT_EQ(colored("chain", whole).atom[0], categorical_color(2));
-  EXPECT_EQ(colored("chain", whole).atom[2], categorical_color(1));
-  EXPECT_EQ(colored("chain", part).atom[0], categorical_color(2));
+  EXPECT_EQ(colored("chain", whole).atom[0], chain_color(2));
+  EXPECT_EQ(colored("chain", whole).atom[2], chain_color(1));
+  EXPECT_EQ(colored("chain", part).atom[0], chain_color(2));
+  EXPECT_EQ(colored("chain-okabe-ito", part).atom[0], categorical_color(2));
   part.atoms[0].chain = "new";  // of no chain of the file
-  EXPECT_EQ(colored("chain", part).atom[0], categorical_color(3));
-  EXPECT_EQ(color_key(part, scheme("chain")).classes[0].color, categorical_color(3));
+  EXPECT_EQ(colored("chain", part).atom[0], chain_color(3));
+  EXPECT_EQ(color_key(part, scheme("chain")).classes[0].color, chain_color(3));
+  EXPECT_EQ(color_key(part, scheme("chain-okabe-ito")).classes[0].color, categorical_color(3));
+}
+
+TEST(Colors, AutoIsByChainForPolymersAndByElementForSmallMolecules) {
+  Structure small = four_atoms(), protein = small, spheres = small;
+  protein.atoms[3].kind = AtomClass::polymer;
+  for (Atom& atom : spheres.atoms) atom.element = 0;
+  EXPECT_EQ(colored("auto", small).atom, colored("element", small).atom);
+  EXPECT_EQ(colored("auto", protein).atom, colored("chain", protein).atom);
+  EXPECT_EQ(colored("auto", spheres).atom, colored("chain", spheres).atom);
+  EXPECT_EQ(color_key(small, {}).title, "element") << "it is the default";
+  EXPECT_EQ(color_key(protein, {}).title, "chain");
+}
+
+TEST(Colors, ChainElementShowsChainsByTheCarbonOfPolymers) {
+  Structure structure = four_atoms();  // elements C, N, O, C
+  structure.atoms[0].kind = structure.atoms[1].kind = AtomClass::polymer;
+  structure.atoms[3].kind = AtomClass::ligand;
+  const Coloring coloring = colored("chain-element", structure);
+  EXPECT_EQ(coloring.atom, (std::vector<glm::vec3>{chain_color(0), cpk_color(7), cpk_color(8), cpk_color(6)}));
+  const ColorKey key = color_key(structure, scheme("chain-element"));
+  EXPECT_EQ(key.classes, (std::vector<ColorClass>{{"A", chain_color(0)}}));
+  ASSERT_EQ(key.others.size(), 1u);
+  EXPECT_EQ(key.others[0].title, "element");
+  EXPECT_EQ(key.others[0].classes.size(), 3u);
 }
 
 TEST(Colors, CopiesOfAChainKeepItsColorUnlessCopiesAreColored) {

@@ -107,7 +107,8 @@ TEST(CutByAtoms, SaysWhatItLeavesHidden) {
   const std::vector<Cut> cuts{parse_cut("before resn LIG")};
   std::vector<Ball> balls;
   for (const Atom& atom : structure.atoms) balls.push_back({atom.position, atom.radius});
-  const std::vector<std::string> said = idle_cuts(cuts, cut_atoms(cuts, structure), {camera(), balls, balls}, balls);
+  const std::vector<std::string> said =
+      ineffective_cuts(cuts, cut_atoms(cuts, structure), {camera(), balls, balls}, balls);
   ASSERT_EQ(said.size(), 1u);
   EXPECT_TRUE(said.front().starts_with("before resn LIG leaves them ")) << said.front();
 }

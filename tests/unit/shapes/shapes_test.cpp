@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -382,6 +383,28 @@ TEST(Bases, OfRealNucleicAcidsAreAllThere) {
   EXPECT_GT(residues.size(), 20u);
   EXPECT_EQ(drawn, residues);
   EXPECT_EQ(shapes.mesh.triangles.size(), residues.size() * 6 * 4 + purines * 5 * 4);
+}
+
+TEST(Cartoon, OfNucleicAcidsIsABandThatIsFlatTowardsItsBases) {
+  Structure structure;
+  for (std::uint32_t n = 0; n < 5; ++n) {
+    add_atom(structure, "P", n, "DA", 6.0 * n, 0.0, 0.0);
+    add_atom(structure, "C4'", n, "DA", 6.0 * n + 2.0, 0.0, 2.0);
+    add_atom(structure, "C1'", n, "DA", 6.0 * n + 2.0, 0.0, 5.0);
+  }
+  const std::vector<bool> all(structure.atoms.size(), true);
+  const Shapes band = backbone(structure, all, 0.5);
+  expect_closed_and_outward(band.mesh, 1);
+  glm::dvec3 high(0.0);
+  for (const glm::dvec3& p : band.mesh.positions) high = glm::max(high, p);
+  EXPECT_NEAR(high.y, 2.8 * 0.5, 1e-9);
+  EXPECT_NEAR(high.z, 0.6 * 0.5, 1e-9);
+  EXPECT_EQ(cartoon(structure, all, 0.5).mesh.positions.size(), band.mesh.positions.size());  // bases without rings
+  add_ring(structure, {"N1", "C2", "N3", "C4", "C5", "C6"}, 4, "DA");
+  std::vector<bool> selected(structure.atoms.size(), true);
+  EXPECT_EQ(cartoon(structure, selected, 0.5).mesh.triangles.size(), band.mesh.triangles.size() + 6 * 4);
+  for (Atom& one : structure.atoms) one.kind = AtomClass::ligand;
+  EXPECT_EQ(cartoon(structure, selected, 0.5).mesh.triangles.size(), band.mesh.triangles.size());
 }
 
 TEST(SugarSymbols, AreClosedSolidsOfTheirShape) {

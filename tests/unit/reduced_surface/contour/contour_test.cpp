@@ -167,7 +167,7 @@ TEST(SphereCover, CirclesThatAreRuledOutAreCovered) {
   int spheres = 0, ruled_out = 0, kept = 0;
   for (int n = 0; n < 300; ++n) {
     const Blockers blockers = surroundings(random, 70);
-    const bool exposed = cover.look(blockers);
+    const bool exposed = cover.test(blockers);
     if (!exposed) ++spheres;
     for (std::size_t circle = 0; circle < blockers.size(); ++circle) {
       const bool may_be = exposed && cover.circle_may_be_exposed(circle);
@@ -202,7 +202,7 @@ TEST(SphereCover, BallsWithOpenCirclesLeaveTheArcsThatAllLeaveNearUncoveredDirec
   std::size_t arcs = 0, left_out = 0, refused = 0;
   for (int n = 0; n < 1000; ++n) {
     const Blockers all = surroundings(random, 40);
-    if (!cover.look(all)) continue;
+    if (!cover.test(all)) continue;
     Blockers open;
     open.restart(all.first_weight());
     std::vector<std::size_t> in_all;
@@ -230,7 +230,7 @@ TEST(SphereCover, BallsWithOpenCirclesLeaveTheArcsThatAllLeaveNearUncoveredDirec
 TEST(SphereCover, ASphereWithoutNeighborsIsNotCovered) {
   Blockers blockers;
   blockers.restart(9);
-  EXPECT_TRUE(SphereCover().look(blockers));
+  EXPECT_TRUE(SphereCover().test(blockers));
 }
 
 }  // namespace

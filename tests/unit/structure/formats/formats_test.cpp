@@ -19,8 +19,10 @@ namespace {
 using test::PdbLine;
 using test::TemporaryFolder;
 
-Structure read_text(const std::string& name, std::string_view text, const ReadOptions& options = {}) {
+/// Reads all atoms of a file but water and ions.
+Structure read_text(const std::string& name, std::string_view text, ReadOptions options = {}) {
   const TemporaryFolder folder;
+  options.takes_ligands = true;
   return read_structure(folder.file(name, text), options);
 }
 

@@ -25,6 +25,13 @@ Structure read_named(const std::string& name, std::string_view text, const ReadO
   return read_structure(folder.file(name, text), options);
 }
 
+/// Returns the options that use ligands of a file with a polymer, too.
+ReadOptions with_ligands() {
+  ReadOptions options;
+  options.takes_ligands = true;
+  return options;
+}
+
 TEST(RealEntries, CountsAreThePublishedOnes) {
   const Structure ubiquitin = read_structure(kUbiquitin);
   EXPECT_EQ(ubiquitin.report.sentence(), "660 atoms read; 58 water left out; 602 used");
@@ -36,11 +43,13 @@ TEST(RealEntries, CountsAreThePublishedOnes) {
   EXPECT_EQ(nmr.report.models, 10u);
 }
 
-TEST(RealEntries, TheRibosomeLosesItsFreeIonsOnly) {
+TEST(RealEntries, TheRibosomeLosesItsFreeIonsAndItsLigand) {
   const Structure ribosome = read_structure(kRibosome);
   EXPECT_EQ(ribosome.format, "mmCIF");
-  EXPECT_EQ(ribosome.report.sentence(), "165,175 atoms read; 187 free ions left out; 164,988 used");
-  ReadOptions keep;
+  EXPECT_EQ(ribosome.report.sentence(),
+            "165,175 atoms read; 187 free ions, 23 of 1 ligand (AMP) left out; 164,965 used (--select all adds "
+            "ligands)");
+  ReadOptions keep = with_ligands();
   keep.keep_ions = true;
   EXPECT_EQ(read_structure(kRibosome, keep).atoms.size(), 165175u);
 }
@@ -160,11 +169,14 @@ TEST(Classes, WaterAndIonsGoLigandsAndBoundMetalsStay) {
   const std::string text = PdbLine{}.text() + het(" O  ", "HOH", " O", 2) + het("ZN  ", " ZN", "ZN", 3) +
                            het("CL  ", " CL", "CL", 4) + het("FE  ", "HEM", "FE", 5) + het(" NA ", "HEM", " N", 5) +
                            het(" C1 ", "GOL", " C", 6);
-  const Structure structure = read_named("a.pdb", text);
+  const Structure structure = read_named("a.pdb", text, with_ligands());
   EXPECT_EQ(structure.report.sentence(), "7 atoms read; 1 water, 2 free ions left out; 4 used");
+  EXPECT_EQ(read_named("a.pdb", text).report.sentence(),
+            "7 atoms read; 1 water, 2 free ions, 3 of 2 ligands (GOL, HEM) left out; 1 used (--select all adds "
+            "ligands)");
   EXPECT_EQ(structure.atoms[1].element, 26);
   EXPECT_EQ(structure.atoms[1].kind, AtomClass::ligand);
-  ReadOptions keep;
+  ReadOptions keep = with_ligands();
   keep.keep_water = keep.keep_ions = true;
   EXPECT_EQ(read_named("a.pdb", text, keep).atoms.size(), 7u);
 }
@@ -180,7 +192,7 @@ TEST(Classes, WhatFollowsTheEndOfItsChainIsNoPolymer) {
   const auto kind = [&](char chain, const std::string& end) {
     const std::string alanine = PdbLine{.name = " CA ", .chain = chain, .x = "   1.400"}.text() +
                                 PdbLine{.name = " C  ", .chain = chain, .x = "   2.800"}.text();
-    return read_named("a.pdb", alanine + end + peptide).atoms.back().kind;
+    return read_named("a.pdb", alanine + end + peptide, with_ligands()).atoms.back().kind;
   };
   EXPECT_EQ(kind('A', ""), AtomClass::polymer);
   EXPECT_EQ(kind('A', "TER\n"), AtomClass::ligand);
@@ -204,7 +216,7 @@ TEST(Elements, OfTwoLettersAreToldByTheNameOfALigand) {
   const std::string ring = PdbLine{.name = " C1 ", .residue = "LIG", .x = "  90.000", .element = "  "}.text();
   const auto element = [&](const char* name, const char* residue, const char* record = "HETATM") {
     const PdbLine line{.record = record, .name = name, .residue = residue, .number = 2, .element = "  "};
-    ReadOptions options;
+    ReadOptions options = with_ligands();
     options.keep_ions = true;
     return static_cast<int>(read_named("a.pdb", ring + line.text(), options).atoms.at(1).element);
   };
@@ -245,8 +257,8 @@ TEST(Elements, LeftAlignedNamesSayNothingByTheirColumns) {
 TEST(Elements, UnknownOnesHaltUnlessToldOtherwise) {
   const std::string text =
       PdbLine{}.text() + PdbLine{.name = " X1 ", .residue = "UNL", .number = 2, .element = " X"}.text();
-  EXPECT_THROW(read_named("a.pdb", text), InputError);
-  ReadOptions options;
+  EXPECT_THROW(read_named("a.pdb", text, with_ligands()), InputError);
+  ReadOptions options = with_ligands();
   options.unknown_element = UnknownElement::guess;
   EXPECT_EQ(read_named("a.pdb", text, options).atoms.at(1).radius, 2.0);
   options.unknown_element = UnknownElement::skip;
@@ -441,7 +453,7 @@ ATOM C CA . GLY A 1 1 1.0 2.0 3.0 10 Heavy 2
 )";
 
 TEST(Mmcif, TakesAuthorNamesEntitiesAndTheFirstModel) {
-  const Structure structure = read_named("a.cif", kMmcif);
+  const Structure structure = read_named("a.cif", kMmcif, with_ligands());
   EXPECT_EQ(structure.report.sentence(), "4 atoms read; 1 of other models, 1 water left out; 2 used");
   EXPECT_EQ(structure.atoms[0].kind, AtomClass::polymer);
   EXPECT_EQ(structure.atoms[0].chain, "Heavy");
@@ -455,7 +467,7 @@ TEST(Mmcif, TakesAuthorNamesEntitiesAndTheFirstModel) {
 TEST(Mmcif, ModelsAreToldApartAndMissingSymbolsCounted) {
   std::string text = kMmcif;
   text.replace(text.find("ATOM C CA"), 9, "ATOM ? CA");
-  ReadOptions options;
+  ReadOptions options = with_ligands();
   options.model.all = true;
   const Structure structure = read_named("a.cif", text, options);
   ASSERT_EQ(structure.atoms.size(), 3u);

@@ -170,6 +170,10 @@ TEST(Selection, WordsMeanWhatTheHelpSays) {
       {"index 3 around 1", "2 4"},
       {"(index 3) expand 1", "2 3 4"},
       {"index 3 around 1 expand 1", "1 2 3 4 5"},
+      {"first (index 0 4 9 16)", "0 4 9 16"},  // gaps of at most 10 A
+      {"first (index 5 16)", "5"},
+      {"first index 9 16", "9 16"},
+      {"first none", ""},
   };
   for (const auto& [expression, expected] : cases) EXPECT_EQ(selected(expression), expected) << expression;
 }

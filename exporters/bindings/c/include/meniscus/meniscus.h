@@ -414,7 +414,7 @@ typedef enum meniscus_unknown_element MENISCUS_WORDS {
 /* Which atoms of a file are used, and their radii. The defaults are those of the program. */
 typedef struct meniscus_read_options {
   size_t size;
-  const char* select;             /* [NULL: all atoms] a selection such as "chain A and not water" (see `meniscus help
+  const char* select;             /* [NULL: the polymers] a selection such as "chain A" or "all" (see `meniscus help
                                      selections`) */
   const char* assembly;           /* [NULL: as deposited] the biological assembly to build, such as "1" */
   const char* altloc;             /* ["best"] the alternate location of each residue: "best" (the most occupied one),
@@ -446,13 +446,11 @@ MENISCUS_API meniscus_status meniscus_default_read_options(meniscus_read_options
 typedef struct meniscus_structure meniscus_structure;
 
 /* Reads a molecule from a PDB, mmCIF, BinaryCIF, SDF, MOL2, PDBQT, PQR, GRO, XYZ or XYZR file, which may be compressed
- * with gzip. By default it uses the polymers and ligands of the first model, with the most occupied conformer of each
- * residue, but neither water nor free ions.
- * options: NULL for the defaults.
- * *structure: the new object, which the caller releases.
- * Errors: MENISCUS_INPUT if the file cannot be read, with its path and the line in the message; MENISCUS_USAGE for an
- * invalid option. For an invalid selection, the message has two more lines: the expression, and a caret below the
- * error. */
+ * with gzip. By default it uses the polymers of the first model with the sugars that are bound to them, or all of a
+ * file without a polymer, with the most occupied conformer of each residue, but neither water nor free ions. options:
+ * NULL for the defaults. *structure: the new object, which the caller releases. Errors: MENISCUS_INPUT if the file
+ * cannot be read, with its path and the line in the message; MENISCUS_USAGE for an invalid option. For an invalid
+ * selection, the message has two more lines: the expression, and a caret below the error. */
 MENISCUS_API meniscus_status meniscus_read(const char* path, const meniscus_read_options* options,
                                            meniscus_structure** structure);
 /* Add and remove a reference (see Ownership above). */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds values without effect by a table of what each of them needs.
-#include "core/scene/idle_values.h"
+#include "core/scene/ineffective_values.h"
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@
 namespace meniscus {
 namespace {
 
-bool is_run(const GivenScene& given) { return given.scene.frames.asked(); }
+bool is_run(const GivenScene& given) { return given.scene.frames.is_requested(); }
 bool has_patches(const GivenScene& given) { return given.is_live || given.any({"surface.patches"}); }
 bool has_legend(const GivenScene& given) { return given.any({"legend.shown", "legend.file"}); }
 bool names_a_scale(const GivenScene& given) { return given.is_live || has_legend(given); }
@@ -71,6 +71,11 @@ const std::vector<Need>& needs_of_scenes() {
       {{"surface.cap_color", "surface.cap_hatching", "surface.clip_all"},
        {"surface.clip", "camera.look_into"},
        "nothing is cut; add @clip PLANE@"},
+      {{"shapes.bare"},
+       [](const GivenScene& given) {
+         return !given.any({"molecule.select", "molecule.instances", "surface.interface"});
+       },
+       "beside atoms that are selected, and copies of one surface, only what is named is drawn"},
       {{"surface.film_opacity"}, {"surface.opacity"}, "all of the surface is opaque; add @opacity@"},
       {{"shapes.stick_radius"},
        {"figure.sticks", "figure.balls", "figure.bases", "figure.glycans"},
@@ -137,15 +142,15 @@ bool GivenScene::any(const std::vector<std::string_view>& keys) const { return s
 Condition::Condition(std::initializer_list<std::string_view> keys)
     : is_met([any = std::vector(keys)](const GivenScene& given) { return given.any(any); }) {}
 
-std::vector<SceneNote> idle_values(const GivenScene& given, std::span<const Need> needs) {
+std::vector<SceneNote> ineffective_values(const GivenScene& given, std::span<const Need> needs) {
   std::vector<SceneNote> notes;
   const auto add = [&](const Need& need) {
-    std::vector<std::string> idle;
+    std::vector<std::string> names;
     for (const std::string_view key : need.keys)
-      if (given.is_given(key)) idle.push_back(name_of(key));
-    if (idle.empty() || need.condition.is_met(given)) return;
-    notes.push_back({fmt::format("{}{} {} no effect: {}", need.is_refused ? "" : "note: ", fmt::join(idle, ", "),
-                                 idle.size() == 1 ? "has" : "have", with_options(need.missing)),
+      if (given.is_given(key)) names.push_back(name_of(key));
+    if (names.empty() || need.condition.is_met(given)) return;
+    notes.push_back({fmt::format("{}{} {} no effect: {}", need.is_refused ? "" : "note: ", fmt::join(names, ", "),
+                                 names.size() == 1 ? "has" : "have", with_options(need.missing)),
                      need.is_refused});
   };
   std::ranges::for_each(needs_of_scenes(), add);

@@ -49,6 +49,6 @@ struct SceneNote {
 
 /// Returns a note for each group of values without effect, and for each value that is more likely one of another unit.
 /// needs: conditions of the caller, in addition to the conditions of all scenes.
-std::vector<SceneNote> idle_values(const GivenScene& given, std::span<const Need> needs);
+std::vector<SceneNote> ineffective_values(const GivenScene& given, std::span<const Need> needs);
 
 }  // namespace meniscus

@@ -12,6 +12,6 @@ namespace meniscus {
 /// If RunRequest::select_once is set, replaces all selections of the scene that depend on positions by the atoms that
 /// they select in the first frame. Must be called before the scene is used. of_atoms: further selections, of atoms of
 /// the surface. Throws RequestError if no selection depends on positions; otherwise like FrameRun.
-void settle_selections(Scene& scene, const std::vector<Selection*>& of_atoms = {});
+void freeze_selections(Scene& scene, const std::vector<Selection*>& of_atoms = {});
 
 }  // namespace meniscus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Samples a volume map at points of each patch, weighted by the areas of its faces.
-#include "core/scene/map_reach.h"
+#include "core/scene/map_coverage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,9 +21,9 @@ struct Tally {
 };
 
 /// The measurement of one copy of an object.
-class Reach {
+class Coverage {
  public:
-  Reach(const VolumePaint& map, const SurfaceObject& object, const RigidMotion& motion)
+  Coverage(const VolumePaint& map, const SurfaceObject& object, const RigidMotion& motion)
       : map_(map), object_(object), surface_(object.surface), motion_(motion) {}
 
   /// True if the whole surface lies in the map, because a closing of balls lies in their convex hull, and a map's grid
@@ -141,13 +141,13 @@ class Reach {
 double share_beyond(const VolumePaint& map, std::span<const SurfaceObject> objects) {
   const auto holds = [&](const SurfaceObject& object) {
     return std::ranges::all_of(object.copies,
-                               [&](const RigidMotion& copy) { return Reach(map, object, copy).holds_all(); });
+                               [&](const RigidMotion& copy) { return Coverage(map, object, copy).holds_all(); });
   };
   if (std::ranges::all_of(objects, holds)) return 0.0;
   double shown = 0.0, beyond = 0.0;
   for (const SurfaceObject& object : objects)
     for (const RigidMotion& copy : object.copies) {
-      const Reach::Areas areas = Reach(map, object, copy).areas();
+      const Coverage::Areas areas = Coverage(map, object, copy).areas();
       shown += areas.shown;
       beyond += areas.beyond;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Collects all selections, and evaluates them in the first frame.
-#include "core/scene/settled_selections.h"
+#include "core/scene/frozen_selections.h"
 
 #include <algorithm>
 
@@ -59,13 +59,13 @@ struct Expressions {
   }
 };
 
-void settle(const std::vector<Selection*>& selections, const std::vector<Atom>& atoms) {
+void freeze(const std::vector<Selection*>& selections, const std::vector<Atom>& atoms) {
   for (Selection* selection : selections) *selection = selection->fixed(atoms, selection->evaluate(atoms));
 }
 
 }  // namespace
 
-void settle_selections(Scene& scene, const std::vector<Selection*>& of_atoms) {
+void freeze_selections(Scene& scene, const std::vector<Selection*>& of_atoms) {
   if (!scene.frames.select_once) return;
   Expressions expressions;
   expressions.add(scene.molecule);
@@ -81,8 +81,8 @@ void settle_selections(Scene& scene, const std::vector<Selection*>& of_atoms) {
   RunRequest first = scene.frames;
   first.select_once = false;
   FrameRun frames(scene.molecule, first);
-  settle(expressions.of_file, frames.all_atoms());
-  settle(expressions.of_surface, shown_atoms(frames.structure()));
+  freeze(expressions.of_file, frames.all_atoms());
+  freeze(expressions.of_surface, shown_atoms(frames.structure()));
 }
 
 }  // namespace meniscus
