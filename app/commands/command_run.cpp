@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <unistd.h>
 
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"
+#include "core/base/text.h"
 #include "core/camera/camera_json.h"
 #include "core/queries/copies.h"
 #include "core/scene/context_areas.h"
@@ -121,6 +124,41 @@ void FigureRun::make_one_figure() {
   warn_if_unseen(command_, given_.still, structure);
   figure_ = make_figure(build_and_log(command_, std::move(structure)), command_.scene.figure);
 }
+
+namespace {
+
+/// Returns a sentence about the atoms that a picture is zoomed to if they are at several places, of which the word
+/// `first` shows one; otherwise an empty text. Without `first` only ligands are reported.
+std::string several_places(const Selection& zoom_to, std::span<const Atom> atoms) {
+  constexpr std::string_view kFirst = "first ";
+  std::string text = zoom_to.text();
+  const bool shows_first = text.starts_with(kFirst);
+  if (shows_first) text = text.substr(kFirst.size());
+  if (text.starts_with('(') && text.find(')') + 1 == text.size()) text = text.substr(1, text.size() - 2);
+  std::vector<bool> rest = parse_selection(text).evaluate(atoms);
+  std::string name;
+  std::vector<glm::dvec3> middles;
+  for (int turn = 0; turn < 2; ++turn) {
+    const std::vector<bool> place = first_place(atoms, rest);
+    const auto head = std::ranges::find(place, true);
+    if (head == place.end()) return {};
+    const Atom& atom = atoms[static_cast<std::size_t>(head - place.begin())];
+    name = fmt::format("resid {}", atom.residue_number);
+    if (!atom.chain.empty()) name += " and chain " + atom.chain;
+    glm::dvec3 sum(0.0);
+    for (std::size_t n = 0; n < atoms.size(); ++n) {
+      if (rest[n] && !shows_first && atoms[n].kind != AtomClass::ligand) return {};
+      if (place[n]) sum += atoms[n].position;
+      rest[n] = rest[n] && !place[n];
+    }
+    middles.push_back(sum / static_cast<double>(std::ranges::count(place, true)));
+  }
+  return fmt::format("{} is at several places, the first two {:.0f} Å apart, and {}; name one, such as {}",
+                     in_quotes(text), glm::distance(middles[0], middles[1]),
+                     shows_first ? "the first is shown" : "the picture has all of them", in_quotes(name));
+}
+
+}  // namespace
 
 void FigureRun::aim(const ViewRequest& picture, bool extent) {
   if (!frames_) {

@@ -37,8 +37,8 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("all that @show@ leaves")
         .in(kCamera, kShared | live | in_short_help),
     text("camera.look_into", "--look-into", "EXPR",
-         "Look at these atoms from the open side, with the surface cut before them; at the first of several places. "
-         "Short for @zoom-to 'first EXPR'@ @view open@ @clip 'before first EXPR'@")
+         "Look at these atoms from the open side, with the surface cut before them. Of several places the first is "
+         "shown. Short for @zoom-to 'first EXPR'@ @view open@ @clip 'before first EXPR'@")
         .in(kCamera, in_bundle | in_short_help)
         .excludes("camera.from|camera.view|camera.zoom_to"),
     text("camera.named_views", "--named-view", "NAME=FILE",

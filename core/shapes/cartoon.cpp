@@ -54,7 +54,7 @@ std::vector<Guide> guides_of(std::span<const Atom> atoms, const std::vector<bool
   std::vector<Guide> guides;
   for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
     const Atom& head = sorted[first];
-    std::optional<std::size_t> alpha, phosphorus, sugar, oxygen, base;
+    std::optional<std::size_t> alpha, phosphorus, first_oxygen, sugar, oxygen, base;
     for (; last < order.size() && sorted[last].residue == head.residue && sorted[last].copy == head.copy; ++last) {
       const Atom& atom = sorted[last];
       if (is_any(atom.name, {"O", "O1", "OT1", "OC1"}) && !oxygen) oxygen = last;
@@ -63,9 +63,11 @@ std::vector<Guide> guides_of(std::span<const Atom> atoms, const std::vector<bool
       const bool bead = atom.name == "BB" && atom.element == 0;  // Martini's bead for the backbone of a residue
       if (((atom.name == "CA" && atom.element == 6) || bead) && !alpha) alpha = last;
       if (atom.name == "P" && !phosphorus) phosphorus = last;
+      if (is_any(atom.name, {"O5'", "O5*"}) && !first_oxygen) first_oxygen = last;
       if (is_any(atom.name, {"C4'", "C4*"}) && !sugar) sugar = last;
     }
-    const std::optional<std::size_t> guide = alpha ? alpha : sugar && phosphorus ? phosphorus : sugar;
+    const std::optional<std::size_t> start = phosphorus ? phosphorus : first_oxygen ? first_oxygen : sugar;
+    const std::optional<std::size_t> guide = alpha ? alpha : sugar ? start : sugar;
     if (!guide) continue;
     guides.push_back({order[*guide], sorted[*guide].position, {}, !alpha, kinds[*guide]});
     if (const auto beside = alpha ? oxygen : base) guides.back().beside = sorted[*beside].position;
@@ -485,8 +487,11 @@ Shapes cartoon(const Structure& structure, const std::vector<bool>& selected, do
 }
 
 Shapes bases(const Structure& structure, const std::vector<bool>& selected, double radius) {
+  std::vector<Base> found = bases_of(structure.atoms, selected);
+  std::erase_if(found, [](const Base& base) { return !base.ring[1]; });
+  if (found.empty()) return {};
   BaseDrawer drawer(structure, radius);
-  for (const Base& base : bases_of(structure.atoms, selected)) drawer.draw(base);
+  for (const Base& base : found) drawer.draw(base);
   return std::move(drawer.shapes);
 }
 

@@ -14,7 +14,7 @@ namespace meniscus {
 inline constexpr double kTubeRadius = 0.45;
 
 /// Returns a closed mesh for each unbroken piece of at least two residues, and a sphere for each single one. A residue
-/// is represented by its selected CA atom, in nucleotides by P or else C4', in Martini models by BB.
+/// is represented by its selected CA atom, in nucleotides by P or else O5' or C4', in Martini models by BB.
 ///
 /// Helices are ribbons with a width of 6 radii, along the direction of the peptide planes (M. Carson and C. E. Bugg, J.
 /// Mol. Graph. 4, 121, 1986; computed from O, if present). Strands have a width of 5.6 radii and end in arrows. Nucleic

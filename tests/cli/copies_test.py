@@ -160,7 +160,8 @@ class Copies(unittest.TestCase):
                 words = COMMANDS[option]
                 made, shared = self.results(words, ALL)[0], self.results(words, ALL, "--instances", "separate")[0]
                 self.assertEqual(made.shape, shared.shape)
-                self.assertLess((numpy.abs(made - shared).max(axis=2) > 8).mean(), 0.01)
+                if option != "--look-into":  # instances have the first place each
+                    self.assertLess((numpy.abs(made - shared).max(axis=2) > 8).mean(), 0.01)
                 out = f"r{next(self.count)}"
                 refused = self.call([w.replace("{file}", "trimer.pdb").replace("{out}", out).replace("{}", ONE) for w in words] +
                                     ["--instances", "separate"], None)

@@ -3,10 +3,8 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
-#include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
@@ -17,9 +15,5 @@ inline constexpr double kWidestGap = 10.0;
 /// Returns the selected atoms of the first residue in the order of the file, and of the residues that gaps of at most
 /// kWidestGap between selected atoms join to it.
 std::vector<bool> first_place(std::span<const Atom> atoms, const std::vector<bool>& selected);
-
-/// Returns a sentence about the atoms that a picture is zoomed to if they are at several places, of which the word
-/// `first` shows one; otherwise an empty text. Without `first` only ligands are reported.
-std::string several_places(const Selection& zoom_to, std::span<const Atom> atoms);
 
 }  // namespace meniscus
