@@ -147,9 +147,9 @@ const std::vector<std::string>& numbered_schemes() {
     for (const ColorSchemeMetadata& scheme : color_schemes()) {
       using By = ColorScheme::By;
       // Kinds of patch have a key of their own; the others are not there for every molecule.
-      if (scheme.by != By::kind && scheme.by != By::component && scheme.by != By::file && scheme.by != By::copy &&
-          scheme.by != By::model && scheme.by != By::volume && scheme.by != By::buried && scheme.by != By::rmsf &&
-          scheme.by != By::accessibility)
+      if (scheme.by != By::automatic && scheme.by != By::kind && scheme.by != By::component && scheme.by != By::file &&
+          scheme.by != By::copy && scheme.by != By::model && scheme.by != By::volume && scheme.by != By::buried &&
+          scheme.by != By::rmsf && scheme.by != By::accessibility)
         offered.emplace_back(scheme.word);
     }
     return offered;

@@ -139,7 +139,7 @@ TEST_F(CStructure, ColorsAtomsByTheWordsOfTheProgram) {
   EXPECT_NE(colors("bfactor"), by_chain);
   for (const char* scheme : {"kind", "component", "buried", "rmsf", "relative-accessibility", "file"})
     refused(scheme, MENISCUS_USAGE, "needs more than the atoms of a file");
-  refused("chains", MENISCUS_USAGE, "'chains' is not one of element, ");
+  refused("chains", MENISCUS_USAGE, "'chains' is not one of auto, ");
   refused("charge", MENISCUS_INPUT, "partial charges");
   EXPECT_EQ(column<double>(structure, MENISCUS_STRUCTURE_HYDROPATHIES), (std::vector<double>{1.8, 1.8, 1.8, -0.4}));
 }

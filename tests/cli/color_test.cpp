@@ -220,7 +220,7 @@ TEST_F(ColorCommand, WhatCannotBeIsRefusedWithItsReason) {
     int exit_code;
     std::string reason;
   } cases[] = {
-      {{"--color", "bleu"}, 2, "'bleu' is not one of element"},
+      {{"--color", "bleu"}, 2, "'bleu' is not one of auto"},
       {{"--color", "file"}, 2, "needs --color-by-file"},
       {{"--color", "chain", "--color-by-file", five}, 2, "leave out the other --color"},
       {{"--map", "magma"}, 2, "is for colours by a number"},
@@ -236,7 +236,7 @@ TEST_F(ColorCommand, WhatCannotBeIsRefusedWithItsReason) {
       {{"--color-by-file", words}, 3, "words:3: 'red' is not a finite number"},
       {{"--color-by-file", gone}, 3, "all numbers are missing"},
       {{"--color-by-file", path("nowhere")}, 3, "cannot be read"},
-      {{"--color", "chain A=bleu"}, 2, "--color: 'bleu' is not one of element"},
+      {{"--color", "chain A=bleu"}, 2, "--color: 'bleu' is not one of auto"},
       {{"--color", "chain A and=red"}, 2, "--color: "},
       {{"--color", "kind", "--color", "chain A=red"}, 2, "kind colours patches"},
       {{"--color", "chain A=file"}, 2, "needs --color-by-file"},

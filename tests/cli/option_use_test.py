@@ -176,7 +176,7 @@ ROWS = {
     "--object": ('{"representation": "surface", "selection": "resname LIG", "probe": 3}', "bare"),
     "--hide-surface": (None, "shapes"), "--opacity": ("0.4", "plain"), "--film-opacity": (None, "seen through"),
     "--clip": ("depth>0.5", "plain"), "--clip-all": (None, "clip sticks"), "--cap-color": ("red", "clip"), "--cap-hatching": ("1", "clip"),
-    "--interface": ("A:B", "plain"), "--color": ("chain", "plain"), "--color-by-file": ("{plain.txt}", "plain"),
+    "--interface": ("A:B", "plain"), "--color": ("residue", "plain"), "--color-by-file": ("{plain.txt}", "plain"),
     "--color-column": ("second", "table"), "--map": ("magma", "number"), "--map-file": ("{ramp.txt}", "number"),
     "--color-range": ("0:99", "number"), "--color-map-file": ("{map.dx}", "range"), "--map-offset": ("2", "volume"),
     "--color-title": ("Heat", "legend"), "--color-unit": ("K", "legend"), "--missing-color": ("red", "some numbers"),

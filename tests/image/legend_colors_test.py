@@ -185,6 +185,10 @@ class LegendColors(unittest.TestCase):
             self.assertEqual(drawn, told, "balls are by element where the surface is by kind of patch")
             drawn, told = colors("--color", "chain", "--hide-surface", "--spheres", "chain B")
             self.assertEqual(drawn, told, "one chain is drawn")
+            drawn, told = colors("--spheres", "chain B", "--opacity", "chain B=0")
+            self.assertEqual(drawn, told, "by default surfaces are by chain, and spheres by element")
+            self.assertIn((0x46, 0x66, 0xD8), drawn, "nitrogen, as element-cpk has it")
+            self.assertIn((0xE9, 0xB7, 0x71), drawn, "carbon has the colour of the second chain")
             for case in scales:
                 with self.subTest(case=case):
                     drawn, _ = colors(*sum((["--color", word] for word in case), []))

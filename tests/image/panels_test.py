@@ -67,10 +67,10 @@ class Panels(unittest.TestCase):
         self.render("a.pdb", "a.png", "--color", "chain", "--size", "90x90")
         part = self.render("a.pdb", "p.png", "--color", "chain", "--size", "90x90", "--select", "chain B", "--preset", "flat",
                            "--depth-cue", "0")
-        self.assertGreater((part[..., :3] == (230, 159, 0)).all(axis=2).sum(), 100, "the second colour")
+        self.assertGreater((part[..., :3] == (233, 183, 113)).all(axis=2).sum(), 100, "the second colour")
         self.assertNotIn("warning", self.panels("a.png", "p.png", "--legend"))
         self.render("c.pdb", "c.png", "--color", "chain", "--size", "90x90")
-        self.assertIn("warning: #56b4e9 is chain 'A' in panel 1 and chain 'B' in panel 2; 2 more colours differ", self.panels("a.png", "c.png"))
+        self.assertIn("warning: #94cbfb is chain 'A' in panel 1 and chain 'B' in panel 2; 2 more colours differ", self.panels("a.png", "c.png"))
         self.render("b.pdb", "b.png", "--color", "bfactor", "--size", "90x90")
         self.render("a.pdb", "n.png", "--color", "bfactor", "--size", "90x90")
         self.assertIn("warning: the colours of B-factor are of 10 to 33 in panel 1 and of 30 to 53 in panel 2", self.panels("n.png", "b.png"))
@@ -106,7 +106,7 @@ class Panels(unittest.TestCase):
                                  "--background", "white")
             self.assertFalse((plain == page).all())
             self.assertEqual((page[:, :240] == legend).all(), not shared, "its own legend")
-            swatches = [numpy.argwhere((page == numpy.array(color)).all(axis=2)) for color in ((230, 159, 0), (86, 180, 233))]
+            swatches = [numpy.argwhere((page == numpy.array(color)).all(axis=2)) for color in ((233, 183, 113), (148, 203, 251))]
             right = [place[place[:, 1] > 420] for place in swatches]
             self.assertTrue(all(len(place) > 20 for place in right))
         # Legend on one panel alone, colours of another kind on the other: it may not stand beside both.

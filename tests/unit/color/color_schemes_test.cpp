@@ -205,9 +205,9 @@ TEST(Colors, RulesByANumberTakeTheMapAndTheRange) {
 }
 
 TEST(Colors, RulesOfWhatAtomsHaveNotAreRefused) {
-  const std::pair<const char*, const char*> reasons[] = {{"chain A=crimsom", "'crimsom' is not one of element"},
-                                                         {"chain A=", "'' is not one of element"},
-                                                         {"b>=20", "'20' is not one of element"},
+  const std::pair<const char*, const char*> reasons[] = {{"chain A=crimsom", "'crimsom' is not one of auto"},
+                                                         {"chain A=", "'' is not one of auto"},
+                                                         {"b>=20", "'20' is not one of auto"},
                                                          {"chain A=kind", "cannot colour some of the atoms"},
                                                          {"chain A=component", "cannot colour some of the atoms"},
                                                          {"chian A=red", "chian"}};

@@ -33,8 +33,8 @@ ROWS = (
 
 #: Colour schemes, and True for those that need more than the atoms of a file.
 SCHEMES = (
-    ('auto', False), ('element', False), ('chain', False), ('chain-element', False), ('chain-okabe-ito', False), ('copy', False), ('model',
-    False), ('residue', False), ('kind', True), ('component', True), ('bfactor', False), ('occupancy', False), ('charge', False),
-    ('hydrophobicity', False), ('element-cpk', False), ('index', False), ('radial', False), ('secondary', False), ('rainbow', False),
+    ('auto', False), ('element', False), ('chain', False), ('copy', False), ('model', False), ('residue', False), ('kind', True),
+    ('component', True), ('bfactor', False), ('occupancy', False), ('charge', False), ('hydrophobicity', False), ('element-cpk', False),
+    ('index', False), ('chain-element', False), ('chain-okabe-ito', False), ('radial', False), ('secondary', False), ('rainbow', False),
     ('plddt', False), ('snfg', False), ('bead', False), ('buried', True), ('lipophilicity', True), ('relative-accessibility', True),
     ('rmsf', True), ('file', True), ('conservation', True))
