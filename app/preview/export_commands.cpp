@@ -74,7 +74,7 @@ void check_ending(const std::string& name, Format format) {
 Json written(const ExportedView& view, Format format, const MakePictureDevice& make_device, const ExportTarget& target,
              const ExportWatch& watch) {
   Json reply{{"path", target.path.string()}};
-  if (format == Format::blender && (!view.figure.figure.plain() || (view.beside && !view.beside->empty())))
+  if (format == Format::blender && (!view.figure.figure.plain() || (view.extras && !view.extras->empty())))
     reply["note"] = "without cuts and shapes beside the surface; meniscus export has options for these";
   if (format == Format::png) export_picture(view, make_device, target, watch);
   if (format == Format::povray) reply["render_with"] = export_povray(view, target, watch);
