@@ -124,8 +124,8 @@ Rules:
   After within, around, byres, bychain, first or same ... as, put EXPR in parentheses if and/or follows.
   SET within 5 of (EXPR): atoms of SET near EXPR. (EXPR) around 5 and (EXPR) expand 5 work as in PyMOL.
   Distances are exact, between the atoms of the file, without periodic images. In a run of frames
-  within, first, x, y, z, helix, strand and coil are evaluated in each frame; with @select-once@ in the first
-  frame only.
+  within, first, x, y, z, helix, strand and coil are evaluated in each frame; with @select-once@
+  in the first frame only.
   An atom without a value (B-factor, charge) never matches a comparison.
 
 Water and free ions:
