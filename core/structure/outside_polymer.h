@@ -16,15 +16,15 @@ struct OutsidePolymer {
   enum class Part : std::uint8_t { inside, ligand, lipid };
 
   std::vector<Part> part;
-  /// True for atoms of ligands, lipids and ions that pictures draw beside a surface of the polymer. Solvent, salt and
+  /// True for atoms of ligands, lipids and ions that pictures draw next to a surface of the polymer. Solvent, salt and
   /// membranes are not drawn: lipids, ions and ligands of fewer than 40 heavy atoms of which a model has more than 20
   /// (all lipids count together), and ions in a box of water, which has more than 10 water molecules per residue.
   std::vector<bool> drawn;
 };
 
 /// Returns the molecules outside of the polymers. Sugars are inside if they are bound to a polymer, directly or by
-/// other sugars. atoms: as the readers return them, with residues in the order of the file. bonds: those of the file,
-/// by Atom::index; bonds by distance are added as in molecule_bonds(). Time is linear in the number of atoms.
+/// other sugars. atoms: as the readers return them, with residues in the order of the file. bonds: the bonds of the
+/// file, by Atom::index; bonds by distance are added as in molecule_bonds(). Time is linear in the number of atoms.
 OutsidePolymer outside_polymer(std::span<const Atom> atoms, std::span<const Bond> bonds);
 
 }  // namespace meniscus

@@ -120,7 +120,7 @@ class Program(Files):
         rows = [*atoms(), ("C1", "C", "LIG", "L", 1, (20.0, 0.0, 0.0)), ("O1", "O", "LIG", "L", 1, (21.3, 0.0, 0.0))]
         self.pdb.write_text(pdb(rows, water=False).replace("ATOM     65", "HETATM   65").replace("ATOM     66", "HETATM   66"))
         polymer = meniscus.read(self.pdb)
-        self.assertEqual(polymer.report, "66 atoms read; 2 of 1 ligand (LIG) left out; 64 used (select all adds ligands)")
+        self.assertEqual(polymer.report, "66 atoms read; 2 of 1 ligand (LIG) left out; 64 used (select=all adds ligands)")
         self.same(self.told(self.pdb), polymer)
         self.assertEqual(len(meniscus.read(self.pdb, select="all")), 66)
 

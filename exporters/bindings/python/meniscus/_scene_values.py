@@ -38,12 +38,13 @@ class SurfaceValues(TypedDict, total=False):
     specular: float
     #: F: Specular exponent, 1 to 1000; larger gives smaller highlights
     shininess: float
-    #: F: Shade in pockets and clefts, 0 (none) to 1. All that is drawn casts shade; what is seen through
-    #: casts none
+    #: F: Shade in pockets and clefts, 0 (none) to 1. All that is drawn casts shade; what is seen through casts
+    #: none
     ambient_occlusion: float
     #: Å: Largest distance at which the rays of ambient_occlusion_rays find shade, in Å
     ambient_occlusion_radius: float
-    #: N: Rays a pixel that find shade and shadows, such as 64: exact, but slow. 0: maps of the light find them [0]
+    #: N: Rays a pixel that find shade and shadows, such as 64: exact, but slow. 0: maps of the light find them
+    #: [0]
     ambient_occlusion_rays: float
     #: F: Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts none
     shadows: float
@@ -116,7 +117,8 @@ class SceneValues(SurfaceValues, total=False):
     #: WORD: Alternate location to keep: best, first, a letter, or all. best: that of the highest occupancy in
     #: each residue [best]
     altloc: Text
-    #: EXPR: Use only these atoms, such as 'chain A and resid 10-50'. See meniscus help selections
+    #: EXPR: Use these atoms, such as 'chain A and resid 10-50' or all. Default: the polymers of FILE, or all of
+    #: a file without one. See meniscus help selections
     select: Text
     #: Use water molecules, too
     keep_water: bool
@@ -288,6 +290,8 @@ class SceneValues(SurfaceValues, total=False):
     #: EXPR: Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours:
     #: color=snfg
     glycans: Union[Text, Sequence[Text]]
+    #: Draw no ligands and ions beside the surface of a polymer. Objects that are named stay
+    bare: bool
     #: Å: Radius of sticks in Å, also of bases and between glycans [0.25; 0.15 between balls]
     stick_radius: float
     #: Å: Radius of tubes in Å. Ribbons and arrows scale with it [0.45]
@@ -308,8 +312,8 @@ class SceneValues(SurfaceValues, total=False):
     turn: Union[Text, Sequence[Text]]
     #: EXPR: Fill the picture with these atoms [all that show leaves]
     zoom_to: Text
-    #: EXPR: Look at these atoms from the open side, with the surface cut before them. Short for zoom_to=EXPR
-    #: view=open clip='before EXPR'
+    #: EXPR: Look at these atoms from the open side, with the surface cut before them. Of several places the
+    #: first is shown. Short for zoom_to='first EXPR' view=open clip='before first EXPR'
     look_into: Text
     #: FILE: JSON file of key frames (frame, camera) of a moving camera
     camera_path: Path
