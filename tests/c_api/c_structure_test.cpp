@@ -179,7 +179,7 @@ TEST_F(CStructure, TakesWhatTheOptionsSay) {
 }
 
 TEST_F(CStructure, LeavesLigandsOfAPolymerOutUnlessAtomsAreSelected) {
-  std::string text = kMolecule;
+  std::string text(kMolecule);
   text.insert(text.find("ENDMDL"),
               "HETATM    8  C1  LIG A 301      50.000   0.000   0.000  1.00 25.00           C  \n");
   const std::string with_ligand = folder.file("ligand.pdb", text);

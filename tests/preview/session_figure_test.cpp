@@ -37,7 +37,7 @@ class FigureSession : public SessionCase {
     SessionContext context;
     context.read_shown = [file, reading](const FigureRequest& figure, std::size_t) {
       ReadOptions shown = reading;
-      figure.request_atoms(shown);
+      figure.mark_atoms(shown);
       return read_structure(file, shown);
     };
     begin(read_structure(file, reading), context);

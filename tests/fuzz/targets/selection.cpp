@@ -45,7 +45,7 @@ void run_selection(std::string_view bytes) {
     const std::vector<Atom> atoms = sample_atoms();
     const std::vector<bool> set = selection->evaluate(atoms);
     require(set.size() == atoms.size() && selection->names(atoms).size() == atoms.size(), "one truth value an atom");
-    require(selection->evaluate({}).empty(), "no atoms, no values");
+    require(selection->evaluate(std::span<const Atom>{}).empty(), "no atoms, no values");
     require(selection->text() == text, "a selection keeps its text");
     check_laws(text, atoms, set);
   }

@@ -89,7 +89,7 @@ TEST(Properties, EveryNumberOfALookIsEverywhere) {
     EXPECT_TRUE(property.has_range() && property.has(in_scene) && property.has(in_bundle) && property.has(live))
         << number.key;
     LookRequest asked;
-    *number.asked(asked) = 0.5f;
+    *number.requested(asked) = 0.5f;
     const Look look = look_of(asked, {640, 480}, {}, Hues::free);
     if (number.in) {
       Look changed = look;
