@@ -370,6 +370,18 @@ TEST(MappedLight, IsThatOfRays) {
   }
 }
 
+TEST(MappedLight, IsFiniteInPicturesOfAnySize) {
+  Subject subject(testing::ubiquitin());
+  subject.settings.aovs = false;
+  subject.settings.look = look_of({}, {64, 48}, {}, Hues::free, false);
+  for (int width = 1; width <= 40; width += 3)
+    for (const int height : {1, 5, 16, 37}) {
+      subject.settings.size = {width, height};
+      for (const glm::vec4& pixel : subject.picture().color)
+        for (int n = 0; n < 4; ++n) ASSERT_TRUE(std::isfinite(pixel[n])) << width << "x" << height;
+    }
+}
+
 TEST(MappedLight, IsTheSameForAnyBlocksVectorsAndThreads) {
   Subject subject(testing::ubiquitin());
   subject.settings.samples = 4;

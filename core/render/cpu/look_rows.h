@@ -163,8 +163,9 @@ struct LookedAtBlock {
     const real depth = depth_or_nothing(pixel);
     const truth met = depth != real(kNothing);
     if (!some(met)) return;
-    const real3 p = position_at(pixel, depth);
-    const real3 normal = facing(hit_normal_at(pixel), to_viewer_at(p));
+    // The other lanes read texels, too: their points must be numbers.
+    const real3 p = position_at(pixel, select(met, depth, real(1.0f)));
+    const real3 normal = select(met, facing(hit_normal_at(pixel), to_viewer_at(p)), real3(0.0f));
     if (maps.sky_axes > 0) put(sky_visibility(p, normal), pixel, look_.sky_seen);
     if (maps.lamp_places > 0) put(lamp_visibility(p, normal), pixel, look_.lamp_seen);
   }
