@@ -239,7 +239,7 @@ class PovrayFilm : public FilmMaker {
   std::uint64_t write(const MoleculeShot& shot, std::size_t scene) {
     const Look& look = shot.settings.look;
     const FigureRequest& requested = shot.scene.figure;
-    // POV-Ray casts shadows where a scene has them, but not those of a preset.
+    // POV-Ray casts the shadows of a scene. Shadows of a preset are left out.
     const float shadows = shot.scene.look.shadows ? look.shadows : 0.0f;
     const std::size_t place = sequence_.add_frame(shot.camera, {look.background, shadows, look.shadow_softness});
     const std::vector<povray::SceneObject> objects = objects_of(storyboard_, scene, shot);

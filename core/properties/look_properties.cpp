@@ -48,7 +48,7 @@ constexpr auto kTable = std::to_array<Property>({
         .slider("Shade", 1)
         .in(kLight, kLook | in_short_help),
     number("look.ambient_occlusion_radius", "--ambient-occlusion-radius", "Å",
-           "Largest distance at which the rays of @ambient-occlusion-rays@ find shade, in Å")
+           "Largest distance in Å at which @ambient-occlusion-rays@ finds shade")
         .from(0.1, 1000)
         .in(kLight, kLook),
     number("look.ambient_occlusion_rays", "--ambient-occlusion-rays", "N",

@@ -27,11 +27,11 @@ class LightMaps {
   void add(const PictureObject& object);
   /// Adds each copy of a surface.
   void add(const SurfaceObject& object);
-  /// Adds those of the balls that block light.
+  /// Adds the balls for which `blocking` is true.
   void add(std::span<const Ball> balls, const std::vector<bool>& blocking);
 
-  /// Makes the maps of everything that was added. Those of the sky are kept as long as the objects do not change.
-  /// basis: of the camera, which the lamp moves with.
+  /// Makes the maps of everything that was added. Maps of the sky are kept as long as the objects do not change.
+  /// basis: axes of the camera, with which the lamp moves.
   void make(const Look& look, const ViewBasis& basis);
 
   /// Returns the maps one after another, for light_texel(); empty unless the look needs maps.

@@ -3,6 +3,7 @@
 #include "core/scene/ineffective_values.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,7 +26,13 @@ bool has_letters(const GivenScene& given) {
 }
 
 Look resulting_look(const GivenScene& given) { return look_of(given.scene.look, {1, 1}, std::nullopt, Hues::free); }
-bool has_shadows(const GivenScene& given) { return resulting_look(given).shadows > 0.0f; }
+
+/// Returns true if the output has shadows. Scenes for POV-Ray and Blender have no shadows of a preset.
+bool has_shadows(const GivenScene& given) {
+  const std::filesystem::path output(given.scene.output);
+  const bool is_picture = output.empty() || (output.has_extension() && output.extension() != ".mns");
+  return resulting_look(given).shadows > 0.0f && (is_picture || given.any({"look.shadows"}));
+}
 
 /// Returns true unless colours are simply those given. Objects may have a material of their own.
 bool is_shaded(const GivenScene& given) {

@@ -131,7 +131,7 @@ CONTEXTS = {
     "mesh sticks": ["{one.pdb}", "--sticks", "chain A"], "mesh tube": ["{one.pdb}", "--tube", "protein"],
     "bare": ["{one.pdb}", "--opacity", "0.1"],
     "table": ["{one.pdb}", "--color-by-file", "{numbers.csv}", "--color-column", "first"],
-    "some numbers": ["{one.pdb}", "--color-by-file", "{plain.txt}"],
+    "some numbers": ["{one.pdb}", "--select", "all", "--color-by-file", "{plain.txt}"],
     "number": ["{one.pdb}", "--color", "bfactor"],
     "range": ["{one.pdb}", "--color-range", "-2:2"],
     "volume": ["{one.pdb}", "--color-map-file", "{map.dx}", "--color-range", "-2:2"],

@@ -41,7 +41,7 @@ class SurfaceValues(TypedDict, total=False):
     #: F: Shade in pockets and clefts, 0 (none) to 1. All that is drawn casts shade; what is seen through casts
     #: none
     ambient_occlusion: float
-    #: Å: Largest distance at which the rays of ambient_occlusion_rays find shade, in Å
+    #: Å: Largest distance in Å at which ambient_occlusion_rays finds shade
     ambient_occlusion_radius: float
     #: N: Rays a pixel that find shade and shadows, such as 64: exact, but slow. 0: maps of the light find them
     #: [0]
