@@ -49,7 +49,7 @@ SurfaceObject surface_of(const FigureObjectRequest& request, const Structure& al
 ColorScheme scheme_of(const FigureObjectRequest& request, const Structure& structure, std::size_t shown,
                       const ColorScheme& scheme) {
   ColorScheme own = request.color ? *request.color : scheme;
-  if (request.is_companion && own.by != ColorScheme::By::element_cpk) own.by = ColorScheme::By::element;
+  if (request.is_companion && own.by != ColorScheme::By::element) own.by = ColorScheme::By::element_cpk;
   if (request.color && own.uses_file()) own.set_numbers(scheme.file);
   if (request.color && request.shapes) own.by = scheme_of_shapes(own.by, *request.shapes);
   if (!request.color)

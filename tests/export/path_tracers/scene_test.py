@@ -149,8 +149,9 @@ class Scenes(unittest.TestCase):
         self.assertIn("within 0.2 Å", said.stderr)
 
     def test_untouched_atoms_are_spheres(self):
-        text = atom_line(1, 0.125, 0, 0) + atom_line(2, 20, 1, 2, element="O") + atom_line(3, 40, 0, 0) + atom_line(4, 41.5, 0, 0)
-        path = self.molecule(text)
+        places = {"C": (0.125, 0, 0), "O": (20, 1, 2)}
+        text = "".join(atom_line(1, *place, element=element, residue="LIG") for element, place in places.items())
+        path = self.molecule(text + "".join(atom_line(1, x, 0, 0, residue="LIG") for x in (40, 41.5)))
         (scene,) = self.written("mitsuba", path, "--color", "element")
         root, meshes = mitsuba_scene(scene)
         spheres = [e for e in root.iter("shape") if e.get("type") == "sphere"]

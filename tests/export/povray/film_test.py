@@ -91,7 +91,7 @@ class PovrayFilm(unittest.TestCase):
         self.assertGreater(share_of_differing(theirs[7], theirs[8]), 0.1)
 
     def test_a_run_shows_its_frames(self):
-        words = [self.scene("run", "--frames", "1-3", "--color", "chain", "--opacity", "resi 10-30=0.6", molecule=ENSEMBLE),
+        words = [self.scene("run", "--frames", "1-3", "--color", "residue", "--opacity", "resi 10-30=0.6", molecule=ENSEMBLE),
                  self.scene("still", "--color", "element", "--opacity", "resi 5-10=0.5")]
         ours, theirs = self.films(*words, "--hold", "0.25", "--transition", "0.25")
         self.assertEqual(len(ours), 3 + 1 + 1)
