@@ -170,8 +170,16 @@ json light_of(const Look& look) {
 
 /// How points are lit and finished.
 json look_words(const PageFigure& figure, const Look& look, const Tables& tables) {
+  const kernel::FinishParameters finish =
+      finish_parameters(look, tables.placement(), figure.size, 0, tables.has_marks());
   return {{"cast", words_of(cast_parameters(tables.placement(), look, tables.atom_count(), tables.color_by_kind()))},
-          {"finish", words_of(finish_parameters(look, tables.placement(), figure.size, 0, tables.has_marks()))},
+          {"finish", words_of(finish)},
+          {"line_widths",
+           {{"patch_lines", finish.patch_lines},
+            {"outer_lines", finish.outer_lines},
+            {"inner_lines", finish.inner_lines},
+            {"part_lines", finish.part_lines},
+            {"widest_line", finish.widest_line}}},
           {"light", light_of(look)},
           {"specular", look.material.specular}};
 }

@@ -19,7 +19,7 @@ PROGRAM, CHROMIUM, FREESASA = sys.argv[1:4]
 TOXIN = "/usr/share/pymol/data/demo/1tii.pdb"
 UBIQUITIN = f"{FREESASA}/1ubq.pdb"
 PROTEASE = "/usr/share/pymol/data/tut/1hpv.pdb"
-DEPTH_CUE = 21  # the word of FinishParameters (gpu_shaders/look/parameters.glsl)
+DEPTH_CUE = 41  # the word of FinishParameters (gpu_shaders/look/parameters.glsl)
 SIZE = (240, 180)
 SOFTWARE_GL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 NOTHING = 0xffffffff

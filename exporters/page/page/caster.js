@@ -396,8 +396,7 @@ class Caster {
   /// Lines grow with the picture, as those of presets do.
   line_widths() {
     const { figure, whole } = this, shorter = Math.min(...whole), growth = shorter / Math.min(...figure.size);
-    const view = new Float32Array(Uint32Array.from(this.look.finish).buffer), widths = {};
-    for (const [name, word] of Object.entries(kLineWords)) widths[name] = Math.min(16, view[word] * growth);
+    const widths = Object.fromEntries(Object.entries(this.look.line_widths).map(([name, width]) => [name, Math.min(16, width * growth)]));
     const step = figure.line_step * shorter;
     return { ...widths, step_pixels: Math.max(step, 2), fade_pixels: 2 * step };
   }
@@ -447,5 +446,3 @@ const kWholeMembers = new Set(["orthographic", "size", "sky_edge", "lamp_edge", 
 const kSingle = new Set(["marks", "map"]);
 /// Targets that one depth buffer serves.
 const kDeepTargets = ["found", "cap_atom"];
-/// Words of FinishParameters (gpu_shaders/look/parameters.glsl).
-const kLineWords = { patch_lines: 11, outer_lines: 15, inner_lines: 16, part_lines: 17, widest_line: 18 };
