@@ -6,36 +6,42 @@ const kLayerTexels = 2048 * 256;  // of the texture (gpu_shaders/webgl/light.fra
 const kEmptyMap = -1e30;
 const kGoldenAngle = Math.PI * (3 - Math.sqrt(5));
 
-/// Returns points on a line from one end to the other, at most `step` apart.
-function points_between(from, to, step) {
-  const count = Math.ceil(length(minus(to, from)) / step);
-  return Array.from({ length: count + 1 }, (_, n) => (count ? plus(times(from, 1 - n / count), times(to, n / count)) : from));
-}
-
 /// Returns all balls of a frame, {balls: [x, y, z, radius, ...], atoms: the atom of each}, whether they block light or not.
 function light_balls({ tables, light_maps: { surfaces, step } }) {
-  const balls = [], atoms = [], numbers = new Float32Array(tables.balls.buffer), words = tables.primitives;
-  const rows = new Float32Array(tables.rows.buffer), row = (n) => [...rows.subarray(4 * n, 4 * n + 3)];
-  const add = (center, radius, atom) => { balls.push(...center, radius); atoms.push(atom); };
-  for (const [first_ball, first_atom, count] of surfaces)
-    for (let n = 0; n < count; ++n) {
-      const at = 4 * (first_ball + n);
-      add([numbers[at], numbers[at + 1], numbers[at + 2]], numbers[at + 3], first_atom + n);
+  const balls = [], atoms = [], numbers = new Float32Array(tables.balls.buffer), words = tables.primitives, points = new Set();
+  const rows = new Float32Array(tables.rows.buffer), row = (n) => [rows[4 * n], rows[4 * n + 1], rows[4 * n + 2]];
+  const add = (x, y, z, radius, atom) => { balls.push(x, y, z, radius); atoms.push(atom); };
+  /// Adds points of a line, at most `step` apart. Triangles share points, and each is needed once for an atom.
+  const walk = (from, way, radius, atom) => {
+    const count = Math.ceil(length(way) / step), place = (n, k) => from[k] + (count ? way[k] * n / count : 0);
+    for (let n = 0; n <= count; ++n) {
+      const x = place(n, 0), y = place(n, 1), z = place(n, 2);
+      if (radius === 0) {
+        const [a, b, c] = [x, y, z].map((k) => Math.round(256 * k) + 65536), key = (a * 131072 + b) * 131072 + c;
+        if (points.has(key)) continue;
+        points.add(key);
+      }
+      add(x, y, z, radius, atom);
     }
+  };
+  for (const [first_ball, first_atom, count] of surfaces)
+    for (let n = 0, at = 4 * first_ball; n < count; ++n, at += 4) add(numbers[at], numbers[at + 1], numbers[at + 2], numbers[at + 3], first_atom + n);
+  let last_atom = -1;
   for (let at = 0; at < words.length; at += 12) {
-    const [first, , kind, place, atom, second_atom] = words.subarray(at + 5, at + 11);
-    if (place !== kNoPrimitive) continue;
+    const first = words[at + 5], kind = words[at + 7], atom = words[at + 9];
+    if (words[at + 8] !== kNoPrimitive) continue;
     const center = row(first), radius = rows[4 * first + 3];
     if (kind === kCylinder) {
       const half = times(row(first + 1), rows[4 * first + 7]);
-      for (const point of points_between(minus(center, half), center, step)) add(point, radius, atom);
-      for (const point of points_between(center, plus(center, half), step)) add(point, radius, second_atom);
+      walk(minus(center, half), half, radius, atom);
+      walk(center, half, radius, words[at + 10]);
     } else if (kind > kCylinder) {
-      const from = row(first + 1), to = row(first + 2);
-      for (const end of points_between(from, to, step))
-        for (const point of points_between([0, 0, 0], end, step)) add(plus(center, point), 0, atom);
+      if (atom !== last_atom) points.clear();
+      last_atom = atom;
+      const from = row(first + 1), along = minus(row(first + 2), from), count = Math.ceil(length(along) / step);
+      for (let n = 0; n <= count; ++n) walk(center, plus(from, times(along, count ? n / count : 0)), 0, atom);
     } else {
-      add(center, radius, atom);
+      add(...center, radius, atom);
     }
   }
   return { balls: Float64Array.from(balls), atoms: Uint32Array.from(atoms) };
