@@ -163,7 +163,7 @@ void declare_page(CLI::App& command) {
       "see\na still picture that is in it. Frames of a run are all in the page, each with its own patches.");
   auto declared = std::make_shared<DeclaredCommand<PageCommand>>(
       command, figure_properties().with({"surface.patches", "surface.min_patch", "Light", "Lines", "-look.material",
-                                         "-look.ambient_occlusion_rays", "-look.shadows", "-look.shadow_softness",
+                                         "-look.ambient_occlusion_rays", "-look.ambient_occlusion_radius",
                                          "-frames.only", "-camera.path", "-camera.turntable", "-camera.follow",
                                          "image.background", "annotations.labels"}));
   PropertyOptions(command).add("camera.named_views", declared->state.named_views);

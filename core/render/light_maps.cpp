@@ -21,9 +21,6 @@
 namespace meniscus {
 namespace {
 
-constexpr double kFinestSkyTexel = 0.4, kFinestLampTexel = 0.35;  // Å
-constexpr int kLargestSkyEdge = 384, kLargestLampEdge = 768;      // texels
-constexpr int kMargin = 3;                                        // empty texels around everything
 constexpr float kEmpty = -1e30f;
 constexpr double kGoldenAngle = std::numbers::pi * (3.0 - 2.2360679774997896);
 
@@ -35,21 +32,20 @@ void walk(const glm::dvec3& from, const glm::dvec3& to, double step, const Add& 
 }
 
 void add_balls(const Shapes& shapes, const std::vector<bool>& blocking, std::vector<Ball>& balls) {
-  constexpr double kStep = 0.25;  // Å
   for (const SphereShape& sphere : shapes.spheres)
     if (blocking[sphere.atom]) balls.push_back({sphere.center, sphere.radius});
   for (const CylinderShape& stick : shapes.cylinders) {
     const glm::dvec3 middle = 0.5 * (stick.from + stick.to);
     const auto add = [&](const glm::dvec3& point) { balls.push_back({point, stick.radius}); };
-    if (blocking[stick.from_atom]) walk(stick.from, middle, kStep, add);
-    if (blocking[stick.to_atom]) walk(middle, stick.to, kStep, add);
+    if (blocking[stick.from_atom]) walk(stick.from, middle, kLightMapStep, add);
+    if (blocking[stick.to_atom]) walk(middle, stick.to, kLightMapStep, add);
   }
   const MeshShape& mesh = shapes.mesh;
   for (const auto& [a, b, c] : mesh.triangles) {
     if (!blocking[mesh.atoms[a]]) continue;
     const glm::dvec3 corner = mesh.positions[a], from = mesh.positions[b], to = mesh.positions[c];
-    walk(from, to, kStep, [&](const glm::dvec3& end) {
-      walk(corner, end, kStep, [&](const glm::dvec3& point) { balls.push_back({point, 0.0}); });
+    walk(from, to, kLightMapStep, [&](const glm::dvec3& end) {
+      walk(corner, end, kLightMapStep, [&](const glm::dvec3& point) { balls.push_back({point, 0.0}); });
     });
   }
 }
@@ -114,12 +110,12 @@ void LightMaps::place_sky(int axes) {
   double radius = 1.0;
   for (const Group& group : groups_)
     for (const Ball& ball : group.balls) radius = std::max(radius, glm::length(ball.center - middle_) + ball.radius);
-  const auto fit = [radius](double finest, int largest_edge, double& texel, int& edge) {
-    texel = std::max(finest, 2.0 * radius / (largest_edge - 2 * kMargin));
-    edge = static_cast<int>(std::ceil(2.0 * radius / texel)) + 2 * kMargin;
+  const auto fit = [radius](const LightMapSize& size, double& texel, int& edge) {
+    texel = std::max(size.finest_texel, 2.0 * radius / (size.largest_edge - 2 * kLightMapMargin));
+    edge = static_cast<int>(std::ceil(2.0 * radius / texel)) + 2 * kLightMapMargin;
   };
-  fit(kFinestSkyTexel, kLargestSkyEdge, sky_texel_, sky_edge_);
-  fit(kFinestLampTexel, kLargestLampEdge, lamp_texel_, lamp_edge_);
+  fit(kSkyMapSize, sky_texel_, sky_edge_);
+  fit(kLampMapSize, lamp_texel_, lamp_edge_);
   sky_axes_ = axes;
   views_.clear();
   for (int n = 0; n < axes; ++n) {

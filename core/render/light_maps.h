@@ -17,6 +17,15 @@ namespace meniscus {
 
 struct SurfaceObject;
 
+/// The finest texels of a kind of maps, Å, and the edge of the largest maps, texels.
+struct LightMapSize {
+  double finest_texel;
+  int largest_edge;
+};
+inline constexpr LightMapSize kSkyMapSize{0.4, 384}, kLampMapSize{0.35, 768};
+inline constexpr int kLightMapMargin = 3;      ///< empty texels around everything
+inline constexpr double kLightMapStep = 0.25;  ///< distance between the balls of a stick or a mesh, Å
+
 /// The maps of gpu_shaders/look/light_maps.glsl. Surfaces block light as the balls of their atoms. Hidden, cut and
 /// transparent parts do not block light.
 class LightMaps {

@@ -104,9 +104,7 @@ const std::vector<Need>& needs_of_scenes() {
       {{"look.shininess"}, has_highlights, "there are no highlights; add @specular@"},
       {{"look.shadow_softness"}, has_shadows, "there are no shadows; add @shadows@"},
       {{"look.ambient_occlusion_radius"},
-       [](const GivenScene& given) {
-         return resulting_look(given).traces_sky() || std::string_view(given.scene.output).ends_with(".html");
-       },
+       [](const GivenScene& given) { return resulting_look(given).traces_sky(); },
        "no rays find shade; add @ambient-occlusion-rays@"},
       {{"look.ambient_occlusion_rays"},
        [](const GivenScene& given) { return resulting_look(given).ambient_occlusion > 0.0f; },

@@ -21,7 +21,7 @@ function(digest_of variable file)
 endfunction()
 
 set(script "")
-foreach(part data camera caster layers views frames png messages controls)
+foreach(part data camera light caster layers views frames png messages controls)
   file(READ ${FOLDER}/${part}.js text)
   string(APPEND script "${text}")
 endforeach()

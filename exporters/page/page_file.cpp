@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@
 #include "core/base/version.h"
 #include "core/gpu/shader_source.h"
 #include "core/image/color_space.h"
+#include "core/render/light_maps.h"
 #include "core/render/picture_block.h"
 #include "exporters/page/page_data.h"
 #include "exporters/page/page_tables.h"
@@ -68,7 +70,7 @@ json shaders() {
     return std::nullopt;
   };
   json sources = json::object();
-  for (const char* const name : {"footprint.vert", "whole.vert", "cast.frag", "points.frag", "occlusion.frag",
+  for (const char* const name : {"footprint.vert", "whole.vert", "cast.frag", "points.frag", "light.frag",
                                  "finish.frag", "present.frag", "layer_start.frag", "layer_event.frag",
                                  "layer_keep.frag", "layer_blend.frag", "layer_sum.frag", "cap_atom.frag"})
     for (const std::string& file : expand_shader(fmt::format("gpu_shaders/webgl/{}", name), find, {}).files)
@@ -145,29 +147,40 @@ std::string legend_of(const ColorKey& key) {
   return text;
 }
 
-/// The number of successive samples of a pixel that share the shade of the first of them.
-constexpr int kSamplesOfShade = 3;
+/// Returns what light.js needs in addition to the tables.
+json light_maps_of(const Tables& tables) {
+  const auto size = [](const LightMapSize& maps, int count) -> json {
+    return {{"finest_texel", maps.finest_texel}, {"largest_edge", maps.largest_edge}, {"count", count}};
+  };
+  return {{"sky", size(kSkyMapSize, kernel::kMostSkyAxes)},
+          {"lamp", size(kLampMapSize, kernel::kMostLampPlaces)},
+          {"margin", kLightMapMargin},
+          {"step", kLightMapStep},
+          {"surfaces", tables.surfaces()}};
+}
 
-/// Returns the parameters for the shade that a page takes from the depths of its picture.
-kernel::OcclusionParameters occlusion_parameters(const Look& look, glm::ivec2 size) {
-  constexpr int kLargestOwnMap = 2048;
-  constexpr float kMapSide = 1024.0f;  // texels
-  const int side = std::max(size.x, size.y);
-  const float edge = side <= kLargestOwnMap ? 1.0f : static_cast<float>(side) / kMapSide;
-  const glm::ivec2 map_size = glm::max(glm::ivec2(glm::vec2(size) / edge), glm::ivec2(1));
-  return {.map_middle = 0.5f * glm::vec2(map_size) - 0.5f,
-          .map_size = map_size,
-          .texel_edge = edge,
-          .near_reach = edge == 1.0f ? 0.0f : 8.0f * edge,
-          .radius = look.ambient_occlusion_radius,
-          .longest_reach = glm::length(glm::vec2(size)),
-          .sample_index = 0};
+/// Returns which maps a look needs, the direction towards the lamp in the picture's axes, and the lamp's radius at the
+/// distance 1.
+json light_of(const Look& look) {
+  return {{"maps_sky", look.maps_sky()},
+          {"maps_lamp", look.maps_lamp()},
+          {"direction", numbers(glm::normalize(glm::dvec3(look.light_direction)))},
+          {"disc", std::tan(static_cast<double>(look.shadow_softness) * std::numbers::pi / 180.0)}};
 }
 
 /// How points are lit and finished.
 json look_words(const PageFigure& figure, const Look& look, const Tables& tables) {
+  const kernel::FinishParameters finish =
+      finish_parameters(look, tables.placement(), figure.size, 0, tables.has_marks());
   return {{"cast", words_of(cast_parameters(tables.placement(), look, tables.atom_count(), tables.color_by_kind()))},
-          {"finish", words_of(finish_parameters(look, tables.placement(), figure.size, 0, tables.has_marks()))},
+          {"finish", words_of(finish)},
+          {"line_widths",
+           {{"patch_lines", finish.patch_lines},
+            {"outer_lines", finish.outer_lines},
+            {"inner_lines", finish.inner_lines},
+            {"part_lines", finish.part_lines},
+            {"widest_line", finish.widest_line}}},
+          {"light", light_of(look)},
           {"specular", look.material.specular}};
 }
 
@@ -240,7 +253,7 @@ json description_of(const PageFigure& figure, const Tables& tables) {
           {"origin", numbers(tables.origin())},
           {"background", {background.x, background.y, background.z}},
           {"look", look_words(figure, look, tables)},
-          {"occlusion", words_of(occlusion_parameters(look, figure.size))},
+          {"light_maps", light_maps_of(tables)},
           {"has_shade", look.has_shade()},
           {"has_lines", look.widest_line() > 0.0f},
           {"line_step", look.line_step},
@@ -249,7 +262,6 @@ json description_of(const PageFigure& figure, const Tables& tables) {
           {"layers", layers_of(figure)},
           {"map", tables.map()},
           {"samples", samples},
-          {"samples_of_shade", kSamplesOfShade},
           {"labels", labels},
           {"schemes", schemes_of(figure, tables)},
           {"names", names_of(figure.atoms)}};

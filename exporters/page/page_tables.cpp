@@ -128,6 +128,7 @@ Tables::Tables(const PageFigure& figure) : figure_(figure) {
   for (const Ball& ball : balls)
     balls_.emplace_back(rounded(glm::vec3(ball.center - frame_.pivot), kColorRounding),
                         static_cast<float>(ball.radius));
+  find_surfaces(objects);
   // What planes cut is packed whole: the points of hidden atoms, too, tell what is solid.
   if (figure.surface) add_surface(*figure.surface, has_cuts(figure), figure.has_own_colors ? kHasOwnColors : 0);
   for (const PageObject& object : figure.extras) {
@@ -273,6 +274,16 @@ void Tables::round_tables() {
     primitive.bound = rounded_bound(primitive.bound);
     primitive.nearest = 0.0f;
     primitive.tie_key = 0;
+  }
+}
+
+void Tables::find_surfaces(std::span<const PictureObject> objects) {
+  std::size_t first_ball = 0, first_atom = 0;
+  for (const PictureObject& object : objects) {
+    const std::size_t balls = enclosing_balls({&object, 1}).size();
+    if (object.surface) surfaces_.push_back({first_ball, first_atom, balls});
+    first_ball += balls;
+    first_atom += object.surface ? balls : object.coloring->atom.size();
   }
 }
 

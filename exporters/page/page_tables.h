@@ -38,9 +38,13 @@ class Tables {
   /// Of a volume map what painted.glsl asks for, but for its table; null: there is none.
   nlohmann::json map() const;
 
+  /// Returns, for each surface, the number of its first ball, the number of its first atom, and how many it has.
+  const std::vector<std::array<std::size_t, 3>>& surfaces() const { return surfaces_; }
+
   std::vector<PageTable> packed() const;
 
  private:
+  void find_surfaces(std::span<const PictureObject> objects);
   void check_size(std::size_t texels, const char* what) const;
   void add_surface(const SurfaceObject& object, bool whole, std::uint32_t place);
   void add_shapes(const ColoredShapes& shapes);
@@ -56,6 +60,7 @@ class Tables {
   std::vector<glm::vec4> colors_, balls_;
   std::vector<std::uint32_t> marks_, shown_;
   std::vector<std::uint32_t> map_;  ///< painted.glsl's, floats as bits
+  std::vector<std::array<std::size_t, 3>> surfaces_;
   std::size_t map_atoms_ = 0, map_values_ = 0;
   std::shared_ptr<const VolumePaint> paint_;      ///< of the map
   std::vector<std::uint32_t> has_color_;          ///< of atoms: 0 where the map colours them

@@ -30,6 +30,14 @@
 namespace meniscus::page {
 namespace {
 
+/// Returns the look without the effects of rays: pages have light from maps. A lamp has half a degree at least.
+Look page_look(Look look) {
+  constexpr float kSmallestLamp = 0.5f;
+  look.ambient_occlusion_rays = 0.0f;
+  if (look.shadows > 0.0f) look.shadow_softness = std::max(look.shadow_softness, kSmallestLamp);
+  return look;
+}
+
 /// The picture that readers see whose browser cannot draw the figure: of at most 720 pixels.
 Framebuffer small_picture(std::span<const PictureObject> objects, const Camera& camera, glm::ivec2 size,
                           const Look& look) {
@@ -240,8 +248,8 @@ PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& fra
   // Colours by a scale are those of its legend, so that a scheme may have a look of its own.
   const auto look_by = [&](ColorScheme scheme) {
     scheme.opacities = scene.molecule.color.opacities;
-    return look_of(scene.look, shown.size, scene.image.background, hues_of(scheme, uses_atoms(scene.figure.cuts)),
-                   scene.molecule.patches.has_value());
+    return page_look(look_of(scene.look, shown.size, scene.image.background,
+                             hues_of(scheme, uses_atoms(scene.figure.cuts)), scene.molecule.patches.has_value()));
   };
   shown.look = look_by(scene.molecule.color);
   shown.views = frame.views;
@@ -301,7 +309,7 @@ std::string surface_page(const Surface& surface, const Coloring& colors, const S
   shown.atoms = structure ? std::span<const Atom>(structure->atoms) : std::span<const Atom>(counted);
   shown.camera = camera;
   shown.size = look.picture.size();
-  shown.look = look_of(look.look, shown.size, look.image.background, Hues::free);
+  shown.look = page_look(look_of(look.look, shown.size, look.image.background, Hues::free));
   shown.fades_always = look.look.depth_cue.has_value();
   shown.scheme = "given";
   if (structure)
@@ -310,7 +318,7 @@ std::string surface_page(const Surface& surface, const Coloring& colors, const S
           other, {&colors}, [&] { return std::vector{color_object(*structure, object.atom, other.scheme, 0)}; }));
       if (other.scheme.uses_scale())
         shown.more_schemes.back().look =
-            look_of(look.look, shown.size, look.image.background, hues_of(other.scheme, false));
+            page_look(look_of(look.look, shown.size, look.image.background, hues_of(other.scheme, false)));
     }
   std::vector<PictureObject> objects(1);
   objects.front().surface = &object.surface;

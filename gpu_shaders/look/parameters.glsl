@@ -8,19 +8,6 @@ struct DepthParameters {
   uint has_marks;
 };
 
-const int kStepCount = 6;  // how often each way from a pixel is looked at for what hides the sky
-
-// The map of the whole picture's depths, in texels of one or more pixels. Its middle is the middle of the picture.
-struct OcclusionParameters {
-  vec2 map_middle;      // texels from the middle of the first
-  ivec2 map_size;       // texels
-  float texel_edge;     // pixels
-  float near_reach;     // pixels; as far the block's own depths are looked at, which are finer where texels are larger
-  float radius;         // Å
-  float longest_reach;  // pixels
-  uint sample_index;    // other samples take other places of the pattern
-};
-
 const int kMostSkyAxes = 64;
 const int kMostLampPlaces = 16;
 const float kLightLift = 1.0;  // texels above the surface, from where light is looked for: as much as a slope rises

@@ -6,7 +6,7 @@
 
 uniform usampler2D sample_texels;      // points.frag's colours
 uniform usampler2D what_texels;        // points.frag's atoms and marks
-uniform usampler2D shade_texels;       // occlusion.frag's; there for SHADE
+uniform usampler2D shade_texels;       // light.frag's; there for SHADE
 uniform usampler2D sum_texels;         // of the samples before
 layout(std140) uniform Parameters { FinishParameters params; };
 layout(location = 0) out uvec4 sum;  // as bits
@@ -14,10 +14,10 @@ layout(location = 0) out uvec4 sum;  // as bits
 layout(location = 1) out uvec4 ink;
 #endif
 
-vec2 visibility_at(ivec2 pixel) { return vec2(uintBitsToFloat(texelFetch(shade_texels, pixel, 0).x), 1.0); }
+vec2 visibility_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(shade_texels, pixel, 0).xy); }
 
 float shade_depth_or_nothing(ivec2 pixel) {
-  return in_block(pixel) ? uintBitsToFloat(texelFetch(shade_texels, pixel, 0).y) : kNothing;
+  return in_block(pixel) ? uintBitsToFloat(texelFetch(shade_texels, pixel, 0).z) : kNothing;
 }
 
 vec3 shade_seen_at(ivec2 pixel, float depth) { return seen_at(place_of(pixel), depth, pixel_size_at(depth)); }

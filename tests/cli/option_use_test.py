@@ -262,7 +262,6 @@ for export in ("povray", "blender", "mitsuba", "pbrt", "mvs"):
 for shape in ("--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans"):
     OWN_ROWS["export page", shape] = (ROWS[shape][0], "covered ring" if shape in ("--bases", "--glycans") else "plain")
 OWN_ROWS["export page", "--background"] = ("black", "plain")
-OWN_ROWS["export page", "--ambient-occlusion-radius"] = ("3", "shade")
 OWN_ROWS["export page", "--named-view"] = ("Back={camera.json}", "plain")
 OWN_ROWS["export mesh", "--preset"] = ("cover", "plain")
 for export in ("mesh", "ply"):

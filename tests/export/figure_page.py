@@ -19,7 +19,7 @@ PROGRAM, CHROMIUM, FREESASA = sys.argv[1:4]
 TOXIN = "/usr/share/pymol/data/demo/1tii.pdb"
 UBIQUITIN = f"{FREESASA}/1ubq.pdb"
 PROTEASE = "/usr/share/pymol/data/tut/1hpv.pdb"
-DEPTH_CUE = 21  # the word of FinishParameters (gpu_shaders/look/parameters.glsl)
+DEPTH_CUE = 41  # the word of FinishParameters (gpu_shaders/look/parameters.glsl)
 SIZE = (240, 180)
 SOFTWARE_GL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 NOTHING = 0xffffffff
@@ -66,9 +66,7 @@ class PageCase(unittest.IsolatedAsyncioTestCase):
         return done.stderr
 
     def export(self, molecule, *options, name="page.html"):
-        """Writes a page, without shade unless the options have it: a page takes its shade from its picture."""
-        shade = [] if "--ambient-occlusion" in options else ["--ambient-occlusion", "0"]
-        self.run_program("export", "page", molecule, "-o", self.path(name), "--force", "-q", *shade, *options)
+        self.run_program("export", "page", molecule, "-o", self.path(name), "--force", "-q", *options)
         return self.path(name)
 
     def part_of(self, molecule, first, last):
@@ -109,7 +107,7 @@ class PageCase(unittest.IsolatedAsyncioTestCase):
         path = self.path("r.exr" if frame is None else f"r_{frame}.exr")
         names = ["-o", path] if frame is None else ["-o", self.path("r_#.exr"), "--only", str(frame)]
         self.run_program("render", molecule, *names, "--force", "-q", "--aovs", "--samples", "1", "--size",
-                         "%dx%d" % size, "--device", "cpu", "--ambient-occlusion", "0", "--shadows", "0", *options)
+                         "%dx%d" % size, "--device", "cpu", *options)
         image = OpenImageIO.ImageInput.open(path)
         names, pixels = image.spec().channelnames, image.read_image(OpenImageIO.FLOAT)
         channel = lambda name: pixels[:, :, names.index(name)]

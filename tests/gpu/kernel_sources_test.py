@@ -17,8 +17,6 @@ HARMLESS = {
     ("geometry/patch_bounds.glsl", "contact_rho"),
     ("geometry/ray_torus.glsl", "knot"),                    # rays are in single precision on GPUs
     ("geometry/torus_hits.glsl", "t"),
-    ("webgl/occlusion.glsl", "occluder"),                   # what pixels look like is in single precision
-    ("webgl/occlusion.glsl", "ways"),
 }
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hands tables and parameters to the shaders, and starts their passes: cast, points, occlusion, finish, present.
+// Hands tables and parameters to the shaders, and starts their passes: cast, points, light, finish, present.
 
 const kTableColumns = 2048;  // of gpu_shaders/webgl/tables.glsl
 const kNoPrimitive = 0xffffffff;
@@ -33,6 +33,7 @@ class Caster {
     this.tables = {};
     this.ready = new Map();  // what frames are drawn from, by their numbers
     this.scheme = 0;
+    this.light = new LightMaps(this);
     this.buffer = gl.createBuffer();
     this.vertices = gl.createVertexArray();
     gl.pixelStorei(gl.PACK_ALIGNMENT, 1);
@@ -189,7 +190,7 @@ class Caster {
     gl.useProgram(made.program);
     Object.entries(textures).forEach(([name, texture], unit) => {
       gl.activeTexture(gl.TEXTURE0 + unit);
-      gl.bindTexture(gl.TEXTURE_2D, texture);
+      gl.bindTexture(name === "light_texels" ? gl.TEXTURE_2D_ARRAY : gl.TEXTURE_2D, texture);
       gl.uniform1i(gl.getUniformLocation(made.program, name), unit);
     });
     for (const [name, value] of Object.entries(numbers))  // more than four are an array of four each
@@ -235,12 +236,12 @@ class Caster {
 
   make_pixels() {
     const { gl } = this, wide = () => this.wide();
-    return { found: this.texture(gl.RG32UI), shade: this.texture(gl.RG32UI), color: wide(), normal: wide(), what: wide(),
-      first_normal: wide(), first_what: wide(), sum: wide(), other_sum: wide() };
+    return { found: this.texture(gl.RG32UI), shade: wide(), color: wide(), normal: wide(), what: wide(),
+      first_what: wide(), sum: wide(), other_sum: wide() };
   }
 
   make_targets(pixels) {
-    return { found: this.target(pixels.found), first: this.target(pixels.color, pixels.first_normal, pixels.first_what),
+    return { found: this.target(pixels.found), first: this.target(pixels.color, pixels.normal, pixels.first_what),
       points: this.target(pixels.color, pixels.normal, pixels.what), shade: this.target(pixels.shade),
       sum: this.target(pixels.sum), other_sum: this.target(pixels.other_sum) };
   }
@@ -287,12 +288,14 @@ class Caster {
 
   is_cut_away() { return false; }
 
-  /// Begins a picture of so many pixels. part: {size, left, top} of it, or all of it in pixels `edge` times as large.
-  begin(camera, width, height, { size = [width, height], left = 0, top = 0, edge = 1 } = {}) {
+  /// Returns the planes that cut the surface of the first `atoms` atoms, whose opacity is that of the atoms times `opacity`.
+  cuts() { return { planes: [], atoms: 0, opacity: 1 }; }
+
+  /// Begins a picture of so many pixels, or a part of it: {size, left, top}.
+  begin(camera, width, height, { size = [width, height], left = 0, top = 0 } = {}) {
     this.resize(...size);
     this.whole = [width, height];
-    const frame = frame_of(camera, width, height), middle = edge === 1 ? [width, height] : size;
-    this.frame = { ...frame, size, pixel_size: edge * frame.pixel_size, first_offset: [0.5 - middle[0] / 2 + left, 0.5 - middle[1] / 2 + top] };
+    this.frame = { ...frame_of(camera, width, height), size, first_offset: [0.5 - width / 2 + left, 0.5 - height / 2 + top] };
     this.depths();
     this.sort();
   }
@@ -303,8 +306,8 @@ class Caster {
     this.begin_sample(sample);
     this.find(this.groups);
     this.color_points(first ? targets.first : targets.points, { found_texels: pixels.found });
-    const normal = first ? pixels.first_normal : pixels.normal, what = first ? pixels.first_what : pixels.what;
-    if (effects.shade) this.shade(normal, "first_normal", sample);
+    const { normal } = pixels, what = first ? pixels.first_what : pixels.what;
+    if (effects.shade && first) this.shade(normal, "shade");
     const { to, from } = this.sums(sample);
     this.finish(targets[to], { normal, what, color: pixels.color, sum: pixels[from] }, effects, { sample_index: sample });
     this.summed = { texture: pixels[to], samples: sample + 1 };
@@ -344,21 +347,18 @@ class Caster {
       { Parameters: { words: this.look.cast, values: { color_by_kind: this.by_kind, ...values } } });
   }
 
-  /// name: of the depths of the first sample, which are the map of shade where the picture has no other; shared: by how
-  /// many samples.
-  shade(normal, name, sample, shared = this.figure.samples_of_shade) {
-    if (sample % shared) return;
-    const { size, edge } = this.map ?? { size: this.size, edge: 1 };
-    this.draw_whole(this.targets.shade, this.program("whole.vert", "occlusion.frag"), { normal_texels: normal, map_texels: (this.map?.kept ?? this.pixels)[name] }, {},
-      { Parameters: { words: this.figure.occlusion, values: { map_middle: [size[0] / 2 - 0.5, size[1] / 2 - 0.5], map_size: size,
-        texel_edge: edge, near_reach: edge > 1 ? Math.floor(8 * edge) : 0, longest_reach: Math.hypot(...this.whole), sample_index: sample / shared } } });
+  /// Finds what points of the first sample see of the sky and of the lamp, which all samples share. target: its name.
+  shade(normal, target) {
+    this.light.make();
+    this.draw_whole(this.targets[target], this.program("whole.vert", "light.frag"), { normal_texels: normal, light_texels: this.light.texture }, {},
+      { Parameters: { words: [], values: this.light.parameters() } });
   }
 
   /// The look of some points, which is added to the sum if this is not the first sample.
-  finish(target, { normal, what, color, sum }, effects, values, defines = []) {
+  finish(target, { normal, what, color, sum, shade = this.pixels.shade }, effects, values, defines = []) {
     const wanted = [...(effects.shade ? ["SHADE"] : []), ...(effects.lines ? ["SILHOUETTES"] : []), ...defines];
     this.draw_whole(target, this.program("whole.vert", "finish.frag", wanted), { normal_texels: normal, sample_texels: color, what_texels: what,
-      ...(effects.shade ? { shade_texels: this.pixels.shade } : {}), sum_texels: sum }, {},
+      ...(effects.shade ? { shade_texels: shade } : {}), sum_texels: sum }, {},
       { Parameters: { words: this.look.finish, values: { ...this.depth_range, ...this.line_widths(), ...(this.fades ? {} : { depth_cue: 0 }), ...values } } });
   }
 
@@ -396,8 +396,7 @@ class Caster {
   /// Lines grow with the picture, as those of presets do.
   line_widths() {
     const { figure, whole } = this, shorter = Math.min(...whole), growth = shorter / Math.min(...figure.size);
-    const view = new Float32Array(Uint32Array.from(this.look.finish).buffer), widths = {};
-    for (const [name, word] of Object.entries(kLineWords)) widths[name] = Math.min(16, view[word] * growth);
+    const widths = Object.fromEntries(Object.entries(this.look.line_widths).map(([name, width]) => [name, Math.min(16, width * growth)]));
     const step = figure.line_step * shorter;
     return { ...widths, step_pixels: Math.max(step, 2), fade_pixels: 2 * step };
   }
@@ -415,7 +414,7 @@ class Caster {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
-  /// Of the first sample: words of `what` or `first_normal` of some pixels, rows from the top.
+  /// Of the first sample: words of `what` (attachment 2) of some pixels, rows from the top.
   read(x, y, width, height, attachment) {
     const gl = this.gl, words = new Uint32Array(4 * width * height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.targets.first);
@@ -442,10 +441,8 @@ class Caster {
 }
 
 /// Members that are whole numbers; the others are floats.
-const kWholeMembers = new Set(["orthographic", "size", "map_size", "sample_index", "has_marks", "keeps_alpha", "tiles", "color_by_kind"]);
+const kWholeMembers = new Set(["orthographic", "size", "sky_edge", "lamp_edge", "sky_axes", "lamp_places", "first_lamp_texel", "sample_index", "has_marks", "keeps_alpha", "tiles", "color_by_kind"]);
 /// Tables of records of one word.
 const kSingle = new Set(["marks", "map"]);
 /// Targets that one depth buffer serves.
 const kDeepTargets = ["found", "cap_atom"];
-/// Words of FinishParameters (gpu_shaders/look/parameters.glsl).
-const kLineWords = { patch_lines: 11, outer_lines: 15, inner_lines: 16, part_lines: 17, widest_line: 18 };

@@ -4,7 +4,7 @@
 const kClick = 4;          // CSS pixels a click may wander
 const kDraft = 40;         // ms that a frame may take while the view moves
 const kMostChains = 24;    // that have a box each
-const kMostPixels = 2048;  // along a side: there the whole picture is its own map of shade
+const kMostPixels = 2048;  // along a side
 const element = (id) => document.getElementById(id);
 
 class Viewer {

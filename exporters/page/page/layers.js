@@ -42,8 +42,8 @@ class LayeredCaster extends Caster {
     if (!this.laid) return super.make_pixels();
     return { ...super.make_pixels(), event: wide(), cap_atom: this.texture(gl.R32UI), shape_what: wide(),
       over: wide(), other_over: wide(), state: wide(), other_state: wide(),
-      opaque_color: wide(), opaque_normal: wide(), opaque_first_normal: wide(), opaque_what: wide(),
-      seen_color: wide(), seen_normal: wide(), seen_what: wide(), front: wide(), ink: this.texture(gl.R32UI), behind: wide() };
+      opaque_color: wide(), opaque_normal: wide(), opaque_what: wide(),
+      front_shade: wide(), seen_color: wide(), seen_normal: wide(), seen_what: wide(), front: wide(), ink: this.texture(gl.R32UI), behind: wide() };
   }
 
   make_targets(pixels) {
@@ -52,8 +52,7 @@ class LayeredCaster extends Caster {
       event: this.target(pixels.event), cap_atom: this.target(pixels.cap_atom),
       ray: this.target(pixels.over, pixels.state), other_ray: this.target(pixels.other_over, pixels.other_state),
       opaque: this.target(pixels.opaque_color, pixels.opaque_normal, pixels.opaque_what),
-      opaque_first: this.target(pixels.opaque_color, pixels.opaque_first_normal, pixels.opaque_what),
-      first: this.target(pixels.seen_color, pixels.first_normal, pixels.first_what),
+      front_shade: this.target(pixels.front_shade), first: this.target(pixels.seen_color, pixels.seen_normal, pixels.first_what),
       seen: this.target(pixels.seen_color, pixels.seen_normal, pixels.seen_what),
       front: this.target(pixels.front, pixels.ink), behind: this.target(pixels.behind) };
   }
@@ -61,6 +60,8 @@ class LayeredCaster extends Caster {
   is_cut_away(atom, center, radius) {
     return atom < this.surface_atoms.length && this.layers.planes.some((plane) => dot(plane, center) - radius >= plane[3]);
   }
+
+  cuts() { return { planes: this.layers.planes, atoms: this.layers.surface_atoms, opacity: this.layers.opacity ?? 1 }; }
 
   /// Uniforms that all shaders of layers share.
   layer_numbers() {
@@ -83,9 +84,8 @@ class LayeredCaster extends Caster {
   cast(sample, effects) {
     if (!this.laid) return super.cast(sample, effects);
     const { gl, pixels, targets } = this, first = sample === 0, seen_through = this.is_seen_through();
-    const seen_normal = first ? pixels.first_normal : pixels.seen_normal, seen_what = first ? pixels.first_what : pixels.seen_what;
-    const opaque_normal = first ? pixels.opaque_first_normal : pixels.opaque_normal;
-    const seen = first ? targets.first : targets.seen, opaque = first ? targets.opaque_first : targets.opaque;
+    const { seen_normal, opaque_normal } = pixels, seen_what = first ? pixels.first_what : pixels.seen_what;
+    const seen = first ? targets.first : targets.seen, { opaque } = targets;
     this.begin_sample(sample);
     this.find(this.groups.filter((group) => !group.of_surface), { hides_some: super.hides_some() });
     this.color_points(targets.shapes, { found_texels: pixels.found });
@@ -95,14 +95,15 @@ class LayeredCaster extends Caster {
     gl.clearBufferuiv(gl.COLOR, 0, [0, 0, 0, 0]);
     this.walk(seen, opaque, !seen_through ? 1 : effects.draft ? kDraftLayers : this.layers_there(sample), first && !effects.draft);
     const { to, from } = this.sums(sample), on_behind = { normal: opaque_normal, what: pixels.opaque_what, color: pixels.opaque_color };
+    if (effects.shade && first) {
+      this.shade(opaque_normal, "shade");
+      if (seen_through) this.shade(seen_normal, "front_shade");
+    }
     if (!seen_through) {
-      if (effects.shade) this.shade(opaque_normal, "opaque_first_normal", sample);
       this.finish(targets[to], { ...on_behind, sum: pixels[from] }, effects, { sample_index: sample });
     } else {
-      if (effects.shade) this.shade(seen_normal, "first_normal", sample, 1);
-      this.finish(targets.front, { normal: seen_normal, what: seen_what, color: pixels.seen_color, sum: pixels[from] }, effects,
+      this.finish(targets.front, { normal: seen_normal, what: seen_what, color: pixels.seen_color, sum: pixels[from], shade: pixels.front_shade }, effects,
         { sample_index: 0, specular: 0 }, ["LAYERS"]);
-      if (effects.shade) this.shade(opaque_normal, "opaque_first_normal", sample, 1);
       this.finish(targets.behind, { ...on_behind, sum: pixels[from] }, effects, { sample_index: 0 });
       this.draw_whole(targets[to], this.program("whole.vert", "layer_sum.frag"), { over_texels: pixels[this.over], first_texels: pixels.seen_color,
         front_texels: pixels.front, ink_texels: pixels.ink, behind_texels: pixels.behind, sum_texels: pixels[from] }, {},

@@ -2,24 +2,10 @@
 // A PNG of any size: drawn tile by tile, with its labels, while the reader is told how far it is and may stop it.
 
 const kMostPngPixels = 64e6;
-/// A picture no larger than `whole` along a side is one tile, and its own map of shade; map: texels along a side (core/render/look.h).
-const kTiles = { whole: 2048, tile: 1024, map: 1024 };
+/// A picture no larger than `whole` along a side is one tile. Lengths: pixels.
+const kTiles = { whole: 2048, tile: 1024 };
 
 const later = () => new Promise((go) => setTimeout(go));
-
-/// Of the caster: the picture's whole depths at fewer pixels, from which the shade of all its tiles is found.
-function make_shade_map(caster, camera, [width, height]) {
-  const edge = Math.max(Math.max(width, height) / kTiles.map, 1), size = [width, height].map((side) => Math.max(1, Math.floor(side / edge)));
-  caster.begin(camera, width, height, { size, edge });
-  caster.cast(0, { shade: false, lines: false });
-  const kept = {};
-  for (const name of ["first_normal", "opaque_first_normal"]) {
-    kept[name] = caster.pixels[name];
-    delete caster.pixels[name];
-  }
-  caster.size = [0, 0];
-  return { kept, size, edge };
-}
 
 /// Pixels of a tile, rows from the top, without its margin.
 function tile_pixels(caster, background, { x, y, width, height, left, top, size }) {
@@ -38,9 +24,9 @@ function tile_pixels(caster, background, { x, y, width, height, left, top, size 
 }
 
 /// Parts of a picture, each in a margin as wide as what is seen of its neighbours reaches.
-function tiles_of([width, height], edge) {
+function tiles_of([width, height]) {
   if (Math.max(width, height) <= kTiles.whole) return [{ x: 0, y: 0, width, height, left: 0, top: 0, size: [width, height] }];
-  const tiles = [], step = kTiles.tile, margin = Math.ceil((edge > 1 ? 8 * edge : 0) / 16) * 16 + 16;
+  const tiles = [], step = kTiles.tile, margin = 16;
   for (let y = 0; y < height; y += step)
     for (let x = 0; x < width; x += step) {
       const left = Math.max(x - margin, 0), top = Math.max(y - margin, 0);
@@ -56,9 +42,7 @@ async function draw_png(viewer, size, tell) {
   const context = page.getContext("2d"), camera = widened(viewer.camera, viewer.growth()), background = linear_from_srgb(viewer.background);
   const saving = viewer.saving = { stopped: false };
   try {
-    const map = Math.max(...size) > kTiles.whole && effects.shade ? make_shade_map(caster, camera, size) : null;
-    const tiles = tiles_of(size, map?.edge ?? 1);
-    caster.map = map;
+    const tiles = tiles_of(size);
     for (const [n, tile] of tiles.entries()) {
       caster.begin(camera, ...size, tile);
       for (let sample = 0; sample < figure.samples.length; ++sample) {
@@ -73,8 +57,6 @@ async function draw_png(viewer, size, tell) {
     viewer.paint_labels(context, size[0]);
     return await new Promise((done) => page.toBlob(done, "image/png"));
   } finally {
-    if (caster.map) for (const texture of Object.values(caster.map.kept)) caster.gl.deleteTexture(texture ?? null);
-    caster.map = null;
     caster.size = [0, 0];
     viewer.saving = null;
     viewer.change();
