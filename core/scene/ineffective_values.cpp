@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/scene/scene_values.h"
@@ -29,7 +30,7 @@ Look resulting_look(const GivenScene& given) { return look_of(given.scene.look, 
 
 /// Returns true if the output has shadows. Scenes for POV-Ray and Blender have no shadows of a preset.
 bool has_shadows(const GivenScene& given) {
-  const std::filesystem::path output(given.scene.output);
+  const std::filesystem::path output = path_of_text(given.scene.output);
   const bool is_picture = output.empty() || (output.has_extension() && output.extension() != ".mns");
   return resulting_look(given).shadows > 0.0f && (is_picture || given.any({"look.shadows"}));
 }

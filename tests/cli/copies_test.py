@@ -173,7 +173,7 @@ class Copies(unittest.TestCase):
             with self.subTest(molecule=molecule, view=view):
                 cameras = []
                 for more in ([], ["--instances", "separate"]):
-                    self.call(["render", molecule, "--assembly", "1", "--view", view, "-o", "s.png", "--size", "80x60", "--samples", "1",
+                    self.call(["render", molecule, "--assembly", "1", "--bare", "--view", view, "-o", "s.png", "--size", "80x60", "--samples", "1",
                                "--device", "cpu", "--save-camera", "c.json", "--force", *more])
                     cameras.append(json.loads((self.folder / "c.json").read_text()))
                 for name in ("position", "target", "up"):

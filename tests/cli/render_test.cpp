@@ -153,7 +153,7 @@ TEST_F(RenderCommand, OptionsChangeThePicture) {
   const std::vector<std::vector<std::string>> changes{
       {"--color", "kind"},    {"--background", "#204060"}, {"--samples", "1"},           {"--probe", "0.5"},
       {"--light", "1,0,0.5"}, {"--light-strength", "2"},   {"--ambient-occlusion", "0"}, {"--silhouettes", "2"},
-      {"--depth-cue", "0.5"}, {"--ambient", "0.5"},        {"--roughness", "1"},         {"--specular", "0.8"},
+      {"--depth-cue", "0.5"}, {"--ambient", "0.2"},        {"--roughness", "1"},         {"--specular", "0.8"},
       {"--shininess", "3"},   {"--outer-lines", "4"},      {"--linear-alpha"},           {"--preset", "flat"},
       {"--preset", "classic"}};
   for (const auto& change : changes) {

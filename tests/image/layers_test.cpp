@@ -211,12 +211,12 @@ double light(const Framebuffer& picture) {
   return sum;
 }
 
-TEST(Layers, WhatIsSeenThroughHasShadeAndLinesAsFarAsItCovers) {
+// What is seen through casts no shade (LightMaps), so that only lines and the depth cue are compared.
+TEST(Layers, WhatIsSeenThroughHasLinesAndFadesAsFarAsItCovers) {
   Subject subject(testing::ubiquitin());
   subject.settings.look.material.specular = 0.0f;  // highlights of the shade are not part of this
   const auto picture = [&](float opacity, bool effects) {
     subject.coloring.opacity.assign(opacity < 1.0f ? subject.surface.atoms.size() : 0, opacity);
-    subject.settings.look.ambient_occlusion = effects ? 0.9f : 0.0f;
     subject.settings.look.silhouettes = effects ? 2.0f : 0.0f;
     subject.settings.look.depth_cue = effects ? 0.3f : 0.0f;
     return subject.picture();

