@@ -99,13 +99,13 @@ class Numbers(Companions):
         self.assertIn("1 water, 2 of 1 ligand (LIG), 63 of 21 lipids (POPC) left out; 36 used", told.stderr)
         self.assertEqual(self.made("surface", "run.gro", "--trajectory", "frames.pdb", "--json").stdout.count("\n"), 2)
         self.assert_same(self.picture(file="run.gro"), self.picture("--select", "polymer", "--object", json.dumps(
-            {"representation": "sticks", "selection": "resname LIG", "color": "element"}), file="run.gro"))
+            {"representation": "sticks", "selection": "resname LIG", "color": "element-cpk"}), file="run.gro"))
 
 
 class Pictures(Companions):
     def objects(self, **more):
-        shapes = [{"representation": "sticks", "selection": "ligand", "color": "element"},
-                  {"representation": "spheres", "selection": "ion", "color": "element"}]
+        shapes = [{"representation": "sticks", "selection": "ligand", "color": "element-cpk"},
+                  {"representation": "spheres", "selection": "ion", "color": "element-cpk"}]
         return [word for shape in shapes for word in ("--object", json.dumps({**shape, **more}))]
 
     def test_ligands_are_sticks_and_ions_are_spheres(self):
@@ -126,7 +126,7 @@ class Pictures(Companions):
                 named = ["--" + kind, "ligand or ion", "--color", "grey"]
                 self.assert_same(self.picture(*named), self.picture("--bare", *named))
         named = ["--object", json.dumps({"representation": "balls", "selection": "ligand", "color": "red"})]
-        ion = ["--object", json.dumps({"representation": "spheres", "selection": "ion", "color": "element"})]
+        ion = ["--object", json.dumps({"representation": "spheres", "selection": "ion", "color": "element-cpk"})]
         self.assert_same(self.picture(*named), self.picture("--bare", *named, *ion))
 
     def test_selections_and_files_without_a_polymer_have_none(self):

@@ -157,7 +157,7 @@ class Copies(unittest.TestCase):
             if option in NOT_OF_INSTANCES:
                 continue
             with self.subTest(option=option):
-                words = COMMANDS[option]
+                words = COMMANDS[option] + ([] if option == "--select" else ["--select", "all"])  # instances have no companions
                 made, shared = self.results(words, ALL)[0], self.results(words, ALL, "--instances", "separate")[0]
                 self.assertEqual(made.shape, shared.shape)
                 if option != "--look-into":  # instances have the first place each
