@@ -1,6 +1,6 @@
-# Writes the page's files as pages have them: the script in one piece and the style, without indentation and without
+# Writes the page's files as pages have them: the script in two halves and the style, without indentation and without
 # lines that are comments alone, and the text, whose policy names the SHA-256 digests of both.
-# Run as: cmake -DFOLDER=<the page's own files> -DOUTPUT=<folder of page.html, page.css and page.js> -P join_page.cmake
+# Run as: cmake -DFOLDER=<the page's own files> -DOUTPUT=<folder of page.html, page.css, first.js and second.js> -P join_page.cmake
 
 # As policies have it (RFC 4648, section 4): 256 bits are 42 times two letters, a last one of four bits, and a sign.
 function(digest_of variable file)
@@ -20,19 +20,30 @@ function(digest_of variable file)
   set(${variable} "'sha256-${text}='" PARENT_SCOPE)
 endfunction()
 
-set(script "")
-foreach(part data camera light caster layers views frames png messages controls)
-  file(READ ${FOLDER}/${part}.js text)
-  string(APPEND script "${text}")
+# The script is kept in two files, because C++ compilers need not take a text of more than 65,536 letters.
+set(script "// SPDX-License-Identifier: BSD-3-Clause\n\"use strict\";")
+set(first data camera light caster)
+set(second layers views frames png messages controls)
+foreach(half first second)
+  set(joined "")
+  foreach(part IN LISTS ${half})
+    file(READ ${FOLDER}/${part}.js text)
+    string(APPEND joined "${text}")
+  endforeach()
+  string(REGEX REPLACE "(\n *//[^\n]*)+\n" "\n" joined "\n${joined}")
+  string(REGEX REPLACE "\n +" "\n" joined "${joined}")
+  string(APPEND script "${joined}")
+  file(WRITE ${OUTPUT}/${half}.js "${script}")
+  string(APPEND whole "${script}")
+  set(script "")
 endforeach()
-string(REGEX REPLACE "(\n *//[^\n]*)+\n" "\n" script "\n${script}")
-string(REGEX REPLACE "\n +" "\n" script "${script}")
-file(WRITE ${OUTPUT}/page.js "// SPDX-License-Identifier: BSD-3-Clause\n\"use strict\";${script}")
+file(REMOVE ${OUTPUT}/page.js)  # of builds before there were two
+file(WRITE ${OUTPUT}.js "${whole}")
 file(READ ${FOLDER}/page.css style)
 string(REGEX REPLACE "\n +" "\n" style "${style}")
 file(WRITE ${OUTPUT}/page.css "\n${style}")
 
-digest_of(SCRIPT_HASH ${OUTPUT}/page.js)
+digest_of(SCRIPT_HASH ${OUTPUT}.js)
 digest_of(STYLE_HASH ${OUTPUT}/page.css)
 file(READ ${FOLDER}/page.html page)
 foreach(mark SCRIPT_HASH STYLE_HASH)

@@ -332,7 +332,8 @@ std::string PageWriter::text() const {
   const auto fill = [&](const char* mark, std::string text) { texts.push_back({mark, std::move(text)}); };
   fill("VERSION", MENISCUS_VERSION);
   fill("STYLE", std::string(template_text(page_templates(), "page.css")));
-  fill("SCRIPT", std::string(template_text(page_templates(), "page.js")));
+  fill("SCRIPT",
+       std::string(template_text(page_templates(), "first.js")).append(template_text(page_templates(), "second.js")));
   fill("BYTES", std::to_string(packed.size()));
   fill("DATA", text_of_bytes(packed));
   return filled(template_text(page_templates(), "page.html"), texts);
