@@ -27,6 +27,7 @@ work=$PWD/build/gallery
 mkdir -p "$work/bin"
 ln -sfn "$PWD/scripts" "$work/scripts"
 ln -sfn "$PWD/exporters" "$work/exporters"
+ln -sfn "$PWD/docs" "$work/docs"
 
 # `meniscus` of the commands: it replaces the pictures, and writes the scene of each one next to it.
 cat >"$work/bin/meniscus" <<EOF
