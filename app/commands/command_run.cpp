@@ -127,8 +127,9 @@ void FigureRun::make_one_figure() {
 
 namespace {
 
-/// Returns a sentence about the atoms that a picture is zoomed to if they are at several places, of which the word
-/// `first` shows one; otherwise an empty text. Without `first` only ligands are reported.
+/// Returns a note if the atoms that a picture is zoomed to lie at several places. The word `first` of a selection keeps
+/// the first of these places; the note names another. Without `first` only ligands are reported. Returns an empty text
+/// if there is nothing to say.
 std::string several_places(const Selection& zoom_to, std::span<const Atom> atoms) {
   constexpr std::string_view kFirst = "first ";
   std::string text = zoom_to.text();

@@ -19,10 +19,10 @@ inline constexpr double kTubeRadius = 0.45;
 /// Helices are ribbons with a width of 6 radii, along the direction of the peptide planes (M. Carson and C. E. Bugg, J.
 /// Mol. Graph. 4, 121, 1986; computed from O, if present). Strands have a width of 5.6 radii and end in arrows. Nucleic
 /// acids are bands as wide as strands, with their flat side to the bases (to C1', if present). All else is a tube. The
-/// middle line is a Catmull-Rom spline through these atoms, smoothed in strands. Kinds are those of
-/// Atom::secondary, or of secondary_structure() of these atoms. Pieces end where the chain, model or copy changes and
-/// where neighbours are farther apart than 4.5 Å (CA) or 8.5 Å (P). Each vertex has the atom of the nearer residue.
-/// `radius` is in Å, above 0.
+/// middle line is a Catmull-Rom spline through these atoms, smoothed in strands. Atom::secondary says
+/// which residues are helices and strands, else secondary_structure() of these atoms. Pieces end where the chain, model
+/// or copy changes and where neighbours are farther apart than 4.5 Å (CA) or 8.5 Å (P). Each vertex has the atom of the
+/// nearer residue. `radius` is in Å, above 0.
 Shapes backbone(const Structure& structure, const std::vector<bool>& selected, double radius = kTubeRadius);
 
 /// A point of the middle line of backbone().

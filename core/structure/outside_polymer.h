@@ -16,9 +16,10 @@ struct OutsidePolymer {
   enum class Part : std::uint8_t { inside, ligand, lipid };
 
   std::vector<Part> part;
-  /// True for atoms of ligands, lipids and ions that pictures draw next to a surface of the polymer. Solvent, salt and
-  /// membranes are not drawn: lipids, ions and ligands of fewer than 40 heavy atoms of which a model has more than 20
-  /// (all lipids count together), and ions in a box of water, which has more than 10 water molecules per residue.
+  /// True for atoms of ligands, lipids and ions that pictures draw next to a surface of the polymer. Molecules of one
+  /// name are not drawn if a model has more than 20 of them, because they are solvent, salt or a membrane; all lipids
+  /// count as one name. Ligands of at least 40 heavy atoms are always drawn. Ions are not drawn in a box of water,
+  /// which has more than 10 water molecules per residue.
   std::vector<bool> drawn;
 };
 

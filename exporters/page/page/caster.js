@@ -414,7 +414,7 @@ class Caster {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
-  /// Of the first sample: words of `what` (attachment 2) of some pixels, rows from the top.
+  /// Returns an attachment of the first sample in a rectangle of pixels, four words a pixel, rows from the top.
   read(x, y, width, height, attachment) {
     const gl = this.gl, words = new Uint32Array(4 * width * height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.targets.first);

@@ -61,7 +61,7 @@ class LightMaps {
     this.layers = 0;
   }
 
-  /// Makes the maps, unless they are there already: those of the sky once for what is shown, those of the lamp once for each camera.
+  /// Makes the maps that are missing. What is shown has one set of maps of the sky; each camera has its maps of the lamp.
   make() {
     const { caster } = this, { figure, look: { light }, frame, hidden } = caster, { planes, opacity } = caster.cuts();
     const shown = [figure.tables.balls, figure.tables.primitives, figure.own_colors, hidden, light.maps_sky, opacity, planes.join()];
@@ -113,7 +113,7 @@ class LightMaps {
     });
   }
 
-  /// Draws the maps of the sky, behind which there is room for those of the lamp.
+  /// Draws the maps of the sky. The array has room for the maps of the lamp after them.
   draw_sky() {
     const { sky, sky_size, lamp_size, caster: { gl, figure } } = this, texels = sky_size.edge ** 2;
     const layers_of = (maps, edge) => Math.ceil(maps * edge ** 2 / kLayerTexels);
