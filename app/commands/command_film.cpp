@@ -146,6 +146,8 @@ TakenProperties film_properties() {
                          "-legend.file",
                          "annotations.letter_size",
                          "annotations.letter_color",
+                         "annotations.font",
+                         "annotations.font_file",
                          "output.file",
                          "output.force",
                          "scene.trust"}

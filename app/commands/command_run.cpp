@@ -23,6 +23,8 @@
 #include "core/scene/figure_key.h"
 #include "core/scene/frozen_selections.h"
 #include "core/scene/representations.h"
+#include "core/scene/scene_lengths.h"
+#include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/surface_computer.h"
 #include "core/structure/selection/places.h"
@@ -163,7 +165,13 @@ std::string several_places(const Selection& zoom_to, std::span<const Atom> atoms
 
 void FigureRun::aim(const ViewRequest& picture, bool extent) {
   if (!frames_) {
-    framing_.cameras = {aim_->camera(picture, given_.still, aim_->viewed(*figure_))};
+    const ViewedAtoms seen = aim_->viewed(*figure_);
+    framing_.cameras = {aim_->camera(picture, given_.still, seen)};
+    Camera& camera = framing_.cameras.front();
+    if (picture.fits)
+      camera =
+          zoomed(camera,
+                 picture_fit(camera, picture.size(), seen.framed, fitted_margin(scene(), scene().picture.size())).zoom);
   } else if (extent) {
     framing_ = run_framing(picture, scene().run_camera, given_, *shown_);
   } else {
@@ -174,6 +182,21 @@ void FigureRun::aim(const ViewRequest& picture, bool extent) {
     if (!sentence.empty()) log_line(command_, "note: " + sentence);
   }
   log_ineffective_cuts();
+}
+
+int FigureRun::fit() {
+  Scene& scene = command_.scene;
+  constexpr int kTurns = 4;  // the distance of the camera and the width of the legend depend on the height
+  for (int turn = 0; scene.picture.fits && turn < kTurns; ++turn) {
+    const PictureLayout layout(scene, key());
+    const ViewedAtoms seen = aim_->viewed(*figure_);
+    const Camera camera = aim_->camera(layout.size, given_.still, seen);
+    const PictureFit fit =
+        picture_fit(camera, layout.size.size(), seen.framed, fitted_margin(scene, scene.picture.size()));
+    scene.picture.height =
+        std::clamp(scene.picture.height + fit.height - layout.size.height, 1, scene_values::kLargestSide);
+  }
+  return scene.picture.height;
 }
 
 void FigureRun::log_ineffective_cuts() const {

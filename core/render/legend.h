@@ -36,6 +36,7 @@ struct LegendStyle {
   Place place = Place::automatic;    ///< automatic: below in pictures higher than wide
   std::vector<std::string> names{};  ///< "A=Alpha" names the entry A Alpha
   std::optional<glm::vec3> color{};  ///< LetterStyle::color
+  FontChoice font{};                 ///< LetterStyle::font
 };
 
 /// A legend occupies a strip at the right or at the bottom of a picture. The molecule is framed in the rest, so the
@@ -103,6 +104,7 @@ class Legend {
   std::vector<Entry> all_;
   std::vector<Entry> entries_;  ///< the entries that fit
   std::optional<glm::vec3> color_;
+  FontChoice font_choice_;
   Font font_;
   glm::ivec2 picture_size_, molecule_size_;
   std::vector<LegendText> texts_;

@@ -3,12 +3,15 @@
 #include "core/scene/view_aim.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <unordered_map>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/queries/copies.h"
+#include "core/render/annotation.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/representations.h"
@@ -142,6 +145,26 @@ std::vector<Ball> ViewAim::framed(const Structure& structure) const {
   const std::vector<Ball> extras = framed_extras(structure);
   balls.insert(balls.end(), extras.begin(), extras.end());
   return balls;
+}
+
+PictureFit picture_fit(const Camera& camera, glm::ivec2 size, std::span<const Ball> balls, glm::ivec2 margin) {
+  const glm::dvec3 right = view_basis(camera).right;
+  glm::dvec2 reach(1.0);  // from the middle of the picture
+  for (const Ball& ball : balls) {
+    const std::optional<glm::dvec2> middle = place_in_picture(camera, size, ball.center);
+    const std::optional<glm::dvec2> edge = place_in_picture(camera, size, ball.center + ball.radius * right);
+    if (middle && edge)
+      reach = glm::max(reach, glm::abs(*middle - 0.5 * glm::dvec2(size)) + glm::distance(*middle, *edge));
+  }
+  const double zoom = std::max(1.0, size.x - 2.0 * margin.x) / (2.0 * reach.x);
+  return {zoom, static_cast<int>(std::lround(2.0 * zoom * reach.y)) + 2 * margin.y};
+}
+
+Camera zoomed(Camera camera, double zoom) {
+  camera.height /= zoom;
+  const double half = camera.vertical_fov * std::numbers::pi / 360.0;
+  camera.vertical_fov = 360.0 / std::numbers::pi * std::atan(std::tan(half) / zoom);
+  return camera;
 }
 
 bool sees_nothing(const Camera& camera, double aspect, const Structure& structure, double probe) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/camera/view_request.h"
@@ -56,6 +57,18 @@ class ViewAim {
   bool frames_all_ = true;            ///< true if no atoms were selected to fill the picture
   std::optional<glm::dvec3> symmetry_;
 };
+
+/// How a picture that ends at its balls differs from another one of the same width.
+struct PictureFit {
+  double zoom;  ///< by which everything is larger
+  int height;   ///< pixels
+};
+
+/// Returns the fit of a picture in which the balls leave a margin, in pixels, at each side. camera: of a picture of
+/// this size, whose middle is that of the balls.
+PictureFit picture_fit(const Camera& camera, glm::ivec2 size, std::span<const Ball> balls, glm::ivec2 margin);
+/// Returns the camera with a narrower view, which enlarges its picture by this factor.
+Camera zoomed(Camera camera, double zoom);
 
 /// True if it is certain, before any surface is computed, that a picture by this camera shows nothing of the structure.
 /// probe: the greatest distance of a surface from its atoms, Å.
