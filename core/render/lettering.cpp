@@ -6,7 +6,6 @@
 #include FT_FREETYPE_H
 #include FT_FONT_FORMATS_H
 #include FT_OUTLINE_H
-#include FT_TRUETYPE_TABLES_H
 
 #include <algorithm>
 #include <array>
@@ -156,10 +155,8 @@ std::shared_ptr<const FontProgram> program_of(FT_Face face, const std::string& f
                   thousandths(face->bbox.yMax)};
   program->ascent = thousandths(face->ascender);
   program->descent = thousandths(face->descender);
-  const auto* const os2 = static_cast<const TT_OS2*>(FT_Get_Sfnt_Table(face, FT_SFNT_OS2));
-  program->capital_height = os2 && os2->version >= 2 ? thousandths(os2->sCapHeight) : program->ascent;
-  const auto* const post = static_cast<const TT_Postscript*>(FT_Get_Sfnt_Table(face, FT_SFNT_POST));
-  program->slant = post ? static_cast<double>(post->italicAngle) / 65536.0 : 0.0;
+  const bool has_capitals = FT_Load_Char(face, U'H', FT_LOAD_NO_SCALE) == 0;
+  program->capital_height = has_capitals ? thousandths(face->glyph->metrics.horiBearingY) : program->ascent;
   return program;
 }
 

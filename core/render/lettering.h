@@ -45,7 +45,6 @@ struct FontProgram {
   bool may_be_embedded = true;           ///< false if its licence forbids to embed it
   std::array<int, 4> box{};              ///< left, bottom, right and top of the box that contains all letters
   int ascent = 0, descent = 0, capital_height = 0;
-  double slant = 0.0;  ///< degrees, negative if letters lean to the right
 };
 
 /// A letter of a text.

@@ -27,37 +27,7 @@
 namespace meniscus {
 namespace {
 
-using Kind = PathStep::Kind;
-
 constexpr std::string_view kHalos = "halos";
-
-std::vector<PathStep> box_path(const glm::dvec2& low, const glm::dvec2& high) {
-  return {{Kind::move, {low}},
-          {Kind::line, {glm::dvec2(high.x, low.y)}},
-          {Kind::line, {high}},
-          {Kind::line, {glm::dvec2(low.x, high.y)}},
-          {Kind::close}};
-}
-
-std::vector<PathStep> line_path(const glm::dvec2& from, const glm::dvec2& to) {
-  return {{Kind::move, {from}}, {Kind::line, {to}}};
-}
-
-/// Returns a circle of four cubic curves, accurate to 0.03 % of its radius.
-std::vector<PathStep> circle_path(const glm::dvec2& middle, double radius) {
-  const double handle = 0.5522847498 * radius;
-  std::vector<PathStep> path{{Kind::move, {middle + glm::dvec2(radius, 0.0)}}};
-  glm::dvec2 from(1.0, 0.0);
-  for (int n = 0; n < 4; ++n) {
-    const glm::dvec2 to(-from.y, from.x);
-    path.push_back(
-        {Kind::curve,
-         {middle + radius * from + handle * to, middle + radius * to + handle * from, middle + radius * to}});
-    from = to;
-  }
-  path.push_back({Kind::close});
-  return path;
-}
 
 PageText page_text(const Font& font, const std::string& text, const glm::ivec2& place) {
   return {text, font.height(), {place.x, font.baseline(place.y)}, font.letters(text)};
@@ -70,13 +40,13 @@ PageShape shape_of(const InkStroke& stroke, double around, const AnnotationLayer
     shape.text = page_text(annotations.font_of(*text), text->text, text->place);
     shape.line = 2.0 * around;
   } else if (const auto* const line = std::get_if<InkLine>(&stroke)) {
-    const double width = line->width + 2.0 * around;
-    const bool is_dot = line->from == line->to;
-    shape.path = is_dot ? circle_path(line->from, 0.5 * width) : line_path(line->from, line->to);
+    shape.from = line->from;
+    shape.to = line->to;
+    shape.line = line->width + 2.0 * around;
     shape.opacity = line->share;
-    shape.line = is_dot ? 0.0 : width;
   } else if (const auto* const box = std::get_if<PixelBox>(&stroke)) {
-    shape.path = box_path(glm::dvec2(box->low) - around, glm::dvec2(box->high) + around);
+    shape.from = glm::dvec2(box->low) - around;
+    shape.to = glm::dvec2(box->high) + around;
   }
   return shape;
 }
@@ -120,18 +90,18 @@ std::vector<PageShape> shapes_of(const Legend& legend, const std::optional<glm::
   for (const LegendBox& box : legend.boxes()) {
     if (box.colors.front().x < 0.0f) continue;  // "+3 more" has no colour
     const glm::dvec2 low(box.low), high(box.high), frame(legend.frame_width());
-    shapes.push_back({kGroup, ink, box_path(low - frame, high + frame)});
+    shapes.push_back({kGroup, ink, low - frame, high + frame});
     const bool upright = high.y - low.y > high.x - low.x;
     // Each colour extends to the end of the bar, so that no paper is visible between two colours.
     for (std::size_t n = 0; n < box.colors.size(); ++n) {
       if (n > 0 && box.colors[n] == box.colors[n - 1]) continue;
       const double along = static_cast<double>(n);
-      shapes.push_back({kGroup, box.colors[n],
-                        upright ? box_path(low, {high.x, high.y - along}) : box_path({low.x + along, low.y}, high)});
+      shapes.push_back({kGroup, box.colors[n], upright ? low : glm::dvec2(low.x + along, low.y),
+                        upright ? glm::dvec2(high.x, high.y - along) : high});
     }
   }
   for (const LegendText& text : legend.texts())
-    shapes.push_back({kGroup, ink, {}, page_text(legend.font(), text.text, text.place)});
+    shapes.push_back({kGroup, ink, {}, {}, page_text(legend.font(), text.text, text.place)});
   return shapes;
 }
 
@@ -327,29 +297,19 @@ class PageFile::SvgEncoder : public Encoder {
 
   static std::string element(const PageShape& shape) {
     if (shape.text) return text_element(*shape.text, shape);
-    std::string path;
-    for (const PathStep& step : shape.path) {
-      const auto& [a, b, c] = step.points;
-      switch (step.kind) {
-        case PathStep::Kind::move:
-          path += "M" + point(a);
-          break;
-        case PathStep::Kind::line:
-          path += "L" + point(a);
-          break;
-        case PathStep::Kind::curve:
-          path += "C" + point(a) + " " + point(b) + " " + point(c);
-          break;
-        case PathStep::Kind::close:
-          path += "Z";
-      }
-    }
-    const std::string opacity = shape.opacity < 1.0 ? fmt::format(" opacity=\"{}\"", number(shape.opacity)) : "";
-    if (shape.line == 0.0) return fmt::format("<path{} fill=\"{}\" d=\"{}\"/>\n", opacity, hex(shape.color), path);
+    const std::string color = hex(shape.color),
+                      opacity = shape.opacity < 1.0 ? fmt::format(" opacity=\"{}\"", number(shape.opacity)) : "";
+    const std::string x = number(shape.from.x), y = number(shape.from.y);
+    if (shape.line == 0.0)
+      return fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"{}/>\n", x, y,
+                         number(shape.to.x - shape.from.x), number(shape.to.y - shape.from.y), color, opacity);
+    if (shape.from == shape.to)
+      return fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\"{}/>\n", x, y, number(0.5 * shape.line),
+                         color, opacity);
     return fmt::format(
-        "<path{} fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" "
-        "stroke-linejoin=\"round\" d=\"{}\"/>\n",
-        opacity, hex(shape.color), number(shape.line), path);
+        "<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" stroke=\"{}\" stroke-width=\"{}\" "
+        "stroke-linecap=\"round\"{}/>\n",
+        x, y, number(shape.to.x), number(shape.to.y), color, number(shape.line), opacity);
   }
 
   std::string waiting_;  ///< bytes of the picture that do not make four letters yet
@@ -370,7 +330,7 @@ class PageFile::PdfEncoder : public Encoder {
   }
 
  private:
-  enum : int { kCatalog = 1, kPages, kPage, kContents, kInfo, kImage, kImageLength, kMask, kEnd };
+  enum : int { kPages = 1, kImage, kImageLength, kMask, kEnd };  ///< objects whose numbers others need before
 
   /// A font of the page and its letters there.
   struct EmbeddedFont {
@@ -395,29 +355,21 @@ class PageFile::PdfEncoder : public Encoder {
     begin(object);
     write(text + "\nendobj\n");
   }
-  /// Writes an object after all that have names. Returns its number.
-  int new_object(const std::string& text) {
-    offsets_.push_back(0);
-    object(static_cast<int>(offsets_.size()) - 1, text);
-    return static_cast<int>(offsets_.size()) - 1;
-  }
-  void compressed_stream(int object, const std::string& dictionary, const std::string& bytes) {
-    begin(object);
-    write(fmt::format("{} /Filter /FlateDecode /Length {} >>\nstream\n", dictionary, bytes.size()));
-    write(bytes);
-    write("\nendstream\nendobj\n");
-  }
-  void stream(int object, const std::string& dictionary, const std::string& bytes) {
-    Deflater deflater;
-    std::string compressed = deflater.add({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-    compressed += deflater.finish();
-    compressed_stream(object, dictionary, compressed);
-  }
-  int new_stream(const std::string& dictionary, const std::string& bytes) {
+  /// Writes an object, and returns its number.
+  int object(const std::string& text) {
     offsets_.push_back(0);
     const int number = static_cast<int>(offsets_.size()) - 1;
-    stream(number, dictionary, bytes);
+    object(number, text);
     return number;
+  }
+  static std::string stream(const std::string& dictionary, const std::string& compressed) {
+    return fmt::format("{} /Filter /FlateDecode /Length {} >>\nstream\n{}\nendstream", dictionary, compressed.size(),
+                       compressed);
+  }
+  static std::string compressed(const std::string& bytes) {
+    Deflater deflater;
+    std::string result = deflater.add({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    return result + deflater.finish();
   }
 
   std::string image_dictionary(const char* colors, const std::string& length) const {
@@ -447,10 +399,10 @@ class PageFile::PdfEncoder : public Encoder {
     }
     if (has_pixels() && channels() == 4) {
       mask_ += alphas_.finish();
-      compressed_stream(kMask, image_dictionary("/DeviceGray", ""), mask_);
+      object(kMask, stream(image_dictionary("/DeviceGray", ""), mask_));
     }
     Resources used;
-    stream(kContents, "<<", contents(shapes, used));
+    const int drawn = object(stream("<<", compressed(contents(shapes, used))));
     const glm::dvec2 page = size() * points();
     std::string states, fonts, layers, layer_list;
     for (std::size_t n = 0; n < used.opacities.size(); ++n)
@@ -458,25 +410,25 @@ class PageFile::PdfEncoder : public Encoder {
     for (std::size_t n = 0; n < used.fonts.size(); ++n)
       fonts += fmt::format(" /F{} {} 0 R", n, write_font(used.fonts[n]));
     for (std::size_t n = 0; n < used.layers.size(); ++n) {
-      const int layer = new_object("<< /Type /OCG /Name " + hex_text(used.layers[n]) + " >>");
+      const int layer = object("<< /Type /OCG /Name " + hex_text(used.layers[n]) + " >>");
       layers += fmt::format(" /L{} {} 0 R", n, layer);
       layer_list += fmt::format(" {} 0 R", layer);
     }
-    object(kPage, fmt::format("<< /Type /Page /Parent {} 0 R /MediaBox [0 0 {} {}] /Contents {} 0 R /Group << /S "
-                              "/Transparency /CS /DeviceRGB >> /Resources << /ExtGState <<{} >> /Font <<{} >> "
-                              "/Properties <<{} >>{} >> >>",
-                              int{kPages}, number(page.x), number(page.y), int{kContents}, states, fonts, layers,
-                              has_pixels() ? fmt::format(" /XObject << /Molecule {} 0 R >>", int{kImage}) : ""));
-    object(kPages, fmt::format("<< /Type /Pages /Kids [{} 0 R] /Count 1 >>", int{kPage}));
-    object(kCatalog, fmt::format("<< /Type /Catalog /Pages {} 0 R /OCProperties << /OCGs [{} ] /D << /ON [{} ] /Order "
-                                 "[{} ] >> >> >>",
-                                 int{kPages}, layer_list, layer_list, layer_list));
+    const int only =
+        object(fmt::format("<< /Type /Page /Parent {} 0 R /MediaBox [0 0 {} {}] /Contents {} 0 R /Group << /S "
+                           "/Transparency /CS /DeviceRGB "
+                           ">> /Resources << /ExtGState <<{} >> /Font <<{} >> /Properties <<{} >>{} >> >>",
+                           int{kPages}, number(page.x), number(page.y), drawn, states, fonts, layers,
+                           has_pixels() ? fmt::format(" /XObject << /Molecule {} 0 R >>", int{kImage}) : ""));
+    object(kPages, fmt::format("<< /Type /Pages /Kids [{} 0 R] /Count 1 >>", only));
+    const int catalog = object(fmt::format(
+        "<< /Type /Catalog /Pages {} 0 R /OCProperties << /OCGs [{} ] /D << /ON [{} ] /Order [{} ] >> >> >>",
+        int{kPages}, layer_list, layer_list, layer_list));
     std::string info;
     if (settings_.names_program) info += " /Producer (Meniscus " MENISCUS_VERSION ")";
     if (!settings_.command.empty()) info += " /Subject " + hex_text(settings_.command);
     if (!settings_.scene.empty()) info += " /MeniscusScene " + hex_text(settings_.scene);
-    object(kInfo, "<<" + info + " >>");
-    write_ends();
+    write_ends(catalog, object("<<" + info + " >>"));
   }
 
   /// Writes a font with all of its letters (PDF Reference 1.6, 5.6: Type 0, by the numbers of its letters). Returns
@@ -490,31 +442,32 @@ class PageFile::PdfEncoder : public Encoder {
     std::string name = program.postscript_name;
     std::erase_if(name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-'; });
     const std::string bytes = read_file_bytes(program.file);
-    const int file =
-        new_stream(program.is_cff ? "<< /Subtype /OpenType" : fmt::format("<< /Length1 {}", bytes.size()), bytes);
+    const int file = object(stream(
+        program.is_cff ? "<< /Subtype /OpenType" : fmt::format("<< /Length1 {}", bytes.size()), compressed(bytes)));
     const auto& [left, bottom, right, top] = program.box;
     const int descriptor =
-        new_object(fmt::format("<< /Type /FontDescriptor /FontName /{} /Flags 4 /FontBBox [{} {} {} {}] /ItalicAngle "
-                               "{} /Ascent {} /Descent {} "
-                               "/CapHeight {} /StemV 80 /FontFile{} {} 0 R >>",
-                               name, left, bottom, right, top, number(program.slant), program.ascent, program.descent,
-                               program.capital_height, program.is_cff ? 3 : 2, file));
+        object(fmt::format("<< /Type /FontDescriptor /FontName /{} /Flags 4 /FontBBox [{} {} {} {}] /ItalicAngle 0 "
+                           "/Ascent {} /Descent {} "
+                           "/CapHeight {} /StemV 80 /FontFile{} {} 0 R >>",
+                           name, left, bottom, right, top, program.ascent, program.descent, program.capital_height,
+                           program.is_cff ? 3 : 2, file));
     std::string widths, meanings;
     for (const auto& [glyph, letter] : font.letters) {
       widths += fmt::format(" {} [{}]", glyph, number(letter.advance));
       meanings += fmt::format("1 beginbfchar <{:04X}> <{}> endbfchar\n", glyph, utf16_digits(letter.code));
     }
-    const int letters = new_object(fmt::format(
+    const int letters = object(fmt::format(
         "<< /Type /Font /Subtype /CIDFontType{} /BaseFont /{} /CIDSystemInfo << /Registry (Adobe) /Ordering (Identity) "
         "/Supplement 0 >> /FontDescriptor {} 0 R /W [{} ]{} >>",
         program.is_cff ? 0 : 2, name, descriptor, widths, program.is_cff ? "" : " /CIDToGIDMap /Identity"));
-    const int texts = new_stream("<<",
-                                 "/CIDInit /ProcSet findresource begin 12 dict begin begincmap\n"
-                                 "/CIDSystemInfo << /Registry (Adobe) /Ordering (UCS) /Supplement 0 >> def\n"
-                                 "/CMapName /Adobe-Identity-UCS def /CMapType 2 def\n"
-                                 "1 begincodespacerange <0000> <FFFF> endcodespacerange\n" +
-                                     meanings + "endcmap CMapName currentdict /CMap defineresource pop end end\n");
-    return new_object(
+    const int texts =
+        object(stream("<<", compressed("/CIDInit /ProcSet findresource begin 12 dict begin begincmap\n"
+                                       "/CIDSystemInfo << /Registry (Adobe) /Ordering (UCS) "
+                                       "/Supplement 0 >> def\n"
+                                       "/CMapName /Adobe-Identity-UCS def /CMapType 2 def\n"
+                                       "1 begincodespacerange <0000> <FFFF> endcodespacerange\n" +
+                                       meanings + "endcmap CMapName currentdict /CMap defineresource pop end end\n")));
+    return object(
         fmt::format("<< /Type /Font /Subtype /Type0 /BaseFont /{} /Encoding /Identity-H /DescendantFonts "
                     "[{} 0 R] /ToUnicode {} 0 R >>",
                     name, letters, texts));
@@ -527,13 +480,13 @@ class PageFile::PdfEncoder : public Encoder {
     return fmt::format("{:04X}{:04X}", 0xd800 + ((number - 0x10000) >> 10), 0xdc00 + ((number - 0x10000) & 0x3ff));
   }
 
-  void write_ends() {
+  void write_ends(int catalog, int info) {
     const std::size_t table = offset_, end = offsets_.size();
     write(fmt::format("xref\n0 {}\n0000000000 65535 f \n", end));
     for (std::size_t n = 1; n < end; ++n)
       write(offsets_[n] > 0 ? fmt::format("{:010} 00000 n \n", offsets_[n]) : std::string("0000000000 65535 f \n"));
-    write(fmt::format("trailer\n<< /Size {} /Root {} 0 R /Info {} 0 R >>\nstartxref\n{}\n%%EOF\n", end, int{kCatalog},
-                      int{kInfo}, table));
+    write(fmt::format("trailer\n<< /Size {} /Root {} 0 R /Info {} 0 R >>\nstartxref\n{}\n%%EOF\n", end, catalog, info,
+                      table));
   }
 
   double points() const { return 72.0 * pixel(); }
@@ -618,23 +571,8 @@ class PageFile::PdfEncoder : public Encoder {
     if (!has_line || shape.text) text += color(shape.color, "rg");
     if (has_line) text += color(shape.color, "RG") + number(shape.line) + " w\n";
     if (shape.text) return text + contents_of(*shape.text, has_line, used);
-    for (const PathStep& step : shape.path) {
-      const auto& [a, b, c] = step.points;
-      switch (step.kind) {
-        case PathStep::Kind::move:
-          text += point(a) + " m\n";
-          break;
-        case PathStep::Kind::line:
-          text += point(a) + " l\n";
-          break;
-        case PathStep::Kind::curve:
-          text += point(a) + " " + point(b) + " " + point(c) + " c\n";
-          break;
-        case PathStep::Kind::close:
-          text += "h\n";
-      }
-    }
-    return text + (has_line ? "S\n" : "f\n");
+    const glm::dvec2 extent = shape.to - shape.from;
+    return text + point(shape.from) + (has_line ? " m " + point(shape.to) + " l S\n" : " " + point(extent) + " re f\n");
   }
 
   /// Returns the scale with more decimals than coordinates have.

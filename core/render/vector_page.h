@@ -23,12 +23,6 @@ namespace meniscus {
 /// True if the extension names a page (.svg, .pdf).
 bool is_page(const std::filesystem::path& path);
 
-/// A step of a path, with points in pixels from the top left.
-struct PathStep {
-  enum class Kind { move, line, curve, close } kind;
-  std::array<glm::dvec2, 3> points{};  ///< move and line: one point; cubic curve: two control points, then the end
-};
-
 /// A text of a page.
 struct PageText {
   std::string text;
@@ -37,14 +31,14 @@ struct PageText {
   std::vector<PlacedLetter> letters;
 };
 
-/// A filled or stroked path, or a text, in pixels of the picture.
+/// A line with round ends, a filled box, or a text, in pixels of the picture.
 struct PageShape {
   std::string group;  ///< name of the group to which it belongs; groups are in the order of their first shapes
   glm::vec3 color;    ///< sRGB
-  std::vector<PathStep> path{};
+  glm::dvec2 from{0.0}, to{0.0};  ///< ends of the line, which is a dot if they are equal; or low and high of the box
   std::optional<PageText> text{};
+  double line = 0.0;  ///< width of the line, or of a stroke around letters; 0: a box, or plain letters
   double opacity = 1.0;
-  double line = 0.0;  ///< width of the stroke, with round ends and corners; a text is also filled; 0: only filled
 };
 
 /// Returns the shapes of the annotations in these rows of the picture. The first group, "halos", has the rims of

@@ -71,8 +71,8 @@ Framebuffer empty_rows(int width, int count) {
 void append_moved(std::vector<PageShape>& shapes, std::vector<PageShape> more, glm::ivec2 by,
                   const std::string& prefix) {
   for (PageShape& shape : more) {
-    for (PathStep& step : shape.path)
-      for (glm::dvec2& point : step.points) point += glm::dvec2(by);
+    shape.from += glm::dvec2(by);
+    shape.to += glm::dvec2(by);
     if (shape.text) shape.text->start += glm::dvec2(by);
     shape.group.insert(0, prefix);
     shapes.push_back(std::move(shape));
