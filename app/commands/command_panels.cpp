@@ -169,29 +169,13 @@ void add_panels(CLI::App& command) {
       "  meniscus panels a.json b.json c.json d.json -o figure.png --columns 2 --letters lower --background white",
       "A picture that meniscus render made is a panel, for it carries its scene; so is a scene file. Each panel is "
       "drawn\nagain, in the size that it has on the page. Options that scenes have, too, hold for all panels.");
-  auto declared = std::make_shared<DeclaredPanels>(command, TakenProperties{"molecule.superpose_on",
-                                                                            "molecule.warnings",
-                                                                            "molecule.quiet",
-                                                                            "Computing",
-                                                                            "-surface.verify",
-                                                                            "image.size",
-                                                                            "image.width",
-                                                                            "image.height",
-                                                                            "image.dpi",
-                                                                            "image.samples",
-                                                                            "image.background",
-                                                                            "image.tiff_compression",
-                                                                            "image.tiff_bits",
-                                                                            "picture.any_cost",
-                                                                            "Legend",
-                                                                            "-legend.file",
-                                                                            "annotations.letter_size",
-                                                                            "annotations.letter_color",
-                                                                            "annotations.font",
-                                                                            "annotations.font_file",
-                                                                            "output.file",
-                                                                            "output.force",
-                                                                            "scene.trust"});
+  const TakenProperties shared{"Computing", "-surface.verify", "Legend", "-legend.file"};
+  auto declared = std::make_shared<DeclaredPanels>(
+      command,
+      shared.with({"molecule.superpose_on", "molecule.warnings", "molecule.quiet", "annotations.letter_size",
+                   "annotations.letter_color", "annotations.font", "annotations.font_file", "image.size", "image.width",
+                   "image.height", "image.dpi", "image.samples", "image.background", "image.tiff_compression",
+                   "image.tiff_bits", "picture.any_cost", "output.file", "output.force", "scene.trust"}));
   PanelsCommand& state = declared->state;
   declared->options.describe_output("Picture to write: .png, .jpg, .webp, .tif, .svg, .pdf");
   PropertyOptions options(command);

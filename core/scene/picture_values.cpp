@@ -186,7 +186,7 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
     worded<Primaries::rec709, Primaries::ap1>("image.color_space", [](auto& s) { return &s.image.primaries; }),
     worded<TiffCompression::none, TiffCompression::lzw, TiffCompression::zip>(
         "image.tiff_compression", [](auto& s) { return &s.image.tiff.compression; }),
-    plain("image.tiff_bits", [](auto& s) { return &s.image.tiff.bits; }),
+    worded<8, 16>("image.tiff_bits", [](auto& s) { return &s.image.tiff.bits; }),
     worded<Extent::visible, Extent::complete, Extent::paper>("image.extent", [](auto& s) { return &s.image.extent; }),
 
     plain("legend.shown", [](auto& s) { return &s.legend.within; }),
