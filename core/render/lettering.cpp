@@ -12,8 +12,8 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <map>
-#include <mutex>
 
 #include "core/base/error.h"
 #include "core/base/system_file.h"
@@ -22,118 +22,71 @@
 namespace meniscus {
 namespace {
 
-std::string in_small_letters(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 /// The files of the weights of a font. bold: empty if there is none.
 struct FontFiles {
   std::string regular, bold;
 };
 
-bool exists(const std::string& file) {
-  std::error_code ignored;
-  return std::filesystem::exists(path_of_text(file), ignored);
+/// Returns the letters and digits of a name in lower case, by which names of fonts are compared.
+std::string plain_name(std::string_view text) {
+  std::string name;
+  for (const unsigned char c : text)
+    if (std::isalnum(c) != 0) name += static_cast<char>(std::tolower(c));
+  return name;
 }
 
-/// Returns the installed default fonts, the preferred one first.
-const std::vector<FontFiles>& default_fonts() {
-  static const std::vector<FontFiles> installed = [] {
-    constexpr std::array<std::array<const char*, 3>, 9> kFonts{{
-        {"truetype/liberation2/LiberationSans", "-Regular.ttf", "-Bold.ttf"},
-        {"truetype/liberation/LiberationSans", "-Regular.ttf", "-Bold.ttf"},
-        {"liberation-sans-fonts/LiberationSans", "-Regular.ttf", "-Bold.ttf"},
-        {"liberation-sans/LiberationSans", "-Regular.ttf", "-Bold.ttf"},
-        {"liberation/LiberationSans", "-Regular.ttf", "-Bold.ttf"},
-        {"truetype/dejavu/DejaVuSans", ".ttf", "-Bold.ttf"},
-        {"dejavu-sans-fonts/DejaVuSans", ".ttf", "-Bold.ttf"},
-        {"TTF/DejaVuSans", ".ttf", "-Bold.ttf"},
-        {"truetype/noto/NotoSans", "-Regular.ttf", "-Bold.ttf"},
-    }};
-    std::vector<FontFiles> fonts;
-    for (const auto& [name, regular, bold] : kFonts) {
-      const std::string path = std::string("/usr/share/fonts/") + name;
-      if (exists(path + regular)) fonts.push_back({path + regular, exists(path + bold) ? path + bold : ""});
-    }
+bool is_font_file(const std::filesystem::path& path) {
+  const std::string extension = plain_name(text_of_path(path.extension()));
+  return extension == "ttf" || extension == "otf";
+}
+
+/// Returns the names and paths of all installed fonts, sorted.
+const std::map<std::string, std::string>& installed_fonts() {
+  namespace fs = std::filesystem;
+  static const std::map<std::string, std::string> installed = [] {
+    std::map<std::string, std::string> fonts;
+    std::error_code ignored;
+    for (const char* const folder : {"/usr/local/share/fonts", "/usr/share/fonts"})
+      for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, ignored), end;
+           at != end; at.increment(ignored))
+        if (const std::string path = text_of_path(at->path()); is_font_file(at->path())) {
+          std::string& known = fonts[plain_name(text_of_path(at->path().stem()))];
+          if (known.empty() || path < known) known = path;
+        }
     return fonts;
   }();
   return installed;
 }
 
-/// FreeType and the files that it has open.
-class OpenFonts {
- public:
-  OpenFonts() {
-    if (FT_Init_FreeType(&library_) != 0) throw CapacityError("there is no memory for fonts");
-  }
-  ~OpenFonts() { FT_Done_FreeType(library_); }  // closes the faces
-  OpenFonts(const OpenFonts&) = delete;
-  OpenFonts& operator=(const OpenFonts&) = delete;
-
-  /// Returns nullptr if the file is not a font.
-  FT_Face open(const std::string& file) {
-    FT_Face face = nullptr;
-    return FT_New_Face(library_, file.c_str(), 0, &face) == 0 ? face : nullptr;
-  }
-
- private:
-  FT_Library library_ = nullptr;
-};
-
-bool is_font_file(const std::filesystem::path& path) {
-  const std::string extension = in_small_letters(text_of_path(path.extension()));
-  return extension == ".ttf" || extension == ".otf";
-}
-
-/// Returns the files of an installed family, which is found by the name that its files contain. Throws RequestError.
-FontFiles installed_family(const std::string& family) {
-  namespace fs = std::filesystem;
-  constexpr std::array<std::string_view, 4> kRegular{"Regular", "Book", "Roman", "Normal"};
-  std::vector<fs::path> paths;
-  for (const char* const folder : {"/usr/share/fonts", "/usr/local/share/fonts"}) {
-    std::error_code ignored;
-    for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, ignored), end;
-         at != end; at.increment(ignored))
-      if (is_font_file(at->path())) paths.push_back(at->path());
-  }
-  std::ranges::sort(paths);
-  OpenFonts fonts;
-  FontFiles found;
-  for (const fs::path& path : paths) {
-    const std::string file = text_of_path(path);
-    FT_Face face = fonts.open(file);
-    if (!face) continue;
-    const std::string_view style = face->style_name ? face->style_name : "";
-    if (face->family_name && in_small_letters(face->family_name) == in_small_letters(family)) {
-      if (found.regular.empty() && std::ranges::find(kRegular, style) != kRegular.end()) found.regular = file;
-      if (found.bold.empty() && style == "Bold") found.bold = file;
-    }
-    FT_Done_Face(face);
-  }
-  if (found.regular.empty())
-    throw RequestError(
-        message("@font {}@: no font of this family is in /usr/share/fonts or /usr/local/share/fonts; "
-                "`fc-list : family` lists families, and @font-file@ takes a file",
-                in_quotes(family)));
-  return found;
+/// Returns the files of an installed family, found by their names: DejaVuSans.ttf and DejaVuSans-Bold.ttf are those of
+/// "DejaVu Sans". Without the family both are empty.
+FontFiles family_files(std::string_view family) {
+  const auto first_of = [&](std::initializer_list<const char*> styles) -> std::string {
+    for (const char* const style : styles)
+      if (const auto found = installed_fonts().find(plain_name(family) + style); found != installed_fonts().end())
+        return found->second;
+    return {};
+  };
+  return {first_of({"regular", "", "book", "roman"}), first_of({"bold", "bd"})};
 }
 
 /// Returns the fonts in which letters are looked up, the chosen one first. Throws RequestError.
 std::vector<FontFiles> fonts_for(const FontChoice& choice) {
-  static std::mutex mutex;
-  static std::map<std::string, FontFiles> families;
-  std::vector<FontFiles> fonts = default_fonts();
+  std::vector<FontFiles> fonts;
   if (!choice.file.empty()) {
     if (!is_font_file(path_of_text(choice.file)))
       throw RequestError(message("@font-file {}@ is not a .ttf or .otf file", in_quotes(choice.file)));
-    fonts.insert(fonts.begin(), {choice.file, ""});
+    fonts.push_back({choice.file, ""});
   } else if (!choice.family.empty()) {
-    const std::lock_guard lock(mutex);
-    auto known = families.find(choice.family);
-    if (known == families.end()) known = families.emplace(choice.family, installed_family(choice.family)).first;
-    fonts.insert(fonts.begin(), known->second);
+    fonts.push_back(family_files(choice.family));
+    if (fonts.front().regular.empty())
+      throw RequestError(
+          message("@font {}@: no font of this family is in /usr/share/fonts or /usr/local/share/fonts; "
+                  "`fc-list : family` lists families, and @font-file@ takes a file",
+                  in_quotes(choice.family)));
   }
+  for (const char* const family : {"Liberation Sans", "DejaVu Sans", "Noto Sans"})
+    if (FontFiles files = family_files(family); !files.regular.empty()) fonts.push_back(std::move(files));
   if (fonts.empty())
     throw RequestError("no font was found for legends, labels and scale bars; install the package fonts-liberation2");
   return fonts;
@@ -163,22 +116,28 @@ std::shared_ptr<const FontProgram> program_of(FT_Face face, const std::string& f
 }  // namespace
 
 std::optional<std::string> find_font_file() {
-  const std::vector<FontFiles>& fonts = default_fonts();
-  return fonts.empty() ? std::nullopt : std::optional<std::string>(fonts.front().regular);
+  try {
+    return fonts_for({}).front().regular;
+  } catch (const RequestError&) {
+    return {};
+  }
 }
 
 /// The fonts in which letters are looked up. The first one is open; others are opened when a letter needs them.
 class Font::Faces {
  public:
   Faces(int height, Weight weight, const FontChoice& choice) : height_(height) {
-    for (const FontFiles& font : fonts_for(choice)) {
-      Face& face = faces_.emplace_back();
-      face.file = weight == Weight::bold && !font.bold.empty() ? font.bold : font.regular;
-    }
-    if (!is_open(faces_.front()))
-      throw RequestError(message("{}: this font cannot be read; install its package again, or choose another @font@",
-                                 in_quotes(faces_.front().file)));
+    for (const FontFiles& font : fonts_for(choice))
+      faces_.push_back({weight == Weight::bold && !font.bold.empty() ? font.bold : font.regular});
+    if (FT_Init_FreeType(&library_) != 0) throw CapacityError("there is no memory for fonts");
+    if (is_open(faces_.front())) return;
+    FT_Done_FreeType(library_);
+    throw RequestError(message("{}: this font cannot be read; install its package again, or choose another @font@",
+                               in_quotes(faces_.front().file)));
   }
+  ~Faces() { FT_Done_FreeType(library_); }  // closes the faces
+  Faces(const Faces&) = delete;
+  Faces& operator=(const Faces&) = delete;
 
   /// A letter in the slot of its face, as an outline in units of 1/64 pixel that is fitted to the rows of pixels.
   struct Loaded {
@@ -215,16 +174,17 @@ class Font::Faces {
   struct Face {
     std::string file;
     FT_Face face = nullptr;
-    bool is_broken = false;
-    std::shared_ptr<const FontProgram> program;
+    bool is_tried = false;
+    std::shared_ptr<const FontProgram> program{};
   };
 
+  /// True if the file of the face is a font, which is opened at the first call.
   bool is_open(Face& face) {
-    if (face.face || face.is_broken) return !face.is_broken;
-    face.face = fonts_.open(face.file);
-    face.is_broken = !face.face || FT_Set_Pixel_Sizes(face.face, 0, static_cast<FT_UInt>(height_)) != 0;
-    if (!face.is_broken) face.program = program_of(face.face, face.file);
-    return !face.is_broken;
+    if (!face.is_tried && FT_New_Face(library_, face.file.c_str(), 0, &face.face) == 0 &&
+        FT_Set_Pixel_Sizes(face.face, 0, static_cast<FT_UInt>(height_)) == 0)
+      face.program = program_of(face.face, face.file);
+    face.is_tried = true;
+    return face.program != nullptr;
   }
 
   /// Returns the first face that has the letter, else the first face, which draws a box.
@@ -235,7 +195,7 @@ class Font::Faces {
   }
 
   const int height_;
-  OpenFonts fonts_;
+  FT_Library library_ = nullptr;
   std::vector<Face> faces_;
 };
 
