@@ -165,13 +165,8 @@ std::string several_places(const Selection& zoom_to, std::span<const Atom> atoms
 
 void FigureRun::aim(const ViewRequest& picture, bool extent) {
   if (!frames_) {
-    const ViewedAtoms seen = aim_->viewed(*figure_);
-    framing_.cameras = {aim_->camera(picture, given_.still, seen)};
-    Camera& camera = framing_.cameras.front();
-    if (picture.fits)
-      camera =
-          zoomed(camera,
-                 picture_fit(camera, picture.size(), seen.framed, fitted_margin(scene(), scene().picture.size())).zoom);
+    framing_.cameras = {picture.fits ? fitted(picture).camera
+                                     : aim_->camera(picture, given_.still, aim_->viewed(*figure_))};
   } else if (extent) {
     framing_ = run_framing(picture, scene().run_camera, given_, *shown_);
   } else {
@@ -184,17 +179,21 @@ void FigureRun::aim(const ViewRequest& picture, bool extent) {
   log_ineffective_cuts();
 }
 
+PictureFit FigureRun::fitted(ViewRequest picture) const {
+  const int height = picture.height;
+  picture.height = 3 * picture.width / 4;  // the camera of a usual picture, whose view is then made lower
+  const ViewedAtoms seen = aim_->viewed(*figure_);
+  return picture_fit(aim_->camera(picture, given_.still, seen), picture.size(), height, seen.framed,
+                     fitted_margin(scene(), scene().picture.size()));
+}
+
 int FigureRun::fit() {
   Scene& scene = command_.scene;
-  constexpr int kTurns = 4;  // the distance of the camera and the width of the legend depend on the height
+  constexpr int kTurns = 4;  // the width of the legend depends on the height
   for (int turn = 0; scene.picture.fits && turn < kTurns; ++turn) {
     const PictureLayout layout(scene, key());
-    const ViewedAtoms seen = aim_->viewed(*figure_);
-    const Camera camera = aim_->camera(layout.size, given_.still, seen);
-    const PictureFit fit =
-        picture_fit(camera, layout.size.size(), seen.framed, fitted_margin(scene, scene.picture.size()));
-    scene.picture.height =
-        std::clamp(scene.picture.height + fit.height - layout.size.height, 1, scene_values::kLargestSide);
+    scene.picture.height = std::clamp(scene.picture.height + fitted(layout.size).height - layout.size.height, 1,
+                                      scene_values::kLargestSide);
   }
   return scene.picture.height;
 }

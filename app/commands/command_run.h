@@ -148,6 +148,7 @@ class FigureRun {
   void open_run(Velocities velocities);
   void make_one_figure();
   void log_ineffective_cuts() const;
+  PictureFit fitted(ViewRequest picture) const;
 
   SceneCommand command_;
   GivenCameras given_;  ///< cameras from files

@@ -54,8 +54,9 @@ PageShape shape_of(const InkStroke& stroke, double around, const AnnotationLayer
 bool reaches_into(const InkStroke& stroke, int first_row, int end_row) {
   double low = 0.0, high = 0.0;
   if (const auto* const text = std::get_if<InkText>(&stroke)) {
-    low = text->place.y - text->height;
-    high = text->place.y + text->height;
+    const double half = 0.6 * text->height;  // with accents, or with what is below the line
+    low = text->place.y - half;
+    high = text->place.y + half;
   } else if (const auto* const line = std::get_if<InkLine>(&stroke)) {
     low = std::min(line->from.y, line->to.y) - line->width;
     high = std::max(line->from.y, line->to.y) + line->width;

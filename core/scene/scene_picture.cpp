@@ -147,7 +147,7 @@ glm::ivec2 fitted_margin(const Scene& scene, glm::ivec2 size) {
   const Font font(LetterHeights(letters, size).labels, Weight::regular, letters.font);
   int widest = 0;
   for (const LabelRequest& label : scene.annotations.labels) widest = std::max(widest, font.width(label.text));
-  return margin + glm::ivec2(std::min(widest + font.height(), size.x / 4), 2 * font.height());
+  return margin + glm::ivec2(std::min(widest + font.height(), size.x / 4), 0);
 }
 
 SurfaceRequest picture_request(const Scene& scene) {

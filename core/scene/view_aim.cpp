@@ -147,7 +147,7 @@ std::vector<Ball> ViewAim::framed(const Structure& structure) const {
   return balls;
 }
 
-PictureFit picture_fit(const Camera& camera, glm::ivec2 size, std::span<const Ball> balls, glm::ivec2 margin) {
+PictureFit picture_fit(Camera camera, glm::ivec2 size, int height, std::span<const Ball> balls, glm::ivec2 margin) {
   const glm::dvec3 right = view_basis(camera).right;
   glm::dvec2 reach(1.0);  // from the middle of the picture
   for (const Ball& ball : balls) {
@@ -156,15 +156,11 @@ PictureFit picture_fit(const Camera& camera, glm::ivec2 size, std::span<const Ba
     if (middle && edge)
       reach = glm::max(reach, glm::abs(*middle - 0.5 * glm::dvec2(size)) + glm::distance(*middle, *edge));
   }
-  const double zoom = std::max(1.0, size.x - 2.0 * margin.x) / (2.0 * reach.x);
-  return {zoom, static_cast<int>(std::lround(2.0 * zoom * reach.y)) + 2 * margin.y};
-}
-
-Camera zoomed(Camera camera, double zoom) {
-  camera.height /= zoom;
+  const double zoom = std::max(1.0, size.x - 2.0 * margin.x) / (2.0 * reach.x), share = height / (zoom * size.y);
   const double half = camera.vertical_fov * std::numbers::pi / 360.0;
-  camera.vertical_fov = 360.0 / std::numbers::pi * std::atan(std::tan(half) / zoom);
-  return camera;
+  camera.vertical_fov = 360.0 / std::numbers::pi * std::atan(std::tan(half) * share);
+  camera.height *= share;
+  return {camera, static_cast<int>(std::lround(2.0 * zoom * reach.y)) + 2 * margin.y};
 }
 
 bool sees_nothing(const Camera& camera, double aspect, const Structure& structure, double probe) {

@@ -58,17 +58,15 @@ class ViewAim {
   std::optional<glm::dvec3> symmetry_;
 };
 
-/// How a picture that ends at its balls differs from another one of the same width.
+/// The camera of a picture that ends at its balls, and the height that the picture should have, in pixels.
 struct PictureFit {
-  double zoom;  ///< by which everything is larger
-  int height;   ///< pixels
+  Camera camera;
+  int height;
 };
 
 /// Returns the fit of a picture in which the balls leave a margin, in pixels, at each side. camera: of a picture of
-/// this size, whose middle is that of the balls.
-PictureFit picture_fit(const Camera& camera, glm::ivec2 size, std::span<const Ball> balls, glm::ivec2 margin);
-/// Returns the camera with a narrower view, which enlarges its picture by this factor.
-Camera zoomed(Camera camera, double zoom);
+/// this size, whose middle is that of the balls. height: of the new picture, which has the same width.
+PictureFit picture_fit(Camera camera, glm::ivec2 size, int height, std::span<const Ball> balls, glm::ivec2 margin);
 
 /// True if it is certain, before any surface is computed, that a picture by this camera shows nothing of the structure.
 /// probe: the greatest distance of a surface from its atoms, Å.
