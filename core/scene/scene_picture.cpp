@@ -196,6 +196,8 @@ SceneFigure made_figure(const Scene& requested, const EglContext* context) {
     throw RequestError("frames: this makes the picture of one molecule; `meniscus render` makes those of a run");
   if (requested.image.extent)
     throw RequestError("image.extent: this draws the complete surface; `meniscus render` draws without it");
+  if (requested.picture.fits)
+    throw RequestError("image.size, image.height: auto is for pictures of `meniscus render`; give a size");
   Scene scene = prepared_scene(requested);
   freeze_selections(scene);
   scene.molecule.surface.cpu = context == nullptr;
