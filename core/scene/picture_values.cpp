@@ -78,8 +78,8 @@ void read_size(const Property&, Texts texts, Scene& scene) {
   };
   if (cross == std::string::npos || !parse_side(text.substr(0, cross), scene.picture.width) ||
       !parse_side(text.substr(cross + 1), scene.picture.height))
-    throw RequestError(fmt::format("{} is not WIDTHxHEIGHT in pixels, 1 to {} each, such as 1920x1080, or auto",
-                                   in_quotes(text), kLargestSide));
+    throw RequestError(fmt::format("{} is not WIDTHxHEIGHT in pixels, 1 to {} each, such as 1920x1080", in_quotes(text),
+                                   kLargestSide));
   scene.lengths.erase("image.width");
   scene.lengths.erase("image.height");
 }

@@ -148,14 +148,20 @@ std::vector<Ball> ViewAim::framed(const Structure& structure) const {
 }
 
 PictureFit picture_fit(Camera camera, glm::ivec2 size, int height, std::span<const Ball> balls, glm::ivec2 margin) {
-  const glm::dvec3 right = view_basis(camera).right;
-  glm::dvec2 reach(1.0);  // from the middle of the picture
+  const ViewBasis basis = view_basis(camera);
+  const double focus = glm::distance(camera.position, camera.target);
+  glm::dvec2 reach(0.0);  // from the middle of the picture, Å at the target
   for (const Ball& ball : balls) {
-    const std::optional<glm::dvec2> middle = place_in_picture(camera, size, ball.center);
-    const std::optional<glm::dvec2> edge = place_in_picture(camera, size, ball.center + ball.radius * right);
-    if (middle && edge)
-      reach = glm::max(reach, glm::abs(*middle - 0.5 * glm::dvec2(size)) + glm::distance(*middle, *edge));
+    const glm::dvec3 to = ball.center - camera.position;
+    const auto edge = [&](double side, double depth) {
+      if (camera.projection == Projection::orthographic) return side + ball.radius;
+      return focus * std::tan(std::atan2(side, depth) + std::asin(ball.radius / std::hypot(side, depth)));
+    };
+    const double depth = glm::dot(to, basis.forward);
+    reach.x = std::max(reach.x, edge(std::abs(glm::dot(to, basis.right)), depth));
+    reach.y = std::max(reach.y, edge(std::abs(glm::dot(to, basis.up)), depth));
   }
+  reach /= angstroms_per_pixel(camera, size);
   const double zoom = std::max(1.0, size.x - 2.0 * margin.x) / (2.0 * reach.x), share = height / (zoom * size.y);
   const double half = camera.vertical_fov * std::numbers::pi / 360.0;
   camera.vertical_fov = 360.0 / std::numbers::pi * std::atan(std::tan(half) * share);
