@@ -80,7 +80,7 @@ struct StripContents {
 Strips strips_for(const StripContents& contents, const LetterStyle& letters, glm::ivec2 size);
 StripContents strip_contents(const Annotations& annotations);
 
-/// Strokes that belong together: all from index `first` on, up to those of the next group.
+/// Strokes that belong together: the stroke of index `first` and the following ones, up to the next group.
 struct StrokeGroup {
   std::string_view name;
   std::size_t first;

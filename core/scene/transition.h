@@ -73,8 +73,8 @@ Look look_between(const Look& from, const Look& to, double share);
 /// numbers of the look change steadily. All other differences dissolve: both scenes are drawn with the same camera and
 /// the same numbers, and their pictures are blended in linear light. So an object that only one of them has fades in or
 /// out, and common objects stay. The legend's part of the picture grows or shrinks steadily. Texts and legends of the
-/// first scene fade out in the first half, those of the second fade in in the second half, and common ones stay. A
-/// legend is never over the molecule's part.
+/// first scene fade out in the first half of the way, and texts and legends of the second scene fade in in the second
+/// half. Common texts and legends stay. A legend is never over the molecule's part.
 class Transition {
  public:
   /// Both shots must have pictures of one size. context: computes surfaces on GL again; nullptr: on the CPU.
