@@ -170,7 +170,7 @@ class Pages(unittest.TestCase):
                 rows, columns = numpy.nonzero(picture[..., 3] > 0.5)
                 for gap in (rows[0], picture.shape[0] - 1 - rows[-1], columns.min(), picture.shape[1] - 1 - columns.max()):
                     self.assertAlmostEqual(gap, margin, delta=3)
-        done = subprocess.run([PROGRAM, "render", "a.pdb", "-o", "no.png", "--size", "auto", "--frames", "all"], cwd=self.folder, capture_output=True,
+        done = subprocess.run([PROGRAM, "render", "a.pdb", "-o", "no_#.png", "--size", "auto", "--frames", "all"], cwd=self.folder, capture_output=True,
                               text=True)
         self.assertIn("--size auto", done.stderr)
 
