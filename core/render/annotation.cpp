@@ -181,7 +181,7 @@ class Writer {
   /// Writes the title between the letter of the panel and the time, in smaller letters if the room is too small.
   void title(const std::string& text) {
     begin("title");
-    int left = heights_.usual, right = size_.x - heights_.usual;
+    int left = heights_.usual / 2, right = size_.x - heights_.usual / 2;
     for (const PixelBox& box : taken_) {
       const int margin = heights_.usual;
       if (2 * box.low.x < size_.x)
