@@ -77,13 +77,14 @@ class SurfaceValues(TypedDict, total=False):
     comments: bool
     #: WORD: Projection of the camera: perspective or orthographic [perspective]
     projection: Literal["perspective", "orthographic"]
-    #: WxH: Size of the picture in pixels; auto: as high as the molecule [1280x960; film 1920x1080, .gif 960x540]
+    #: WxH: Size of the picture in pixels; auto: as high as the molecule [1280x960; film 1920x1080, .gif
+    #: 960x540]
     size: Text
     #: LENGTH: Width of the picture: 85mm, 8.5cm, 3.5in or 1000px
     width: Text
     #: LENGTH: Height of the picture in the same units; auto: that of the molecule
     height: Text
-    #: LENGTH: Margin around the molecule of size auto and height auto [2mm]
+    #: LENGTH: Margin around the molecule of size=auto and height=auto [2mm]
     margin: Text
     #: N: Resolution of the picture in dots per inch [300 for lengths]
     dpi: float
