@@ -20,12 +20,16 @@ namespace meniscus {
 struct LegendText {
   std::string text;
   glm::ivec2 place{0};
+
+  bool operator==(const LegendText&) const = default;
 };
 
 /// A framed rectangle of one colour, or of as many as it has pixels along its longer side.
 struct LegendBox {
   glm::ivec2 low{0}, high{0};     ///< first pixel and one past the last
   std::vector<glm::vec3> colors;  ///< sRGB; from the left or from the bottom
+
+  bool operator==(const LegendBox&) const = default;
 };
 
 /// The requested properties of a legend, apart from the meaning of the colours.

@@ -12,8 +12,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <zlib.h>
 
 #include "core/base/error.h"

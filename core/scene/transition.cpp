@@ -108,39 +108,26 @@ PartedAnnotations parted(const Annotations& first, const Annotations& second) {
   PartedAnnotations parts{first, first, second};
   auto& [common, of_first, of_second] = parts;
   for (Annotations* const one : {&common, &of_first, &of_second}) one->labels_must_fit = false;
-  const auto part = [&](auto Annotations::*member) {
-    if (first.*member == second.*member)
+  const auto part = [&](auto Annotations::*member, bool is_common) {
+    if (is_common)
       of_first.*member = of_second.*member = {};
     else
       common.*member = {};
   };
-  part(&Annotations::panel);
-  part(&Annotations::title);
-  part(&Annotations::time);
-  const bool has_one_bar = first.scale_bar && second.scale_bar && first.bar_length == second.bar_length;
-  common.scale_bar = has_one_bar;
-  of_first.scale_bar = first.scale_bar && !has_one_bar;
-  of_second.scale_bar = second.scale_bar && !has_one_bar;
-  const auto is_same_label = [](const PlaceLabel& a, const PlaceLabel& b) {
+  const auto is_same = [](const PlaceLabel& a, const PlaceLabel& b) {
     return a.text == b.text && a.position == b.position;
   };
-  const bool has_same_labels = std::ranges::equal(first.labels, second.labels, is_same_label);
-  for (Annotations* const one : {&common, &of_first, &of_second})
-    if ((one == &common) != has_same_labels) one->labels.clear();
-  common.curve.reset();
+  part(&Annotations::panel, first.panel == second.panel);
+  part(&Annotations::title, first.title == second.title);
+  part(&Annotations::time, first.time == second.time);
+  part(&Annotations::scale_bar, first.scale_bar == second.scale_bar && first.bar_length == second.bar_length);
+  part(&Annotations::labels, std::ranges::equal(first.labels, second.labels, is_same));
+  part(&Annotations::curve, false);
   return parts;
 }
 
 bool are_equal(const std::optional<Legend>& one, const std::optional<Legend>& other) {
-  if (!one || !other) return !one && !other;
-  const auto is_same_text = [](const LegendText& a, const LegendText& b) {
-    return a.text == b.text && a.place == b.place;
-  };
-  const auto is_same_box = [](const LegendBox& a, const LegendBox& b) {
-    return a.low == b.low && a.high == b.high && a.colors == b.colors;
-  };
-  return std::ranges::equal(one->texts(), other->texts(), is_same_text) &&
-         std::ranges::equal(one->boxes(), other->boxes(), is_same_box);
+  return one && other && one->texts() == other->texts() && one->boxes() == other->boxes();
 }
 
 }  // namespace
