@@ -106,13 +106,12 @@ struct PartedAnnotations {
 
 PartedAnnotations parted(const Annotations& first, const Annotations& second) {
   PartedAnnotations parts{first, first, second};
-  auto& [common, of_first, of_second] = parts;
-  for (Annotations* const one : {&common, &of_first, &of_second}) one->labels_must_fit = false;
+  for (Annotations* const one : {&parts.common, &parts.of_first, &parts.of_second}) one->labels_must_fit = false;
   const auto part = [&](auto Annotations::*member, bool is_common) {
     if (is_common)
-      of_first.*member = of_second.*member = {};
+      parts.of_first.*member = parts.of_second.*member = {};
     else
-      common.*member = {};
+      parts.common.*member = {};
   };
   const auto is_same = [](const PlaceLabel& a, const PlaceLabel& b) {
     return a.text == b.text && a.position == b.position;
