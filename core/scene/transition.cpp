@@ -324,8 +324,8 @@ Framebuffer Transition::picture(double share, StillRenderer& renderer) {
   write(picture, of_second, to_, share, second);
   picture = with_margin(picture, from_.shot.scene.picture.size(), 0, false);
   const bool has_one_legend = are_equal(from_.shot.layout->legend, to_.shot.layout->legend);
-  add_legend(picture, from_, share, has_one_legend ? 1.0 : first);
-  if (!has_one_legend) add_legend(picture, to_, share, second);
+  add_legend(picture, from_, share, has_one_legend ? 1.0 : 1.0 - 4.0 * share);
+  if (!has_one_legend) add_legend(picture, to_, share, 4.0 * share - 3.0);
   return picture;
 }
 
