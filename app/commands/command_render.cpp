@@ -117,10 +117,6 @@ void check_scene(const RenderCommand& command) {
                       in_quotes(scene.output), in_quotes(scene.molecule.file)));
     check_image_path(scene.output);
   }
-  if (scene.picture.fits && (scene.frames.is_requested() || scene.image.extent || !scene.picture.camera_file.empty()))
-    throw UsageError(
-        "--size auto and --height auto fit a picture of one molecule whose camera is not given; give a size, or leave "
-        "--frames, --extent or --camera out");
   check_cost(command, scene, scene.picture.size());
   if (scene.image.motion_blur > 1 && !scene.frames.is_requested())
     throw UsageError("--motion-blur: one molecule does not move; add the frames of a run (--frames)");

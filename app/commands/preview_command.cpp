@@ -52,29 +52,19 @@ MoleculeRequest PreviewCommand::read_molecule_request() const {
 }
 
 TakenProperties preview_properties() {
-  return render_properties().with({"-surface.interface",
-                                   "-surface.by",
-                                   "-surface.cavities",
-                                   "-surface.threads",
-                                   "-surface.verify",
-                                   "-frames.only",
-                                   "-frames.progress",
-                                   "-Film",
-                                   "-camera.path",
-                                   "-camera.turntable",
-                                   "-camera.follow",
-                                   "-camera.save",
-                                   "-image.aovs",
-                                   "-image.cryptomatte",
-                                   "-image.color_space",
-                                   "-image.extent",
-                                   "-picture.any_cost",
-                                   "-legend.file",
-                                   "-annotations.time_stamp",
-                                   "-annotations.curve",
-                                   "-annotations.curve_column",
-                                   "-output.file",
-                                   "-scene.save"},
+  return render_properties().with({"-surface.interface", "-surface.by",
+                                   "-surface.cavities",  "-surface.threads",
+                                   "-surface.verify",    "-frames.only",
+                                   "-frames.progress",   "-Film",
+                                   "-camera.path",       "-camera.turntable",
+                                   "-camera.follow",     "-camera.save",
+                                   "-image.aovs",        "-image.cryptomatte",
+                                   "-image.color_space", "-image.extent",
+                                   "-image.margin",      "-image.tiff_compression",
+                                   "-image.tiff_bits",   "-picture.any_cost",
+                                   "-legend.file",       "-annotations.time_stamp",
+                                   "-annotations.curve", "-annotations.curve_column",
+                                   "-output.file",       "-scene.save"},
                                   {{{"output.force"}, {"preview.record"}, "it is only for --record"}});
 }
 
@@ -101,6 +91,7 @@ void take_preview(DeclaredPreview& declared, const std::vector<std::string>& nam
   Scene& scene = state.scene;
   require_probe_of_kind(scene.molecule.surface);
   const bool is_scene = !options.file().empty();
+  if (scene.picture.fits && !is_scene) throw UsageError("--size auto and --height auto are for render; give a size");
   if (!is_scene && !options.is_given("image.background")) scene.image.background = glm::vec3(1.0f);
   state.models = !is_scene && !options.is_given("molecule.model") && !scene.frames.is_requested() &&
                  scene.molecule.reading.added.empty();

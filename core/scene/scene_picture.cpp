@@ -171,6 +171,10 @@ RenderSettings render_settings(const Scene& scene, const PictureLayout& layout) 
 
 void check_picture(const Scene& scene) {
   scene.figure.check();
+  if (scene.picture.fits && (scene.frames.is_requested() || scene.image.extent || !scene.picture.camera_file.empty()))
+    throw RequestError(
+        message("@size auto@ and @height auto@ fit a picture of one molecule whose camera is not given; "
+                "give a size, or leave @frames@, @extent@ or @camera@ out"));
   constexpr int kAnyHeight = 12;
   if (const FontChoice& font = scene.annotations.letters.font; font != FontChoice())
     Font(kAnyHeight, Weight::regular, font);  // throws if there is no such font

@@ -48,7 +48,7 @@ SurfaceRequest picture_request(const Scene& scene);
 RenderSettings render_settings(const Scene& scene, const PictureLayout& layout);
 
 /// Checks a scene before any file is read. Throws RequestError for a legend that has nothing to explain, for a picture
-/// that shows nothing, and for a font that cannot be used.
+/// that shows nothing, for a size that cannot follow from the molecule, and for a font that cannot be used.
 void check_picture(const Scene& scene);
 
 /// Returns a whole picture of the molecule with its annotations and its legend. lacks_labels: unless nullptr, set to
