@@ -43,7 +43,7 @@ constexpr auto kTable = std::to_array<Property>({
         .from(1, 1000)
         .in(kLight, kLook | of_objects),
     number("look.ambient_occlusion", "--ambient-occlusion", "F",
-           "Shade in pockets and clefts, 0 (none) to 1. All that is drawn casts shade; what is seen through casts none")
+           "Shade in pockets and clefts, 0 (none) to 1. All that is drawn casts shade; what is seen through casts less")
         .from(0, 1)
         .slider("Shade", 1)
         .in(kLight, kLook | in_short_help),
@@ -57,7 +57,7 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("0")
         .in(kLight, kLook),
     number("look.shadows", "--shadows", "F",
-           "Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts none")
+           "Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts less")
         .from(0, 1)
         .slider("Shadows", 1)
         .in(kLight, kLook | in_short_help),

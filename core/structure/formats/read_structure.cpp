@@ -101,7 +101,10 @@ bool keeps_hydrogens(const std::vector<Atom>& atoms, const ReadOptions& options,
 class Choice {
  public:
   Choice(const std::vector<Atom>& atoms, const ReadOptions& options, const RadiiChoice& radii)
-      : options_(options), from_file_(radii.from_molecule_file()), hydrogens_(keeps_hydrogens(atoms, options, radii)) {}
+      : options_(options),
+        from_file_(radii.from_molecule_file()),
+        hydrogens_(keeps_hydrogens(atoms, options, radii)),
+        ions_(options.keep_ions || has_only_ions(atoms)) {}
 
   /// Returns the reason for leaving an atom out; null if it is used. named: true if the selection names the atom.
   const char* reason(const Atom& atom, bool selected, bool named) const {
@@ -113,13 +116,13 @@ class Choice {
     }
     if (!hydrogens_ && is_hydrogen(atom)) return kExcludedHydrogen;
     if (atom.kind == AtomClass::water && !options_.keep_water && !named) return kExcludedWater;
-    if (atom.kind == AtomClass::ion && !options_.keep_ions && !named) return kExcludedIon;
+    if (atom.kind == AtomClass::ion && !ions_ && !named) return kExcludedIon;
     return nullptr;
   }
 
  private:
   const ReadOptions& options_;
-  bool from_file_, hydrogens_;
+  bool from_file_, hydrogens_, ions_;
 };
 
 /// Marks the companions: atoms outside of the polymer that pictures draw, and that neither the surface nor sticks,

@@ -46,7 +46,7 @@ class SurfaceValues(TypedDict, total=False):
     #: N: Rays a pixel that find shade and shadows, such as 64: exact, but slow. 0: maps of the light find them
     #: [0]
     ambient_occlusion_rays: float
-    #: F: Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts none
+    #: F: Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts less
     shadows: float
     #: DEGREES: Half the angle at which the lamp is seen, 0 (sharp shadows, by rays) to 45
     shadow_softness: float
