@@ -42,7 +42,6 @@ areas=(
   "app/farm|farm_parts_test|Farm.bundle|Farm.work"
   "app/msms||Msms_contract"
   "app/preview|preview_session_test session_figure_test camera_motion_test|"
-  "app/preview/window|window_parts_test window_test|"
   "app/preview/server||PreviewServer.Strangers"
   "exporters/mesh_files|mesh_files_test|"
   "exporters/povray|povray_export_test|"
