@@ -37,7 +37,7 @@ areas=(
   "app/bench|property_test|"
   "app/commands|cli_test|Help"
   "app/reports|cli_test|"
-  "app/process|memory_size_test freed_memory_test failing_calls_test|"
+  "app/process|memory_size_test freed_memory_test failing_calls_test|PreviewServer.Strangers"
   "app/film|film_check_test film_format_test|"
   "app/farm|farm_parts_test|Farm.bundle|Farm.work"
   "app/msms||Msms_contract"

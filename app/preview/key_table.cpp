@@ -22,7 +22,7 @@ constexpr double kUsualSilhouettes = 1.5;  // pixels
 
 constexpr KeyHelp kHelp[] = {
     {"left drag, arrows", "turn"},
-    {"right drag, middle drag, shift + left drag", "move"},
+    {"right drag, middle drag, shift + left drag", "shift"},
     {"wheel", "zoom at the cursor"},
     {"+  -", "zoom"},
     {"click", "show the atom's data"},
