@@ -10,7 +10,7 @@ build_packages=(
   libboost-dev libturbojpeg0-dev libhdf5-dev libssl-dev
 )
 # EGL and software GL, letters
-run_packages=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri fonts-dejavu-core)
+run_packages=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri fonts-liberation2 fonts-dejavu-core)
 film_packages=(blender povray povray-includes openimageio-tools ffmpeg)
 sample_packages=(pymol-data)
 compare_packages=(python3 python3-numpy python3-openimageio)

@@ -129,27 +129,12 @@ class PictureFilm : public FilmMaker {
 };
 
 TakenProperties film_properties() {
-  return TakenProperties{"molecule.quiet",
-                         "frames.progress",
-                         "frames.fps",
-                         "frames.codec",
-                         "frames.crf",
-                         "frames.bits",
-                         "frames.chroma",
-                         "Computing",
-                         "-surface.verify",
-                         "image.size",
-                         "image.samples",
-                         "image.background",
-                         "picture.any_cost",
-                         "Legend",
-                         "-legend.file",
-                         "annotations.letter_size",
-                         "annotations.letter_color",
-                         "output.file",
-                         "output.force",
-                         "scene.trust"}
-      .with({}, {film_need()});
+  const TakenProperties shared{"Computing", "-surface.verify", "Legend", "-legend.file"};
+  return shared.with({"molecule.quiet", "frames.progress", "frames.fps", "frames.codec", "frames.crf", "frames.bits",
+                      "frames.chroma", "image.size", "image.samples", "image.background", "picture.any_cost",
+                      "annotations.letter_size", "annotations.letter_color", "annotations.font",
+                      "annotations.font_file", "output.file", "output.force", "scene.trust"},
+                     {film_need()});
 }
 
 void run(const DeclaredFilm& declared) {

@@ -152,6 +152,7 @@ void run(const DeclaredPanels& declared) {
   const Scene& first = panels.front().scene;
   ImageSettings image{first.image.background, page.existing(), first.look.has_linear_alpha()};
   image.dots_per_inch = first.picture.dots_per_inch;
+  image.tiff = first.image.tiff;
   Progress progress(progress_on_stderr(page), "panels", panels.size());
   made.write(page.scene.output, device.renderer(), image, [&] { progress.advance(); });
   log_line(page, fmt::format("{} panels in {} x {} pixels: {}", panels.size(), made.size().x, made.size().y,
@@ -168,12 +169,13 @@ void add_panels(CLI::App& command) {
       "  meniscus panels a.json b.json c.json d.json -o figure.png --columns 2 --letters lower --background white",
       "A picture that meniscus render made is a panel, for it carries its scene; so is a scene file. Each panel is "
       "drawn\nagain, in the size that it has on the page. Options that scenes have, too, hold for all panels.");
+  const TakenProperties shared{"Computing", "-surface.verify", "Legend", "-legend.file"};
   auto declared = std::make_shared<DeclaredPanels>(
       command,
-      TakenProperties{"molecule.superpose_on", "molecule.warnings", "molecule.quiet", "Computing", "-surface.verify",
-                      "image.size", "image.width", "image.height", "image.dpi", "image.samples", "image.background",
-                      "picture.any_cost", "Legend", "-legend.file", "annotations.letter_size",
-                      "annotations.letter_color", "output.file", "output.force", "scene.trust"});
+      shared.with({"molecule.superpose_on", "molecule.warnings", "molecule.quiet", "annotations.letter_size",
+                   "annotations.letter_color", "annotations.font", "annotations.font_file", "image.size", "image.width",
+                   "image.height", "image.dpi", "image.samples", "image.background", "image.tiff_compression",
+                   "image.tiff_bits", "picture.any_cost", "output.file", "output.force", "scene.trust"}));
   PanelsCommand& state = declared->state;
   declared->options.describe_output("Picture to write: .png, .jpg, .webp, .tif, .svg, .pdf");
   PropertyOptions options(command);

@@ -117,6 +117,10 @@ void check_scene(const RenderCommand& command) {
                       in_quotes(scene.output), in_quotes(scene.molecule.file)));
     check_image_path(scene.output);
   }
+  if (scene.picture.fits && (scene.frames.is_requested() || scene.image.extent || !scene.picture.camera_file.empty()))
+    throw UsageError(
+        "--size auto and --height auto fit a picture of one molecule whose camera is not given; give a size, or leave "
+        "--frames, --extent or --camera out");
   check_cost(command, scene, scene.picture.size());
   if (scene.image.motion_blur > 1 && !scene.frames.is_requested())
     throw UsageError("--motion-blur: one molecule does not move; add the frames of a run (--frames)");
@@ -188,8 +192,9 @@ void draw_figures(FigureRun& run, const PictureLayout& layout, PictureSink& sink
   });
 }
 
-void render_figures(const RenderCommand& command) {
+void render_figures(RenderCommand command) {
   FigureRun run(command, command.scene.image.aovs ? Velocities::forward : Velocities::none);
+  command.scene.picture.height = run.fit();
   const PictureLayout layout(command.scene, run.key());
   run.aim(layout.size, false);
   PictureSink sink(command, layout, run.is_run() ? &run.frames() : nullptr);
@@ -265,6 +270,7 @@ ImageSettings image_settings(const RenderCommand& command) {
   if (command.keeps_scene) settings.scene = scene_text(scene, "", *command.added);
   settings.exr.primaries = scene.image.primaries;
   settings.made_of = command.made_of;
+  settings.tiff = scene.image.tiff;
   return settings;
 }
 

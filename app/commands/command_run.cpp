@@ -23,6 +23,8 @@
 #include "core/scene/figure_key.h"
 #include "core/scene/frozen_selections.h"
 #include "core/scene/representations.h"
+#include "core/scene/scene_lengths.h"
+#include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/surface_computer.h"
 #include "core/structure/selection/places.h"
@@ -163,7 +165,8 @@ std::string several_places(const Selection& zoom_to, std::span<const Atom> atoms
 
 void FigureRun::aim(const ViewRequest& picture, bool extent) {
   if (!frames_) {
-    framing_.cameras = {aim_->camera(picture, given_.still, aim_->viewed(*figure_))};
+    framing_.cameras = {picture.fits ? fitted(picture).camera
+                                     : aim_->camera(picture, given_.still, aim_->viewed(*figure_))};
   } else if (extent) {
     framing_ = run_framing(picture, scene().run_camera, given_, *shown_);
   } else {
@@ -174,6 +177,25 @@ void FigureRun::aim(const ViewRequest& picture, bool extent) {
     if (!sentence.empty()) log_line(command_, "note: " + sentence);
   }
   log_ineffective_cuts();
+}
+
+PictureFit FigureRun::fitted(ViewRequest picture) const {
+  const int height = picture.height;
+  picture.height = 3 * picture.width / 4;  // the camera of a usual picture, whose view is then made lower
+  const ViewedAtoms seen = aim_->viewed(*figure_);
+  return picture_fit(aim_->camera(picture, given_.still, seen), picture.size(), height, seen.framed,
+                     fitted_margin(scene(), scene().picture.size()));
+}
+
+int FigureRun::fit() {
+  Scene& scene = command_.scene;
+  constexpr int kTurns = 4;  // the width of the legend depends on the height
+  for (int turn = 0; scene.picture.fits && turn < kTurns; ++turn) {
+    const PictureLayout layout(scene, key());
+    scene.picture.height = std::clamp(scene.picture.height + fitted(layout.size).height - layout.size.height, 1,
+                                      scene_values::kLargestSide);
+  }
+  return scene.picture.height;
 }
 
 void FigureRun::log_ineffective_cuts() const {

@@ -101,6 +101,10 @@ class FigureRun {
   /// framing() also has the box around all frames. Throws like run_cameras.
   void aim(const ViewRequest& picture, bool extent);
 
+  /// Chooses the height of a picture that ends at its molecule (ViewRequest::fits), and returns it. Must be called
+  /// before aim().
+  int fit();
+
   /// Returns the camera for another picture of the same figure, in a run for all its frames. given: a camera from a
   /// file. Throws like aim().
   Camera camera_for(const ViewRequest& picture, const std::optional<Camera>& given);
@@ -144,6 +148,7 @@ class FigureRun {
   void open_run(Velocities velocities);
   void make_one_figure();
   void log_ineffective_cuts() const;
+  PictureFit fitted(ViewRequest picture) const;
 
   SceneCommand command_;
   GivenCameras given_;  ///< cameras from files

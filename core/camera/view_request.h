@@ -63,6 +63,8 @@ ViewBasis turned(ViewBasis basis, std::span<const Turn> turns);
 /// The size and the camera that a user requests.
 struct ViewRequest {
   int width = 1280, height = 960;  ///< in pixels
+  bool fits = false;               ///< true: the height is chosen so that the picture ends at the molecule
+  std::optional<int> margin;       ///< of such a picture, in pixels; nothing: 2 mm
   double dots_per_inch = 0.0;      ///< of the printed picture; 0: not set
   std::string camera_file;         ///< path of a camera, or its JSON; empty: a camera that shows all of the surface
   Projection projection = Projection::perspective;  ///< of that default camera

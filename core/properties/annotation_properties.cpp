@@ -44,6 +44,12 @@ constexpr auto kTable = std::to_array<Property>({
         .from(6, 1000)
         .initially("by the size of the picture")
         .in(kLabels, kShared | in_short_help),
+    text("annotations.font", "--font", "NAME", "Font of all letters: an installed family, such as DejaVu Sans")
+        .initially("Liberation Sans, else DejaVu Sans")
+        .in(kLabels, kShared | in_short_help),
+    file("annotations.font_file", "--font-file", "FILE", "Font of all letters: a .ttf or .otf file")
+        .in(kLabels, kShared)
+        .excludes("annotations.font"),
     text("annotations.label_size", "--label-size", "SIZE", "Height of the letters of labels")
         .from(6, 1000)
         .initially("that of @letter-size@")

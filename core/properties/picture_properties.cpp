@@ -56,15 +56,19 @@ constexpr auto kTable = std::to_array<Property>({
              "Save the camera as JSON for @camera@, or its path for @camera-path@")
         .in(kCamera),
 
-    text("image.size", "--size", "WxH", "Size of the picture in pixels")
+    text("image.size", "--size", "WxH", "Size of the picture in pixels; auto: as high as the molecule")
         .initially("1280x960; film 1920x1080, .gif 960x540")
         .in(kPicture, kShared | live | in_short_help),
     text("image.width", "--width", "LENGTH", "Width of the picture: 85mm, 8.5cm, 3.5in or 1000px")
         .in(kPicture, kShared | live | in_short_help)
         .excludes("image.size"),
-    text("image.height", "--height", "LENGTH", "Height of the picture in the same units")
+    text("image.height", "--height", "LENGTH", "Height of the picture in the same units; auto: that of the molecule")
         .in(kPicture, kShared | live)
         .excludes("image.size"),
+    text("image.margin", "--margin", "LENGTH", "Margin around the molecule of @size auto@ and @height auto@")
+        .from(0, 10000)
+        .initially("2mm")
+        .in(kPicture, kShared),
     number("image.dpi", "--dpi", "N", "Resolution of the picture in dots per inch")
         .from(1, 1e5)
         .initially("300 for lengths")
@@ -90,6 +94,14 @@ constexpr auto kTable = std::to_array<Property>({
         .one_of("rec709|acescg")
         .initially("rec709")
         .in(kPicture, kShared),
+    word("image.tiff_compression", "--tiff-compression", "WORD", "Compression of a .tif: none, lzw or zip")
+        .one_of("none|lzw|zip")
+        .initially("zip")
+        .in(kPicture, kShared | rare),
+    word("image.tiff_bits", "--tiff-bits", "N", "Bits per channel of a .tif: 8 or 16")
+        .one_of("8|16")
+        .initially("16")
+        .in(kPicture, kShared | rare),
     text("image.extent", "--extent", "WORD",
          "Part of the surface that the GPU computes: visible, complete or paper. visible: what this view needs, "
          "for the same picture; complete: everything, by the same method; paper: as Krone et al. 2010 select it, "

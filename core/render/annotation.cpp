@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -168,15 +169,18 @@ class Writer {
 
   const LetterHeights& heights() const { return heights_; }
   std::vector<InkStroke> strokes() { return std::move(strokes_); }
+  std::vector<StrokeGroup> groups() { return std::move(groups_); }
   std::vector<std::size_t> marks() { return std::move(marks_); }
 
   void panel(const std::string& text) {
+    begin("panel-letter");
     const int height = heights_.panel;
     write({text, {height / 2, panel_row(heights_)}, height, Weight::bold});
   }
 
   /// Writes the title between the letter of the panel and the time, in smaller letters if the room is too small.
   void title(const std::string& text) {
+    begin("title");
     int left = heights_.usual / 2, right = size_.x - heights_.usual / 2;
     for (const PixelBox& box : taken_) {
       const int margin = heights_.usual;
@@ -195,11 +199,13 @@ class Writer {
   }
 
   void time(const std::string& text) {
+    begin("time");
     const int em = heights_.usual;
     write({text, {size_.x - em - fonts_.at(em).width(text), em}, em});
   }
 
   void scale_bar(const std::optional<double>& asked) {
+    begin("scale-bar");
     const double unit = angstroms_per_pixel(camera_, molecule_size_);
     const double length = asked.value_or(round_length(0.25 * size_.x * unit));
     const int em = heights_.scale_bar, thickness = std::max(2, em / 5),
@@ -217,6 +223,7 @@ class Writer {
 
   /// Draws the curve. Its smallest and largest values are written to its left, the present value above it.
   void curve(const Curve& curve) {
+    begin("curve");
     const auto ends = std::ranges::minmax(curve.values);
     const double least = ends.min, greatest = ends.max;
     const double range = greatest - least, em = heights_.usual, line = std::max(1.0, em / 12.0);
@@ -254,6 +261,7 @@ class Writer {
   /// Adds the labels of places that are visible in the picture. If the user set no size, letters shrink until the
   /// labels fit. Returns false if they do not fit at any size.
   bool labels(const std::vector<PlaceLabel>& labels, const std::vector<glm::vec4>& atoms) {
+    begin("labels");
     std::vector<const PlaceLabel*> shown;
     std::vector<UnplacedLabel> unplaced;
     for (const PlaceLabel& label : labels) {
@@ -272,7 +280,9 @@ class Writer {
     for (int em = heights_.labels; em >= (is_chosen ? heights_.labels : kSmallest);
          em = std::min(em - 1, 9 * em / 10)) {
       const double width = label_line(em);
-      ground.room = {{em / 2, strips_.top + em / 4}, {size_.x - em / 2, size_.y - strips_.bottom - em / 4}};
+      // The border of the picture is as far as letters are high, that of a strip with its own margin need not be.
+      const auto margin = [em](int strip) { return strip > 0 ? strip + em / 4 : em; };
+      ground.room = {{em, margin(strips_.top)}, {size_.x - em, size_.y - margin(strips_.bottom)}};
       ground.gap = 0.5 * em;
       ground.dot = 2.0 * width;
       for (std::size_t n = 0; n < shown.size(); ++n)
@@ -299,6 +309,8 @@ class Writer {
   static double label_line(int em) { return std::max(1.0, em / 14.0); }
 
  private:
+  void begin(std::string_view group) { groups_.push_back({group, strokes_.size()}); }
+
   void draw_line(const glm::dvec2& from, const glm::dvec2& to, double width, double share = 1.0) {
     strokes_.emplace_back(InkLine{from, to, width, share});
   }
@@ -318,6 +330,7 @@ class Writer {
   const LetterHeights heights_;
   FontShelf& fonts_;
   std::vector<InkStroke> strokes_;
+  std::vector<StrokeGroup> groups_;
   std::vector<std::size_t> marks_;
   std::vector<PixelBox> taken_;
 };
@@ -367,7 +380,7 @@ StripContents strip_contents(const Annotations& annotations) {
 
 AnnotationLayer::AnnotationLayer(const Annotations& annotations, const Camera& camera, glm::ivec2 picture_size,
                                  const std::optional<glm::vec3>& background, const Strips& strips)
-    : inks_(inks_on(background, annotations.letters.color)), height_(picture_size.y) {
+    : inks_(inks_on(background, annotations.letters.color)), height_(picture_size.y), fonts_(annotations.letters.font) {
   if (!annotations.any()) return;
   Writer writer(picture_size, strips, annotations.letters, camera, fonts_);
   if (!annotations.panel.empty()) writer.panel(annotations.panel);
@@ -382,6 +395,7 @@ AnnotationLayer::AnnotationLayer(const Annotations& annotations, const Camera& c
                 "their letters smaller (@label-size@), or the picture larger",
                 picture_size.x, picture_size.y));
   strokes_ = writer.strokes();
+  groups_ = writer.groups();
   marks_ = writer.marks();
   hollow(annotations.labels);
   rim_width_ = std::max(1, writer.heights().usual / 9);
@@ -404,6 +418,11 @@ void AnnotationLayer::hollow(std::span<const PlaceLabel> labels) {
       strokes_.emplace_back(InkLine{corner(side), corner(side + 1), std::get<InkLine>(strokes_[marks_[n]]).width});
     marks_[n] = 0;
   }
+}
+
+std::string_view AnnotationLayer::group_of(std::size_t stroke) const {
+  const auto next = std::ranges::find_if(groups_, [stroke](const StrokeGroup& group) { return group.first > stroke; });
+  return std::prev(next)->name;
 }
 
 void AnnotationLayer::lay_over(Framebuffer& rows, int first_row) const {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -79,6 +80,12 @@ struct StripContents {
 Strips strips_for(const StripContents& contents, const LetterStyle& letters, glm::ivec2 size);
 StripContents strip_contents(const Annotations& annotations);
 
+/// Strokes that belong together: the stroke of index `first` and the following ones, up to the next group.
+struct StrokeGroup {
+  std::string_view name;
+  std::size_t first;
+};
+
 /// The annotations of a picture that `camera` made of a molecule, and of the strips around it. Unless the style sets
 /// their heights, letters are 1/25 of the picture's shorter side, and the panel's letter is larger. Letters are dark or
 /// light, depending on the background, and dark without a background. They have a rim where the molecule is behind
@@ -102,11 +109,15 @@ class AnnotationLayer {
 
   /// Returns all strokes, in pixels of the picture; their colours, sRGB; and the width of the rim.
   std::span<const InkStroke> strokes() const { return strokes_; }
+  /// Returns what the stroke of this index belongs to: "title", "labels" and the like.
+  std::string_view group_of(std::size_t stroke) const;
+  const Font& font_of(const InkText& text) const { return fonts_.of(text); }
   const Inks& inks() const { return inks_; }
   int rim_width() const { return rim_width_; }
 
  private:
   std::vector<InkStroke> strokes_;
+  std::vector<StrokeGroup> groups_;
   /// The index of each label's mark, which is the stroke after its line; 0 if the label is not shown.
   std::vector<std::size_t> marks_;
   Inks inks_;

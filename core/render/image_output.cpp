@@ -247,7 +247,7 @@ ImageToEncode described(glm::ivec2 size, const std::vector<std::string>& channel
   image.width = size.x;
   image.height = size.y;
   image.channels = channels;
-  image.sample = exr ? SampleType::float32 : tiff ? SampleType::uint16 : SampleType::uint8;
+  image.sample = exr ? SampleType::float32 : tiff && settings.tiff.bits == 16 ? SampleType::uint16 : SampleType::uint8;
   image.alpha_channel = channels.size() > 3 ? 3 : -1;
   const auto z = std::ranges::find(channels, "Z");
   if (z != channels.end()) image.depth_channel = static_cast<int>(z - channels.begin());
@@ -255,7 +255,11 @@ ImageToEncode described(glm::ivec2 size, const std::vector<std::string>& channel
   image.unassociated_alpha = !exr;
   if (tiff || is_jpeg(extension)) image.color_profile = srgb_profile();
   // The quality of JPEG and WebP is chosen so that the loss is invisible and text stays sharp.
-  image.compression = is_jpeg(extension) ? "jpeg:95" : extension == ".webp" ? "webp:95" : "zip";
+  constexpr std::array kOfTiff{"none", "lzw", "zip"};
+  image.compression = is_jpeg(extension)     ? "jpeg:95"
+                      : extension == ".webp" ? "webp:95"
+                      : tiff                 ? kOfTiff[static_cast<std::size_t>(settings.tiff.compression)]
+                                             : "zip";
   if (settings.names_program) image.software = "Meniscus " MENISCUS_VERSION;
   if (exr || tiff) image.date = date_of_pictures();
   image.command = settings.command;

@@ -63,6 +63,14 @@ class ExrChannels {
   std::vector<std::string> names_;
 };
 
+enum class TiffCompression { none, lzw, zip };
+
+/// The encoding of TIFF files.
+struct TiffFormat {
+  TiffCompression compression = TiffCompression::zip;
+  int bits = 16;  ///< bits per channel, 8 or 16
+};
+
 /// The settings of a picture's file.
 struct ImageSettings {
   std::optional<glm::vec3> background;  ///< sRGB in [0, 1] behind the surface; nothing: transparent
@@ -76,7 +84,8 @@ struct ImageSettings {
   std::string command = {};    ///< the command that made the picture; empty: not written. Not in WebP files.
   std::string scene = {};      ///< the scene that the picture shows, JSON; empty: not written. Not in WebP files.
   ExrContent exr = {};         ///< content of EXR files
-  std::string made_of = {};    ///< of PNG files: identifies a picture of a run (kMadeOfNote); empty: not written
+  TiffFormat tiff = {};
+  std::string made_of = {};  ///< of PNG files: identifies a picture of a run (kMadeOfNote); empty: not written
 };
 
 /// True if the extension names a format that can hold AOVs (.exr).
@@ -96,10 +105,10 @@ void check_image_path(const std::filesystem::path& path);
 
 /// Writes a picture row by row as it is made, so that files of any size need little memory; only .webp and .exr are
 /// kept in memory until the end, .exr compressed. The extension decides the format: .png and .webp (quality 95) have 8
-/// bits, .tif and .tiff 16 bits per channel, all sRGB with unassociated alpha. .jpg and .jpeg (quality 95, colours not
-/// subsampled) have 8 bits, sRGB, on white if no background is given. .exr has floats, linear, associated alpha, with
-/// the channels of ExrChannels. With an opaque background there is no alpha; in EXR it is 1. The file gets its final
-/// name at the end. Throws OutputError.
+/// bits, .tif and .tiff the bits of TiffFormat per channel, all sRGB with unassociated alpha. .jpg and .jpeg (quality
+/// 95, colours not subsampled) have 8 bits, sRGB, on white if no background is given. .exr has floats, linear,
+/// associated alpha, with the channels of ExrChannels. With an opaque background there is no alpha; in EXR it is 1. The
+/// file gets its final name at the end. Throws OutputError.
 class ImageWriter {
  public:
   /// Opens the file. layers: the layers of the rows to come.

@@ -228,7 +228,8 @@ std::vector<double> round_numbers(double low, double high, int most) {
 
 Legend::Legend(const ColorKey& key, glm::ivec2 picture_size, const LegendStyle& style)
     : color_(style.color),
-      font_(style.letters.value_or(letter_height(picture_size))),
+      font_choice_(style.font),
+      font_(style.letters.value_or(letter_height(picture_size)), Weight::regular, font_choice_),
       picture_size_(picture_size),
       molecule_size_(picture_size) {
   std::vector<const ColorKey*> parts = key.parts();
@@ -295,7 +296,7 @@ void Legend::rename_entries(const std::vector<std::string>& names) {
 }
 
 bool Legend::lay_out(bool at_right, int letters, bool may_drop) {
-  if (letters != font_.height()) font_ = Font(letters);
+  if (letters != font_.height()) font_ = Font(letters, Weight::regular, font_choice_);
   entries_ = all_;
   texts_.clear();
   boxes_.clear();

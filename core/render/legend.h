@@ -20,12 +20,16 @@ namespace meniscus {
 struct LegendText {
   std::string text;
   glm::ivec2 place{0};
+
+  bool operator==(const LegendText&) const = default;
 };
 
 /// A framed rectangle of one colour, or of as many as it has pixels along its longer side.
 struct LegendBox {
   glm::ivec2 low{0}, high{0};     ///< first pixel and one past the last
   std::vector<glm::vec3> colors;  ///< sRGB; from the left or from the bottom
+
+  bool operator==(const LegendBox&) const = default;
 };
 
 /// The requested properties of a legend, apart from the meaning of the colours.
@@ -36,6 +40,7 @@ struct LegendStyle {
   Place place = Place::automatic;    ///< automatic: below in pictures higher than wide
   std::vector<std::string> names{};  ///< "A=Alpha" names the entry A Alpha
   std::optional<glm::vec3> color{};  ///< LetterStyle::color
+  FontChoice font{};                 ///< LetterStyle::font
 };
 
 /// A legend occupies a strip at the right or at the bottom of a picture. The molecule is framed in the rest, so the
@@ -103,6 +108,7 @@ class Legend {
   std::vector<Entry> all_;
   std::vector<Entry> entries_;  ///< the entries that fit
   std::optional<glm::vec3> color_;
+  FontChoice font_choice_;
   Font font_;
   glm::ivec2 picture_size_, molecule_size_;
   std::vector<LegendText> texts_;

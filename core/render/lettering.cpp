@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Renders text with FreeType, as coverage of pixels or as outlines.
+// Finds fonts, and lays out and renders text with FreeType.
 #include "core/render/lettering.h"
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
+#include FT_FONT_FORMATS_H
 #include FT_OUTLINE_H
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cmath>
 #include <filesystem>
+#include <initializer_list>
+#include <map>
 
 #include "core/base/error.h"
 #include "core/base/system_file.h"
@@ -17,137 +22,188 @@
 namespace meniscus {
 namespace {
 
-struct FontFile {
-  const char *regular, *bold;
+/// The files of the weights of a font. bold: empty if there is none.
+struct FontFiles {
+  std::string regular, bold;
 };
-constexpr std::array<FontFile, 6> kFonts{{
-    {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"},
-    {"/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans-Bold.ttf"},
-    {"/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans-Bold.ttf"},
-    {"/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
-     "/usr/share/fonts/truetype/liberation/LiberationSans-Bold.ttf"},
-    {"/usr/share/fonts/truetype/liberation2/LiberationSans-Regular.ttf",
-     "/usr/share/fonts/truetype/liberation2/LiberationSans-Bold.ttf"},
-    {"/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf", "/usr/share/fonts/truetype/noto/NotoSans-Bold.ttf"},
-}};
 
-bool exists(const char* file) {
-  std::error_code ignored;
-  return std::filesystem::exists(path_of_text(file), ignored);
+/// Returns the letters and digits of a name in lower case, by which names of fonts are compared.
+std::string plain_name(std::string_view text) {
+  std::string name;
+  for (const unsigned char c : text)
+    if (std::isalnum(c) != 0) name += static_cast<char>(std::tolower(c));
+  return name;
 }
 
-const FontFile* find_font() {
-  const auto* const found = std::ranges::find_if(kFonts, [](const FontFile& font) { return exists(font.regular); });
-  return found == kFonts.end() ? nullptr : found;
+bool is_font_file(const std::filesystem::path& path) {
+  const std::string extension = plain_name(text_of_path(path.extension()));
+  return extension == "ttf" || extension == "otf";
 }
 
-}  // namespace
+/// Returns the names and paths of all installed fonts, sorted.
+const std::map<std::string, std::string>& installed_fonts() {
+  namespace fs = std::filesystem;
+  static const std::map<std::string, std::string> installed = [] {
+    std::map<std::string, std::string> fonts;
+    std::error_code ignored;
+    for (const char* const folder : {"/usr/local/share/fonts", "/usr/share/fonts"})
+      for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, ignored), end;
+           at != end; at.increment(ignored))
+        if (const std::string path = text_of_path(at->path()); is_font_file(at->path())) {
+          std::string& known = fonts[plain_name(text_of_path(at->path().stem()))];
+          if (known.empty() || path < known) known = path;
+        }
+    return fonts;
+  }();
+  return installed;
+}
 
-struct Font::Face {
-  FT_Library library = nullptr;
-  FT_Face face = nullptr;
+/// Returns the files of an installed family, found by their names: DejaVuSans.ttf and DejaVuSans-Bold.ttf are those of
+/// "DejaVu Sans". Without the family both are empty.
+FontFiles family_files(std::string_view family) {
+  const auto first_of = [&](std::initializer_list<const char*> styles) -> std::string {
+    for (const char* const style : styles)
+      if (const auto found = installed_fonts().find(plain_name(family) + style); found != installed_fonts().end())
+        return found->second;
+    return {};
+  };
+  return {first_of({"regular", "", "book", "roman"}), first_of({"bold", "bd"})};
+}
 
-  ~Face() {
-    if (face) FT_Done_Face(face);
-    if (library) FT_Done_FreeType(library);
+/// Returns the fonts in which letters are looked up, the chosen one first. Throws RequestError.
+std::vector<FontFiles> fonts_for(const FontChoice& choice) {
+  std::vector<FontFiles> fonts;
+  if (!choice.file.empty()) {
+    if (!is_font_file(path_of_text(choice.file)))
+      throw RequestError(message("@font-file {}@ is not a .ttf or .otf file", in_quotes(choice.file)));
+    fonts.push_back({choice.file, ""});
+  } else if (!choice.family.empty()) {
+    fonts.push_back(family_files(choice.family));
+    if (fonts.front().regular.empty())
+      throw RequestError(
+          message("@font {}@: no font of this family is in /usr/share/fonts or /usr/local/share/fonts; "
+                  "`fc-list : family` lists families, and @font-file@ takes a file",
+                  in_quotes(choice.family)));
   }
+  for (const char* const family : {"Liberation Sans", "DejaVu Sans", "Noto Sans"})
+    if (FontFiles files = family_files(family); !files.regular.empty()) fonts.push_back(std::move(files));
+  if (fonts.empty())
+    throw RequestError("no font was found for legends, labels and scale bars; install the package fonts-liberation2");
+  return fonts;
+}
 
-  /// Calls visit(left edge of the letter's box) for each letter of the text, after loading the letter into the face's
-  /// slot. Returns the width of the text. Letters are placed on whole pixels, which hinting requires.
-  int for_each_letter(std::string_view text, const auto& visit) const {
-    return for_each_place(text, [&](int x, char32_t) { visit(x + face->glyph->bitmap_left); });
-  }
-
-  /// Calls visit(start of the advance, letter) for each letter of the text in the same way.
-  int for_each_place(std::string_view text, const auto& visit) const {
-    long x = 0;
-    while (!text.empty()) {
-      const Character character = first_character(text);
-      text.remove_prefix(std::max<std::size_t>(character.bytes, 1));
-      const char32_t letter = character.bytes == 0 ? U'?' : character.code;
-      if (FT_Load_Char(face, letter, FT_LOAD_RENDER) != 0) continue;
-      const long advance = face->glyph->advance.x;
-      visit(static_cast<int>(x / 64), letter);
-      x += advance;
-    }
-    return static_cast<int>((x + 63) / 64);
-  }
-};
-
-namespace {
-
-/// Converts a letter's outline, with y upwards and units of 1/64 pixel, to a path.
-class OutlinePath {
- public:
-  OutlinePath(std::vector<PathStep>& path, const glm::dvec2& origin) : path_(path), origin_(origin) {}
-
-  void add(FT_Outline& outline) {
-    FT_Outline_Funcs steps{};
-    steps.move_to = [](const FT_Vector* to, void* self) { return static_cast<OutlinePath*>(self)->move(*to); };
-    steps.line_to = [](const FT_Vector* to, void* self) { return static_cast<OutlinePath*>(self)->line(*to); };
-    steps.conic_to = [](const FT_Vector* handle, const FT_Vector* to, void* self) {
-      return static_cast<OutlinePath*>(self)->conic(*handle, *to);
-    };
-    steps.cubic_to = [](const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, void* self) {
-      return static_cast<OutlinePath*>(self)->cubic(*first, *second, *to);
-    };
-    FT_Outline_Decompose(&outline, &steps, this);
-    close();
-  }
-
- private:
-  glm::dvec2 place(const FT_Vector& point) const {
-    return origin_ + glm::dvec2(static_cast<double>(point.x), -static_cast<double>(point.y)) / 64.0;
-  }
-  void close() {
-    if (is_open_) path_.push_back({PathStep::Kind::close, {}});
-    is_open_ = false;
-  }
-  int move(const FT_Vector& to) {
-    close();
-    is_open_ = true;
-    last_ = place(to);
-    path_.push_back({PathStep::Kind::move, {last_}});
-    return 0;
-  }
-  int line(const FT_Vector& to) {
-    last_ = place(to);
-    path_.push_back({PathStep::Kind::line, {last_}});
-    return 0;
-  }
-  int conic(const FT_Vector& handle, const FT_Vector& to) {
-    const glm::dvec2 middle = place(handle), end = place(to);
-    path_.push_back({PathStep::Kind::curve, {(last_ + 2.0 * middle) / 3.0, (end + 2.0 * middle) / 3.0, end}});
-    last_ = end;
-    return 0;
-  }
-  int cubic(const FT_Vector& first, const FT_Vector& second, const FT_Vector& to) {
-    last_ = place(to);
-    path_.push_back({PathStep::Kind::curve, {place(first), place(second), last_}});
-    return 0;
-  }
-
-  std::vector<PathStep>& path_;
-  glm::dvec2 origin_, last_{0.0};
-  bool is_open_ = false;
-};
+std::shared_ptr<const FontProgram> program_of(FT_Face face, const std::string& file) {
+  const auto thousandths = [face](long units) {
+    return static_cast<int>(std::lround(1e3 * units / face->units_per_EM));
+  };
+  auto program = std::make_shared<FontProgram>();
+  program->file = file;
+  program->family = face->family_name ? face->family_name : "";
+  const char* const name = FT_Get_Postscript_Name(face);
+  program->postscript_name = name ? name : "Font";
+  program->is_bold = (face->style_flags & FT_STYLE_FLAG_BOLD) != 0;
+  program->is_cff = std::string_view(FT_Get_Font_Format(face)) == "CFF";
+  program->may_be_embedded = (FT_Get_FSType_Flags(face) & FT_FSTYPE_RESTRICTED_LICENSE_EMBEDDING) == 0;
+  program->box = {thousandths(face->bbox.xMin), thousandths(face->bbox.yMin), thousandths(face->bbox.xMax),
+                  thousandths(face->bbox.yMax)};
+  program->ascent = thousandths(face->ascender);
+  program->descent = thousandths(face->descender);
+  const bool has_capitals = FT_Load_Char(face, U'H', FT_LOAD_NO_SCALE) == 0;
+  program->capital_height = has_capitals ? thousandths(face->glyph->metrics.horiBearingY) : program->ascent;
+  return program;
+}
 
 }  // namespace
 
 std::optional<std::string> find_font_file() {
-  const FontFile* const font = find_font();
-  return font ? std::optional<std::string>(font->regular) : std::nullopt;
+  try {
+    return fonts_for({}).front().regular;
+  } catch (const RequestError&) {
+    return {};
+  }
 }
 
-Font::Font(int height, Weight weight) : face_(std::make_unique<Face>()), height_(height) {
-  const FontFile* const font = find_font();
-  if (!font)
-    throw RequestError("no font was found for legends, labels and scale bars; install the package fonts-dejavu-core");
-  const char* const file = weight == Weight::bold && exists(font->bold) ? font->bold : font->regular;
-  if (FT_Init_FreeType(&face_->library) != 0 || FT_New_Face(face_->library, file, 0, &face_->face) != 0 ||
-      FT_Set_Pixel_Sizes(face_->face, 0, static_cast<FT_UInt>(height)) != 0)
-    throw RequestError(std::string(file) + ": this font cannot be read; install the package fonts-dejavu-core again");
-  face_->for_each_letter("H", [&](int) { capital_height_ = face_->face->glyph->bitmap_top; });
+/// The fonts in which letters are looked up. The first one is open; others are opened when a letter needs them.
+class Font::Faces {
+ public:
+  Faces(int height, Weight weight, const FontChoice& choice) : height_(height) {
+    for (const FontFiles& font : fonts_for(choice))
+      faces_.push_back({weight == Weight::bold && !font.bold.empty() ? font.bold : font.regular});
+    if (FT_Init_FreeType(&library_) != 0) throw CapacityError("there is no memory for fonts");
+    if (is_open(faces_.front())) return;
+    FT_Done_FreeType(library_);
+    throw RequestError(message("{}: this font cannot be read; install its package again, or choose another @font@",
+                               in_quotes(faces_.front().file)));
+  }
+  ~Faces() { FT_Done_FreeType(library_); }  // closes the faces
+  Faces(const Faces&) = delete;
+  Faces& operator=(const Faces&) = delete;
+
+  /// A letter in the slot of its face, as an outline in units of 1/64 pixel that is fitted to the rows of pixels.
+  struct Loaded {
+    FT_GlyphSlot slot;
+    const std::shared_ptr<const FontProgram>& font;
+    char32_t code;
+    double x;  ///< distance from the start of the text, pixels
+  };
+
+  /// Calls visit(letter) for each letter of the text. Returns the width of the text in pixels.
+  double for_each_letter(std::string_view text, const auto& visit) {
+    double x = 0.0;
+    const Face* last_face = nullptr;
+    FT_UInt last_glyph = 0;
+    while (!text.empty()) {
+      const Character character = first_character(text);
+      text.remove_prefix(std::max<std::size_t>(character.bytes, 1));
+      const char32_t code = character.bytes == 0 ? U'?' : character.code;
+      const Face& face = face_with(code);
+      const FT_UInt glyph = FT_Get_Char_Index(face.face, code);
+      if (FT_Load_Glyph(face.face, glyph, FT_LOAD_TARGET_LIGHT | FT_LOAD_NO_BITMAP) != 0) continue;
+      FT_Vector kerning{};
+      if (&face == last_face) FT_Get_Kerning(face.face, last_glyph, glyph, FT_KERNING_UNFITTED, &kerning);
+      x += static_cast<double>(kerning.x) / 64.0;
+      visit(Loaded{face.face->glyph, face.program, code, x});
+      x += static_cast<double>(face.face->glyph->linearHoriAdvance) / 65536.0;
+      last_face = &face;
+      last_glyph = glyph;
+    }
+    return x;
+  }
+
+ private:
+  struct Face {
+    std::string file;
+    FT_Face face = nullptr;
+    bool is_tried = false;
+    std::shared_ptr<const FontProgram> program{};
+  };
+
+  /// True if the file of the face is a font, which is opened at the first call.
+  bool is_open(Face& face) {
+    if (!face.is_tried && FT_New_Face(library_, face.file.c_str(), 0, &face.face) == 0 &&
+        FT_Set_Pixel_Sizes(face.face, 0, static_cast<FT_UInt>(height_)) == 0)
+      face.program = program_of(face.face, face.file);
+    face.is_tried = true;
+    return face.program != nullptr;
+  }
+
+  /// Returns the first face that has the letter, else the first face, which draws a box.
+  const Face& face_with(char32_t code) {
+    const auto has = [&](Face& face) { return is_open(face) && FT_Get_Char_Index(face.face, code) != 0; };
+    const auto found = std::ranges::find_if(faces_, has);
+    return found == faces_.end() ? faces_.front() : *found;
+  }
+
+  const int height_;
+  FT_Library library_ = nullptr;
+  std::vector<Face> faces_;
+};
+
+Font::Font(int height, Weight weight, const FontChoice& choice)
+    : faces_(std::make_unique<Faces>(height, weight, choice)), height_(height) {
+  faces_->for_each_letter("H", [&](const Faces::Loaded& letter) {
+    capital_height_ = static_cast<int>((letter.slot->metrics.horiBearingY + 63) / 64);
+  });
 }
 
 Font::Font(Font&&) noexcept = default;
@@ -155,18 +211,22 @@ Font& Font::operator=(Font&&) noexcept = default;
 Font::~Font() = default;
 
 int Font::width(std::string_view text) const {
-  return face_->for_each_letter(text, [](int) {});
+  return static_cast<int>(std::ceil(faces_->for_each_letter(text, [](const Faces::Loaded&) {})));
 }
 
 void Font::draw(std::string_view text, glm::ivec2 place, std::vector<float>& mask, glm::ivec2 size) const {
-  const int baseline = place.y + (capital_height_ + 1) / 2;
-  face_->for_each_letter(text, [&](int left) {
-    const FT_GlyphSlot letter = face_->face->glyph;
-    for (int row = 0; row < static_cast<int>(letter->bitmap.rows); ++row) {
-      for (int column = 0; column < static_cast<int>(letter->bitmap.width); ++column) {
-        const glm::ivec2 at(place.x + left + column, baseline - letter->bitmap_top + row);
+  faces_->for_each_letter(text, [&](const Faces::Loaded& letter) {
+    const double whole = std::floor(letter.x);
+    FT_Outline_Translate(&letter.slot->outline, std::lround(64.0 * (letter.x - whole)), 0);
+    if (FT_Render_Glyph(letter.slot, FT_RENDER_MODE_NORMAL) != 0) return;
+    const FT_Bitmap& bitmap = letter.slot->bitmap;
+    const glm::ivec2 corner(place.x + static_cast<int>(whole) + letter.slot->bitmap_left,
+                            baseline(place.y) - letter.slot->bitmap_top);
+    for (int row = 0; row < static_cast<int>(bitmap.rows); ++row) {
+      for (int column = 0; column < static_cast<int>(bitmap.width); ++column) {
+        const glm::ivec2 at = corner + glm::ivec2(column, row);
         if (at.x < 0 || at.y < 0 || at.x >= size.x || at.y >= size.y) continue;
-        const float share = static_cast<float>(letter->bitmap.buffer[row * letter->bitmap.pitch + column]) / 255.0f;
+        const float share = static_cast<float>(bitmap.buffer[row * bitmap.pitch + column]) / 255.0f;
         float& covered = mask[static_cast<std::size_t>(at.y) * size.x + at.x];
         covered = std::max(covered, share);
       }
@@ -174,15 +234,13 @@ void Font::draw(std::string_view text, glm::ivec2 place, std::vector<float>& mas
   });
 }
 
-std::vector<PathStep> Font::outline(std::string_view text, glm::ivec2 place) const {
-  std::vector<PathStep> path;
-  const int baseline = place.y + (capital_height_ + 1) / 2;
-  face_->for_each_place(text, [&](int x, char32_t letter) {
-    // Hinting is for pixels; letters have the same places with it.
-    if (FT_Load_Char(face_->face, letter, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) return;
-    OutlinePath(path, glm::dvec2(place.x + x, baseline)).add(face_->face->glyph->outline);
+std::vector<PlacedLetter> Font::letters(std::string_view text) const {
+  std::vector<PlacedLetter> letters;
+  faces_->for_each_letter(text, [&](const Faces::Loaded& letter) {
+    const double advance = static_cast<double>(letter.slot->linearHoriAdvance) / 65.536 / height_;
+    letters.push_back({letter.font, letter.code, letter.slot->glyph_index, letter.x, advance});
   });
-  return path;
+  return letters;
 }
 
 std::string drawable(std::string_view text, int most_characters) {

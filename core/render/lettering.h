@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Letters, lines and boxes over a picture: their heights and colours, and text as pixels and as outlines.
+// Letters, lines and boxes over a picture: their fonts, heights and colours, and text as pixels and as glyphs.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <compare>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -24,22 +26,43 @@ namespace meniscus {
 
 enum class Weight { regular, bold };
 
-/// Returns the path of the first of DejaVu Sans, Liberation Sans and Noto Sans found in the folders of Linux
-/// distributions.
-std::optional<std::string> find_font_file();
+/// The font that a user chose. Both are empty for the default: the first installed one of Liberation Sans, which has
+/// the widths of Arial, DejaVu Sans and Noto Sans.
+struct FontChoice {
+  std::string family;  ///< name of an installed family
+  std::string file;    ///< path of a .ttf or .otf file
 
-/// A step of a path, with points in pixels from the top left.
-struct PathStep {
-  enum class Kind { move, line, curve, close } kind;
-  std::array<glm::dvec2, 3> points{};  ///< move and line: one point; cubic curve: two control points, then the end
+  auto operator<=>(const FontChoice&) const = default;
 };
 
-/// One face and size of letters. Text is UTF-8.
+/// Returns the path of the default font; nothing if no font is installed.
+std::optional<std::string> find_font_file();
+
+/// A font file with what pages say of it. Lengths are in thousandths of the height of its letters.
+struct FontProgram {
+  std::string file, family, postscript_name;
+  bool is_bold = false, is_cff = false;  ///< is_cff: its outlines are in the Compact Font Format
+  bool may_be_embedded = true;           ///< false if its licence forbids to embed it
+  std::array<int, 4> box{};              ///< left, bottom, right and top of the box that contains all letters
+  int ascent = 0, descent = 0, capital_height = 0;
+};
+
+/// A letter of a text.
+struct PlacedLetter {
+  std::shared_ptr<const FontProgram> font;
+  char32_t code;
+  std::uint32_t glyph;  ///< number of the letter in its font
+  double x;             ///< distance from the start of the text, pixels
+  double advance;       ///< distance to the next letter without kerning, in thousandths of the height
+};
+
+/// One face and size of letters. Text is UTF-8. Letters that the font does not have come from the default fonts.
 class Font {
  public:
   /// Opens a font. height: height of a line's letters, pixels. A bold weight is used if the font has one. Throws
-  /// RequestError if there is no font file; the message names the package to install.
-  explicit Font(int height, Weight weight = Weight::regular);
+  /// RequestError if the chosen font does not exist or cannot be read, and if no font is installed; the message then
+  /// names the package to install.
+  explicit Font(int height, Weight weight = Weight::regular, const FontChoice& choice = {});
   Font(Font&&) noexcept;
   Font& operator=(Font&&) noexcept;
   ~Font();
@@ -52,12 +75,14 @@ class Font {
   /// capitals are centred on the row place.y. Text outside of the mask is clipped.
   void draw(std::string_view text, glm::ivec2 place, std::vector<float>& mask, glm::ivec2 size) const;
 
-  /// Returns the same letters as closed paths, filled by the non-zero winding rule.
-  std::vector<PathStep> outline(std::string_view text, glm::ivec2 place) const;
+  /// Returns the letters of the text in its order.
+  std::vector<PlacedLetter> letters(std::string_view text) const;
+  /// Returns the row of the baseline of a text whose capitals are centred on `row`.
+  int baseline(int row) const { return row + (capital_height_ + 1) / 2; }
 
  private:
-  struct Face;
-  std::unique_ptr<Face> face_;
+  class Faces;
+  std::unique_ptr<Faces> faces_;
   int height_;
   int capital_height_ = 0;
 };
@@ -71,6 +96,7 @@ struct LetterStyle {
   std::optional<glm::vec3> color;  ///< sRGB in [0, 1]; nothing: dark or light, depending on the background
   std::optional<int> all;          ///< height of all texts without a height of their own
   std::optional<int> labels, scale_bar, panel;
+  FontChoice font{};
 };
 
 /// Heights of all texts next to and over the molecule, pixels.
@@ -137,16 +163,19 @@ struct InkLine {
 
 using InkStroke = std::variant<InkText, InkLine, PixelBox>;
 
-/// Fonts of several sizes, each opened once.
+/// Sizes and weights of one font, each opened once.
 class FontShelf {
  public:
+  explicit FontShelf(FontChoice choice) : choice_(std::move(choice)) {}
+
   /// Returns the font of a height and weight, and opens it if necessary. Throws RequestError if there is no font file.
   const Font& at(int height, Weight weight = Weight::regular) {
-    return fonts_.try_emplace({height, weight}, height, weight).first->second;
+    return fonts_.try_emplace({height, weight}, height, weight, choice_).first->second;
   }
   const Font& of(const InkText& text) { return at(text.height, text.weight); }
 
  private:
+  FontChoice choice_;
   std::map<std::pair<int, Weight>, Font> fonts_;
 };
 

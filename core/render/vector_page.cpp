@@ -1,84 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes pages, SVG and PDF: the pixels of a picture, and everything that is written over it as paths.
+// Writes pages, SVG and PDF: the pixels of a picture, and over it bars and lines as paths, and letters as text.
 #include "core/render/vector_page.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <zlib.h>
 
 #include "core/base/error.h"
 #include "core/base/output_file.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/base/version.h"
 #include "core/image/png_file.h"
 
 namespace meniscus {
 namespace {
 
-using Kind = PathStep::Kind;
+constexpr std::string_view kHalos = "halos";
 
-std::vector<PathStep> box_path(const glm::dvec2& low, const glm::dvec2& high) {
-  return {{Kind::move, {low}},
-          {Kind::line, {glm::dvec2(high.x, low.y)}},
-          {Kind::line, {high}},
-          {Kind::line, {glm::dvec2(low.x, high.y)}},
-          {Kind::close}};
+PageText page_text(const Font& font, const std::string& text, const glm::ivec2& place) {
+  return {text, font.height(), {place.x, font.baseline(place.y)}, font.letters(text)};
 }
 
-std::vector<PathStep> line_path(const glm::dvec2& from, const glm::dvec2& to) {
-  return {{Kind::move, {from}}, {Kind::line, {to}}};
-}
-
-/// Returns a circle of four cubic curves, accurate to 0.03 % of its radius.
-std::vector<PathStep> circle_path(const glm::dvec2& middle, double radius) {
-  const double handle = 0.5522847498 * radius;
-  std::vector<PathStep> path{{Kind::move, {middle + glm::dvec2(radius, 0.0)}}};
-  glm::dvec2 from(1.0, 0.0);
-  for (int n = 0; n < 4; ++n) {
-    const glm::dvec2 to(-from.y, from.x);
-    path.push_back(
-        {Kind::curve,
-         {middle + radius * from + handle * to, middle + radius * to + handle * from, middle + radius * to}});
-    from = to;
-  }
-  path.push_back({Kind::close});
-  return path;
-}
-
-/// Returns the shapes of a stroke that is wider by `around` on all sides.
-std::vector<PageShape> shapes_of(const InkStroke& stroke, const glm::vec3& color, double around, FontShelf& fonts) {
-  std::vector<PageShape> shapes;
+/// Returns the shape of a stroke of the annotations that is wider by `around` on all sides.
+PageShape shape_of(const InkStroke& stroke, double around, const AnnotationLayer& annotations) {
+  PageShape shape;
   if (const auto* const text = std::get_if<InkText>(&stroke)) {
-    PageShape shape{fonts.of(*text).outline(text->text, text->place), color};
-    if (around == 0.0) shape.text = text->text;
-    shapes.push_back(shape);
-    if (around > 0.0) shape.line = 2.0 * around, shapes.push_back(shape);
+    shape.text = page_text(annotations.font_of(*text), text->text, text->place);
+    shape.line = 2.0 * around;
   } else if (const auto* const line = std::get_if<InkLine>(&stroke)) {
-    const double width = line->width + 2.0 * around;
-    if (line->from == line->to)
-      shapes.push_back({circle_path(line->from, 0.5 * width), color, line->share});
-    else
-      shapes.push_back({line_path(line->from, line->to), color, line->share, width});
+    shape.from = line->from;
+    shape.to = line->to;
+    shape.line = line->width + 2.0 * around;
+    shape.opacity = line->share;
   } else if (const auto* const box = std::get_if<PixelBox>(&stroke)) {
-    shapes.push_back({box_path(glm::dvec2(box->low) - around, glm::dvec2(box->high) + around), color});
+    shape.from = glm::dvec2(box->low) - around;
+    shape.to = glm::dvec2(box->high) + around;
   }
-  return shapes;
+  return shape;
 }
 
 bool reaches_into(const InkStroke& stroke, int first_row, int end_row) {
   double low = 0.0, high = 0.0;
   if (const auto* const text = std::get_if<InkText>(&stroke)) {
-    low = text->place.y - text->height;
-    high = text->place.y + text->height;
+    const double half = 0.56 * text->height;  // with accents, or with what is below the line
+    low = text->place.y - half;
+    high = text->place.y + half;
   } else if (const auto* const line = std::get_if<InkLine>(&stroke)) {
     low = std::min(line->from.y, line->to.y) - line->width;
     high = std::max(line->from.y, line->to.y) + line->width;
@@ -89,44 +65,42 @@ bool reaches_into(const InkStroke& stroke, int first_row, int end_row) {
   return low < end_row && high > first_row;
 }
 
-void append(std::vector<PageShape>& shapes, std::vector<PageShape> more) {
-  shapes.insert(shapes.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-}
-
 }  // namespace
 
 std::vector<PageShape> shapes_of(const AnnotationLayer& annotations, int first_row, int end_row) {
-  FontShelf fonts;
   std::vector<PageShape> shapes;
+  const auto add = [&](const InkStroke& stroke, double around, std::string_view group, const glm::vec3& color) {
+    PageShape& shape = shapes.emplace_back(shape_of(stroke, around, annotations));
+    shape.group = group;
+    shape.color = color;
+  };
+  const std::span<const InkStroke> strokes = annotations.strokes();
   const Inks& inks = annotations.inks();
-  for (const InkStroke& stroke : annotations.strokes())
-    if (reaches_into(stroke, first_row, end_row))
-      append(shapes, shapes_of(stroke, inks.rim, annotations.rim_width(), fonts));
-  for (const InkStroke& stroke : annotations.strokes()) append(shapes, shapes_of(stroke, inks.ink, 0.0, fonts));
+  for (const InkStroke& stroke : strokes)
+    if (reaches_into(stroke, first_row, end_row)) add(stroke, annotations.rim_width(), kHalos, inks.rim);
+  for (std::size_t n = 0; n < strokes.size(); ++n) add(strokes[n], 0.0, annotations.group_of(n), inks.ink);
   return shapes;
 }
 
 std::vector<PageShape> shapes_of(const Legend& legend, const std::optional<glm::vec3>& background) {
+  constexpr const char* kGroup = "legend";
   std::vector<PageShape> shapes;
   const glm::vec3 ink = legend.inks(background).ink;
   for (const LegendBox& box : legend.boxes()) {
     if (box.colors.front().x < 0.0f) continue;  // "+3 more" has no colour
     const glm::dvec2 low(box.low), high(box.high), frame(legend.frame_width());
-    shapes.push_back({box_path(low - frame, high + frame), ink});
+    shapes.push_back({kGroup, ink, low - frame, high + frame});
     const bool upright = high.y - low.y > high.x - low.x;
     // Each colour extends to the end of the bar, so that no paper is visible between two colours.
     for (std::size_t n = 0; n < box.colors.size(); ++n) {
       if (n > 0 && box.colors[n] == box.colors[n - 1]) continue;
       const double along = static_cast<double>(n);
-      shapes.push_back(
-          {upright ? box_path(low, {high.x, high.y - along}) : box_path({low.x + along, low.y}, high), box.colors[n]});
+      shapes.push_back({kGroup, box.colors[n], upright ? low : glm::dvec2(low.x + along, low.y),
+                        upright ? glm::dvec2(high.x, high.y - along) : high});
     }
   }
-  for (const LegendText& text : legend.texts()) {
-    PageShape shape{legend.font().outline(text.text, text.place), ink};
-    shape.text = text.text;
-    shapes.push_back(std::move(shape));
-  }
+  for (const LegendText& text : legend.texts())
+    shapes.push_back({kGroup, ink, {}, {}, page_text(legend.font(), text.text, text.place)});
   return shapes;
 }
 
@@ -211,6 +185,17 @@ class PageFile::Encoder {
   /// Returns the size of a pixel in inches.
   double pixel() const { return 1.0 / (settings_.dots_per_inch > 0.0 ? settings_.dots_per_inch : kPixelsPerInch); }
 
+  /// Calls work(name, shapes) for successive shapes of one group.
+  static void for_each_group(std::span<const PageShape> shapes, const auto& work) {
+    while (!shapes.empty()) {
+      const std::string& group = shapes.front().group;
+      const auto end = std::ranges::find_if(shapes, [&](const PageShape& shape) { return shape.group != group; });
+      const auto count = static_cast<std::size_t>(end - shapes.begin());
+      work(group, shapes.first(count));
+      shapes = shapes.subspan(count);
+    }
+  }
+
   const PageLayout layout_;
   const ImageSettings settings_;
   OutputFile output_;
@@ -230,6 +215,7 @@ class PageFile::SvgEncoder : public Encoder {
     image.channels = {"R", "G", "B", "A"};
     image.channels.resize(static_cast<std::size_t>(channels()));
     image.color_space = "sRGB";
+    begin_group("molecule");
     output_.write(
         fmt::format("<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
                     "xlink:href=\"data:image/png;base64,",
@@ -250,19 +236,20 @@ class PageFile::SvgEncoder : public Encoder {
       if (settings_.dots_per_inch == 0.0) return number(pixels);
       return number(pixels * pixel() * kMillimetersPerInch) + "mm";
     };
-    output_.write(fmt::format(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" version=\"1.1\" "
-        "width=\"{}\" height=\"{}\" viewBox=\"{} {} {} {}\">\n",
-        length(page.x), length(page.y), layout_.low.x, layout_.low.y, page.x, page.y));
+    output_.write(
+        fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                    "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
+                    "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" version=\"1.1\" "
+                    "width=\"{}\" height=\"{}\" viewBox=\"{} {} {} {}\">\n",
+                    length(page.x), length(page.y), layout_.low.x, layout_.low.y, page.x, page.y));
     if (settings_.names_program) output_.write("<!-- Meniscus " MENISCUS_VERSION " -->\n");
     if (!settings_.command.empty()) output_.write("<desc>" + markup_text(settings_.command) + "</desc>\n");
     if (!settings_.scene.empty())
       output_.write("<metadata><scene xmlns=\"urn:meniscus:scene\">" + markup_text(settings_.scene) +
                     "</scene></metadata>\n");
     if (settings_.background)
-      output_.write(fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", layout_.low.x,
-                                layout_.low.y, page.x, page.y, hex(*settings_.background)));
+      output_.write(fmt::format("<rect id=\"background\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
+                                layout_.low.x, layout_.low.y, page.x, page.y, hex(*settings_.background)));
   }
 
   void add_pixels(const std::vector<std::uint8_t>& pixels) override { png_->add(pixels, channels()); }
@@ -270,51 +257,70 @@ class PageFile::SvgEncoder : public Encoder {
   void finish(std::span<const PageShape> shapes) override {
     if (png_) {
       png_->finish();
-      output_.write(base64(waiting_) + "\"/>\n");
+      output_.write(base64(waiting_) + "\"/>\n</g>\n");
     }
-    for (const PageShape& shape : shapes) output_.write(element(shape));
+    for_each_group(shapes, [&](const std::string& group, std::span<const PageShape> of_group) {
+      begin_group(group);
+      for (const PageShape& shape : of_group) output_.write(element(shape));
+      output_.write("</g>\n");
+    });
     output_.write("</svg>\n");
   }
 
-  static std::string element(const PageShape& shape) {
-    std::string path;
-    for (const PathStep& step : shape.path) {
-      const auto& [a, b, c] = step.points;
-      switch (step.kind) {
-        case PathStep::Kind::move:
-          path += "M" + point(a);
-          break;
-        case PathStep::Kind::line:
-          path += "L" + point(a);
-          break;
-        case PathStep::Kind::curve:
-          path += "C" + point(a) + " " + point(b) + " " + point(c);
-          break;
-        case PathStep::Kind::close:
-          path += "Z";
-      }
-    }
-    if (path.empty()) return {};  // blanks
-    const std::string opacity = shape.opacity < 1.0 ? fmt::format(" opacity=\"{}\"", number(shape.opacity)) : "";
-    const std::string name = shape.text.empty() ? "" : fmt::format(" aria-label=\"{}\"", markup_text(shape.text));
-    if (shape.line == 0.0)
-      return fmt::format("<path{}{} fill=\"{}\" d=\"{}\"/>\n", name, opacity, hex(shape.color), path);
+  void begin_group(const std::string& name) {
+    output_.write(fmt::format("<g id=\"{0}\" inkscape:groupmode=\"layer\" inkscape:label=\"{0}\"{1}>\n", name,
+                              name.ends_with(kHalos) ? " aria-hidden=\"true\"" : ""));
+  }
+
+  /// Returns the names of fonts that a viewer should try. Arial is before its metric equal, which fewer systems have.
+  static std::string families(const FontProgram& font) {
+    if (font.family == "Liberation Sans") return "Arial, 'Liberation Sans', Helvetica, sans-serif";
+    std::string family = font.family;
+    std::erase_if(family, [](char c) { return c == '\'' || c == '\\'; });
+    return "'" + markup_text(family) + "', Arial, Helvetica, sans-serif";
+  }
+
+  static std::string text_element(const PageText& text, const PageShape& shape) {
+    if (text.letters.empty()) return {};
+    const FontProgram& font = *text.letters.front().font;
+    const std::string stroke = shape.line > 0.0
+                                   ? fmt::format(" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"",
+                                                 hex(shape.color), number(shape.line))
+                                   : "";
     return fmt::format(
-        "<path{} fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" "
-        "stroke-linejoin=\"round\" d=\"{}\"/>\n",
-        opacity, hex(shape.color), number(shape.line), path);
+        "<text x=\"{}\" y=\"{}\" font-family=\"{}\" font-size=\"{}\"{} fill=\"{}\"{} "
+        "xml:space=\"preserve\">{}</text>\n",
+        number(text.start.x), number(text.start.y), families(font), text.height,
+        font.is_bold ? " font-weight=\"bold\"" : "", hex(shape.color), stroke, markup_text(text.text));
+  }
+
+  static std::string element(const PageShape& shape) {
+    if (shape.text) return text_element(*shape.text, shape);
+    const std::string color = hex(shape.color),
+                      opacity = shape.opacity < 1.0 ? fmt::format(" opacity=\"{}\"", number(shape.opacity)) : "";
+    const std::string x = number(shape.from.x), y = number(shape.from.y);
+    if (shape.line == 0.0)
+      return fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"{}/>\n", x, y,
+                         number(shape.to.x - shape.from.x), number(shape.to.y - shape.from.y), color, opacity);
+    if (shape.from == shape.to)
+      return fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\"{}/>\n", x, y, number(0.5 * shape.line),
+                         color, opacity);
+    return fmt::format(
+        "<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" stroke=\"{}\" stroke-width=\"{}\" "
+        "stroke-linecap=\"round\"{}/>\n",
+        x, y, number(shape.to.x), number(shape.to.y), color, number(shape.line), opacity);
   }
 
   std::string waiting_;  ///< bytes of the picture that do not make four letters yet
   std::optional<PngEncoder> png_;
 };
 
-/// Portable Document Format 1.4 (Adobe 2001) with a single page.
+/// Portable Document Format 1.6 (Adobe 2004) with a single page.
 class PageFile::PdfEncoder : public Encoder {
  public:
   PdfEncoder(const std::filesystem::path& path, const PageLayout& layout, const ImageSettings& settings)
       : Encoder(path, layout, settings) {
-    write("%PDF-1.4\n%\xc2\xb5\xc2\xb6\n");
+    write("%PDF-1.6\n%\xc2\xb5\xc2\xb6\n");
     if (!has_pixels()) return;
     begin(kImage);
     write(image_dictionary("/DeviceRGB", fmt::format("{} 0 R", int{kImageLength})) +
@@ -323,25 +329,46 @@ class PageFile::PdfEncoder : public Encoder {
   }
 
  private:
-  enum Object : int { kCatalog = 1, kPages, kPage, kContents, kInfo, kImage, kImageLength, kMask, kEnd };
+  enum : int { kPages = 1, kImage, kImageLength, kMask, kEnd };  ///< objects whose numbers others need before
+
+  /// A font of the page and its letters there.
+  struct EmbeddedFont {
+    std::shared_ptr<const FontProgram> program;
+    std::map<std::uint32_t, PlacedLetter> letters;  ///< by their numbers in the font
+  };
+  /// Names of the resources of the page, in the order of their numbers.
+  struct Resources {
+    std::vector<std::string> opacities, layers;
+    std::vector<EmbeddedFont> fonts;
+  };
 
   void write(std::string_view text) {
     output_.write(text);
     offset_ += text.size();
   }
-  void begin(Object object) {
+  void begin(int object) {
     offsets_[object] = offset_;
-    write(fmt::format("{} 0 obj\n", int{object}));
+    write(fmt::format("{} 0 obj\n", object));
   }
-  void object(Object object, const std::string& text) {
+  void object(int object, const std::string& text) {
     begin(object);
     write(text + "\nendobj\n");
   }
-  void stream(Object object, const std::string& dictionary, const std::string& bytes) {
-    begin(object);
-    write(fmt::format("{} /Filter /FlateDecode /Length {} >>\nstream\n", dictionary, bytes.size()));
-    write(bytes);
-    write("\nendstream\nendobj\n");
+  /// Writes an object, and returns its number.
+  int object(const std::string& text) {
+    offsets_.push_back(0);
+    const int number = static_cast<int>(offsets_.size()) - 1;
+    object(number, text);
+    return number;
+  }
+  static std::string stream(const std::string& dictionary, const std::string& compressed) {
+    return fmt::format("{} /Filter /FlateDecode /Length {} >>\nstream\n{}\nendstream", dictionary, compressed.size(),
+                       compressed);
+  }
+  static std::string compressed(const std::string& bytes) {
+    Deflater deflater;
+    std::string result = deflater.add({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    return result + deflater.finish();
   }
 
   std::string image_dictionary(const char* colors, const std::string& length) const {
@@ -371,39 +398,94 @@ class PageFile::PdfEncoder : public Encoder {
     }
     if (has_pixels() && channels() == 4) {
       mask_ += alphas_.finish();
-      stream(kMask, image_dictionary("/DeviceGray", ""), mask_);
+      object(kMask, stream(image_dictionary("/DeviceGray", ""), mask_));
     }
-    std::vector<std::string> opacities;
-    const std::string drawn = contents(shapes, opacities);
-    Deflater deflater;
-    std::string compressed = deflater.add({reinterpret_cast<const std::uint8_t*>(drawn.data()), drawn.size()});
-    compressed += deflater.finish();
-    stream(kContents, "<<", compressed);
+    Resources used;
+    const int drawn = object(stream("<<", compressed(contents(shapes, used))));
     const glm::dvec2 page = size() * points();
-    std::string states;
-    for (std::size_t n = 0; n < opacities.size(); ++n)
-      states += fmt::format(" /O{} << /ca {} /CA {} >>", n, opacities[n], opacities[n]);
-    object(kPage, fmt::format("<< /Type /Page /Parent {} 0 R /MediaBox [0 0 {} {}] /Contents {} 0 R /Group << /S "
-                              "/Transparency /CS /DeviceRGB >> /Resources << /ExtGState <<{} >>{} >> >>",
-                              int{kPages}, number(page.x), number(page.y), int{kContents}, states,
-                              has_pixels() ? fmt::format(" /XObject << /Molecule {} 0 R >>", int{kImage}) : ""));
-    object(kPages, fmt::format("<< /Type /Pages /Kids [{} 0 R] /Count 1 >>", int{kPage}));
-    object(kCatalog, fmt::format("<< /Type /Catalog /Pages {} 0 R >>", int{kPages}));
+    std::string states, fonts, layers, layer_list;
+    for (std::size_t n = 0; n < used.opacities.size(); ++n)
+      states += fmt::format(" /O{} << /ca {} /CA {} >>", n, used.opacities[n], used.opacities[n]);
+    for (std::size_t n = 0; n < used.fonts.size(); ++n)
+      fonts += fmt::format(" /F{} {} 0 R", n, write_font(used.fonts[n]));
+    for (std::size_t n = 0; n < used.layers.size(); ++n) {
+      const int layer = object("<< /Type /OCG /Name " + hex_text(used.layers[n]) + " >>");
+      layers += fmt::format(" /L{} {} 0 R", n, layer);
+      layer_list += fmt::format(" {} 0 R", layer);
+    }
+    const int only =
+        object(fmt::format("<< /Type /Page /Parent {} 0 R /MediaBox [0 0 {} {}] /Contents {} 0 R /Group << /S "
+                           "/Transparency /CS /DeviceRGB "
+                           ">> /Resources << /ExtGState <<{} >> /Font <<{} >> /Properties <<{} >>{} >> >>",
+                           int{kPages}, number(page.x), number(page.y), drawn, states, fonts, layers,
+                           has_pixels() ? fmt::format(" /XObject << /Molecule {} 0 R >>", int{kImage}) : ""));
+    object(kPages, fmt::format("<< /Type /Pages /Kids [{} 0 R] /Count 1 >>", only));
+    const int catalog = object(fmt::format(
+        "<< /Type /Catalog /Pages {} 0 R /OCProperties << /OCGs [{} ] /D << /ON [{} ] /Order [{} ] >> >> >>",
+        int{kPages}, layer_list, layer_list, layer_list));
     std::string info;
     if (settings_.names_program) info += " /Producer (Meniscus " MENISCUS_VERSION ")";
     if (!settings_.command.empty()) info += " /Subject " + hex_text(settings_.command);
     if (!settings_.scene.empty()) info += " /MeniscusScene " + hex_text(settings_.scene);
-    object(kInfo, "<<" + info + " >>");
-    write_ends();
+    write_ends(catalog, object("<<" + info + " >>"));
   }
 
-  void write_ends() {
-    const std::size_t table = offset_;
-    write(fmt::format("xref\n0 {}\n0000000000 65535 f \n", int{kEnd}));
-    for (int n = 1; n < kEnd; ++n)
+  /// Writes a font with all of its letters (PDF Reference 1.6, 5.6: Type 0, by the numbers of its letters). Returns
+  /// the number of its object.
+  int write_font(const EmbeddedFont& font) {
+    const FontProgram& program = *font.program;
+    if (!program.may_be_embedded)
+      throw RequestError(
+          message("{}: the licence of this font forbids to embed it in a PDF file; choose another @font@",
+                  in_quotes(program.file)));
+    std::string name = program.postscript_name;
+    std::erase_if(name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-'; });
+    const std::string bytes = read_file_bytes(program.file);
+    const int file = object(stream(
+        program.is_cff ? "<< /Subtype /OpenType" : fmt::format("<< /Length1 {}", bytes.size()), compressed(bytes)));
+    const auto& [left, bottom, right, top] = program.box;
+    const int descriptor =
+        object(fmt::format("<< /Type /FontDescriptor /FontName /{} /Flags 4 /FontBBox [{} {} {} {}] /ItalicAngle 0 "
+                           "/Ascent {} /Descent {} "
+                           "/CapHeight {} /StemV 80 /FontFile{} {} 0 R >>",
+                           name, left, bottom, right, top, program.ascent, program.descent, program.capital_height,
+                           program.is_cff ? 3 : 2, file));
+    std::string widths, meanings;
+    for (const auto& [glyph, letter] : font.letters) {
+      widths += fmt::format(" {} [{}]", glyph, number(letter.advance));
+      meanings += fmt::format("1 beginbfchar <{:04X}> <{}> endbfchar\n", glyph, utf16_digits(letter.code));
+    }
+    const int letters = object(fmt::format(
+        "<< /Type /Font /Subtype /CIDFontType{} /BaseFont /{} /CIDSystemInfo << /Registry (Adobe) /Ordering (Identity) "
+        "/Supplement 0 >> /FontDescriptor {} 0 R /W [{} ]{} >>",
+        program.is_cff ? 0 : 2, name, descriptor, widths, program.is_cff ? "" : " /CIDToGIDMap /Identity"));
+    const int texts =
+        object(stream("<<", compressed("/CIDInit /ProcSet findresource begin 12 dict begin begincmap\n"
+                                       "/CIDSystemInfo << /Registry (Adobe) /Ordering (UCS) "
+                                       "/Supplement 0 >> def\n"
+                                       "/CMapName /Adobe-Identity-UCS def /CMapType 2 def\n"
+                                       "1 begincodespacerange <0000> <FFFF> endcodespacerange\n" +
+                                       meanings + "endcmap CMapName currentdict /CMap defineresource pop end end\n")));
+    return object(
+        fmt::format("<< /Type /Font /Subtype /Type0 /BaseFont /{} /Encoding /Identity-H /DescendantFonts "
+                    "[{} 0 R] /ToUnicode {} 0 R >>",
+                    name, letters, texts));
+  }
+
+  /// Returns a character in UTF-16 as hexadecimal digits.
+  static std::string utf16_digits(char32_t code) {
+    const auto number = static_cast<std::uint32_t>(code);
+    if (number < 0x10000) return fmt::format("{:04X}", number);
+    return fmt::format("{:04X}{:04X}", 0xd800 + ((number - 0x10000) >> 10), 0xdc00 + ((number - 0x10000) & 0x3ff));
+  }
+
+  void write_ends(int catalog, int info) {
+    const std::size_t table = offset_, end = offsets_.size();
+    write(fmt::format("xref\n0 {}\n0000000000 65535 f \n", end));
+    for (std::size_t n = 1; n < end; ++n)
       write(offsets_[n] > 0 ? fmt::format("{:010} 00000 n \n", offsets_[n]) : std::string("0000000000 65535 f \n"));
-    write(fmt::format("trailer\n<< /Size {} /Root {} 0 R /Info {} 0 R >>\nstartxref\n{}\n%%EOF\n", int{kEnd},
-                      int{kCatalog}, int{kInfo}, table));
+    write(fmt::format("trailer\n<< /Size {} /Root {} 0 R /Info {} 0 R >>\nstartxref\n{}\n%%EOF\n", end, catalog, info,
+                      table));
   }
 
   double points() const { return 72.0 * pixel(); }
@@ -419,48 +501,83 @@ class PageFile::PdfEncoder : public Encoder {
     return fmt::format("{} {} {} {}\n", number(color.x), number(color.y), number(color.z), what);
   }
 
-  std::string contents(std::span<const PageShape> shapes, std::vector<std::string>& opacities) const {
+  /// Returns the place of a value in a list, to which it is added if it is new.
+  static std::size_t place_in(std::vector<std::string>& list, const std::string& value) {
+    const auto known = std::ranges::find(list, value);
+    const auto place = static_cast<std::size_t>(known - list.begin());
+    if (known == list.end()) list.push_back(value);
+    return place;
+  }
+
+  /// Returns a part of the contents as a layer.
+  static std::string in_layer(const std::string& name, const std::string& part, Resources& used) {
+    return fmt::format("/OC /L{} BDC\n{}EMC\n", place_in(used.layers, name), part);
+  }
+
+  static std::string contents_of(const PageText& text, bool has_halo, Resources& used) {
+    // Letters are upright although rows are counted downwards.
+    std::string result = fmt::format("BT {} Tr 1 0 0 -1 {} Tm", has_halo ? 2 : 0, point(text.start));
+    std::size_t open = used.fonts.size();
+    double expected = 0.0;
+    bool is_open = false;
+    for (const PlacedLetter& letter : text.letters) {
+      const auto has_it = [&](const EmbeddedFont& font) { return font.program->file == letter.font->file; };
+      const auto known = std::ranges::find_if(used.fonts, has_it);
+      const auto place = static_cast<std::size_t>(known - used.fonts.begin());
+      if (known == used.fonts.end()) used.fonts.push_back({letter.font, {}});
+      used.fonts[place].letters.try_emplace(letter.glyph, letter);
+      if (!is_open || place != open)
+        result += fmt::format("{} /F{} {} Tf [", is_open ? "] TJ" : "", place, text.height);
+      const double move = 1000.0 * (expected - letter.x) / text.height;
+      if (std::abs(move) >= 0.5) result += number(move);
+      result += fmt::format("<{:04X}>", letter.glyph);
+      expected = letter.x + letter.advance * text.height / 1000.0;
+      open = place;
+      is_open = true;
+    }
+    return result + (is_open ? "] TJ ET\n" : " ET\n");
+  }
+
+  std::string contents(std::span<const PageShape> shapes, Resources& used) const {
     // From here on coordinates are pixels of the picture, from its top left.
     std::string text = fmt::format("{} 0 0 {} {} {} cm 1 J 1 j\n", scale(), "-" + scale(),
                                    number(-layout_.low.x * points()), number(layout_.high.y * points()));
     if (settings_.background)
-      text += color(*settings_.background, "rg") +
-              fmt::format("{} {} {} {} re f\n", layout_.low.x, layout_.low.y, number(size().x), number(size().y));
+      text +=
+          in_layer("background",
+                   color(*settings_.background, "rg") + fmt::format("{} {} {} {} re f\n", layout_.low.x, layout_.low.y,
+                                                                    number(size().x), number(size().y)),
+                   used);
     const glm::ivec2 place = layout_.picture_place, picture = layout_.picture_size;
     if (has_pixels())
-      text += fmt::format("q {} 0 0 {} {} {} cm /Molecule Do Q\n", picture.x, -picture.y, place.x, place.y + picture.y);
-    for (const PageShape& shape : shapes) {
-      const std::string opacity = number(shape.opacity);
-      const auto known = std::ranges::find(opacities, opacity);
-      text += fmt::format("/O{} gs ", known - opacities.begin());
-      if (known == opacities.end()) opacities.push_back(opacity);
-      text += color(shape.color, shape.line > 0.0 ? "RG" : "rg");
-      if (shape.line > 0.0) text += number(shape.line) + " w\n";
-      for (const PathStep& step : shape.path) {
-        const auto& [a, b, c] = step.points;
-        switch (step.kind) {
-          case PathStep::Kind::move:
-            text += point(a) + " m\n";
-            break;
-          case PathStep::Kind::line:
-            text += point(a) + " l\n";
-            break;
-          case PathStep::Kind::curve:
-            text += point(a) + " " + point(b) + " " + point(c) + " c\n";
-            break;
-          case PathStep::Kind::close:
-            text += "h\n";
-        }
-      }
-      text += shape.line > 0.0 ? "S\n" : "f\n";
-    }
+      text += in_layer(
+          "molecule",
+          fmt::format("q {} 0 0 {} {} {} cm /Molecule Do Q\n", picture.x, -picture.y, place.x, place.y + picture.y),
+          used);
+    for_each_group(shapes, [&](const std::string& group, std::span<const PageShape> of_group) {
+      std::string part;
+      for (const PageShape& shape : of_group) part += contents_of(shape, used);
+      // Programs that copy text take each word once.
+      if (group.ends_with(kHalos)) part = "/Span << /ActualText () >> BDC\n" + part + "EMC\n";
+      text += in_layer(group, part, used);
+    });
     return text;
+  }
+
+  static std::string contents_of(const PageShape& shape, Resources& used) {
+    const bool has_line = shape.line > 0.0;
+    std::string text = fmt::format("/O{} gs ", place_in(used.opacities, number(shape.opacity)));
+    if (!has_line || shape.text) text += color(shape.color, "rg");
+    if (has_line) text += color(shape.color, "RG") + number(shape.line) + " w\n";
+    if (shape.text) return text + contents_of(*shape.text, has_line, used);
+    const glm::dvec2 extent = shape.to - shape.from;
+    return text + point(shape.from) + (has_line ? " m " + point(shape.to) + " l S\n" : " " + point(extent) + " re f\n");
   }
 
   /// Returns the scale with more decimals than coordinates have.
   std::string scale() const { return fmt::format("{:.9f}", points()); }
 
-  std::array<std::size_t, kEnd> offsets_{};
+  std::vector<std::size_t> offsets_ = std::vector<std::size_t>(kEnd);  ///< by the numbers of objects; 0: not written
   std::size_t offset_ = 0, image_begin_ = 0;
   Deflater pixels_, alphas_;
   std::string mask_;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures as pages, SVG and PDF: the molecule in pixels, and letters, bars and lines over it as paths.
+// Pictures as pages, SVG and PDF: the molecule in pixels, and over it bars and lines as paths, and letters as text.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,17 +23,26 @@ namespace meniscus {
 /// True if the extension names a page (.svg, .pdf).
 bool is_page(const std::filesystem::path& path);
 
-/// A filled or stroked path, in pixels of the picture.
-struct PageShape {
-  std::vector<PathStep> path;
-  glm::vec3 color;  ///< sRGB
-  double opacity = 1.0;
-  double line = 0.0;   ///< width of the stroke, with round ends and corners; 0: the path is filled
-  std::string text{};  ///< the text that it shows
+/// A text of a page.
+struct PageText {
+  std::string text;
+  int height = 0;         ///< height of a line's letters, pixels
+  glm::dvec2 start{0.0};  ///< start of the baseline, in pixels from the top left
+  std::vector<PlacedLetter> letters;
 };
 
-/// Returns the shapes of the annotations in these rows of the picture, including the rims of everything that extends
-/// into them.
+/// A line with round ends, a filled box, or a text, in pixels of the picture.
+struct PageShape {
+  std::string group;  ///< name of the group to which it belongs; groups are in the order of their first shapes
+  glm::vec3 color;    ///< sRGB
+  glm::dvec2 from{0.0}, to{0.0};  ///< ends of the line, which is a dot if they are equal; or low and high of the box
+  std::optional<PageText> text{};
+  double line = 0.0;  ///< width of the line, or of a stroke around letters; 0: a box, or plain letters
+  double opacity = 1.0;
+};
+
+/// Returns the shapes of the annotations in these rows of the picture. The first group, "halos", has the rims of
+/// everything that extends into the rows.
 std::vector<PageShape> shapes_of(const AnnotationLayer& annotations, int first_row, int end_row);
 std::vector<PageShape> shapes_of(const Legend& legend, const std::optional<glm::vec3>& background);
 
@@ -42,7 +53,8 @@ struct PageLayout {
 };
 
 /// A page that is written as the rows of its pixels come. It gets its final name at the end. A pixel is 1/96 inch
-/// unless the settings give a resolution. The page is transparent unless there is a background.
+/// unless the settings give a resolution. The page is transparent unless there is a background. Its pixels are in the
+/// group "molecule". In PDF, groups are layers, and fonts are embedded as a whole, so that texts can be changed.
 class PageFile {
  public:
   /// Opens the page. Throws OutputError.
@@ -51,7 +63,7 @@ class PageFile {
 
   /// Adds the next rows of pixels, as a picture of their own.
   void add(const Framebuffer& rows);
-  /// Completes the page after the last row.
+  /// Completes the page after the last row. Throws RequestError if it needs a font that must not be embedded.
   void commit(std::span<const PageShape> shapes);
 
  private:

@@ -84,6 +84,7 @@ LegendStyle legend_style(const LegendStyle& requested, const LetterStyle& letter
   LegendStyle style = requested;
   if (!style.letters) style.letters = letters.all;
   style.color = letters.color;
+  style.font = letters.font;
   return style;
 }
 

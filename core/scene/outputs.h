@@ -9,6 +9,7 @@
 
 #include "core/image/color_space.h"
 #include "core/mesh/mesh_objects.h"
+#include "core/render/image_output.h"
 #include "core/render/picture.h"
 
 namespace meniscus {
@@ -21,6 +22,7 @@ struct PictureOutput {
   bool aovs = false;                        ///< adds layers such as depth, normals and atoms
   bool cryptomatte = false;                 ///< adds mattes by chain, residue and atom
   Primaries primaries = Primaries::rec709;  ///< the primaries of the colours of EXR files
+  TiffFormat tiff;
   std::optional<Extent> extent;  ///< nothing: the complete surface, computed and certified before the picture
 };
 

@@ -9,6 +9,8 @@
 #include <memory>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_schemes.h"
@@ -65,10 +67,14 @@ Framebuffer empty_rows(int width, int count) {
   return rows;
 }
 
-void append_moved(std::vector<PageShape>& shapes, std::vector<PageShape> more, glm::ivec2 by) {
+/// Adds shapes that are moved by some pixels, with the prefix before the names of their groups.
+void append_moved(std::vector<PageShape>& shapes, std::vector<PageShape> more, glm::ivec2 by,
+                  const std::string& prefix) {
   for (PageShape& shape : more) {
-    for (PathStep& step : shape.path)
-      for (glm::dvec2& point : step.points) point += glm::dvec2(by);
+    shape.from += glm::dvec2(by);
+    shape.to += glm::dvec2(by);
+    if (shape.text) shape.text->start += glm::dvec2(by);
+    shape.group.insert(0, prefix);
     shapes.push_back(std::move(shape));
   }
 }
@@ -180,7 +186,7 @@ void PanelPage::aim(bool one_camera) {
 
 // The pixels and paths of a page.
 
-/// Writes rows of panels to a picture or to a page; a page gets letters as paths.
+/// Writes rows of panels to a picture or to a page. Groups of a page are named after their panel, "panel-1-labels".
 class PanelPage::Output {
  public:
   Output(const std::filesystem::path& path, const PanelPage& page, const ImageSettings& image)
@@ -194,15 +200,16 @@ class PanelPage::Output {
 
   int width() const { return area_.x; }
 
-  /// Returns the picture of a panel's molecule with its annotations; for a page, adds the annotations as paths instead.
+  /// Returns the picture of a panel's molecule with its annotations; for a page, adds them as shapes instead.
   Framebuffer finish(const Placed& placed, const Annotations& annotations, Framebuffer molecule) {
     const PictureLayout& layout = placed.layout;
     if (!paths_) return finished_picture(std::move(molecule), annotations, layout, placed.camera, image_.background);
     const Strips& strips = layout.strips;
     const glm::ivec2 with_strips = layout.size.size() + glm::ivec2(0, strips.top + strips.bottom);
     const AnnotationLayer written(annotations, placed.camera, with_strips, image_.background, strips);
-    append_moved(shapes_, shapes_of(written, strips.top, with_strips.y - strips.bottom), placed.place);
-    if (layout.legend) append_moved(shapes_, shapes_of(*layout.legend, image_.background), placed.place);
+    const std::string prefix = fmt::format("panel-{}-", ++panels_);
+    append_moved(shapes_, shapes_of(written, strips.top, with_strips.y - strips.bottom), placed.place, prefix);
+    if (layout.legend) append_moved(shapes_, shapes_of(*layout.legend, image_.background), placed.place, prefix);
     return with_margin(molecule, page_.panel_size_, strips.top, false);
   }
 
@@ -221,7 +228,7 @@ class PanelPage::Output {
   void commit() {
     add(empty_rows(area_.x, area_.y - row_));
     if (paths_) {
-      if (page_.legend_) append_moved(shapes_, shapes_of(*page_.legend_, image_.background), {});
+      if (page_.legend_) append_moved(shapes_, shapes_of(*page_.legend_, image_.background), {}, "");
       return paths_->commit(shapes_);
     }
     if (row_ < page_.size_.y) {  // the legend is below the panels
@@ -239,7 +246,7 @@ class PanelPage::Output {
   std::unique_ptr<ImageWriter> pixels_;  // set unless paths_ is
   std::unique_ptr<PageFile> paths_;
   std::vector<PageShape> shapes_;
-  int row_ = 0;
+  int row_ = 0, panels_ = 0;  // written so far
 };
 
 void PanelPage::write(const std::filesystem::path& path, StillRenderer& renderer, const ImageSettings& image,

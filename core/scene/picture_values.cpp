@@ -69,6 +69,8 @@ Written write_background(const Property&, const Scene& scene) {
 
 void read_size(const Property&, Texts texts, Scene& scene) {
   const std::string_view text = texts.back();
+  scene.picture.fits = text == "auto";
+  if (scene.picture.fits) return;
   const std::size_t cross = text.find('x');
   const auto parse_side = [](std::string_view digits, int& side) {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), side);
@@ -83,19 +85,32 @@ void read_size(const Property&, Texts texts, Scene& scene) {
 }
 
 Written write_size(const Property&, const Scene& scene) {
+  if (scene.picture.fits && !has_lengths_of_sides(scene)) return {"auto"};
   if (scene.picture.size() == usual_scene().picture.size() || has_lengths_of_sides(scene)) return {};
   return {fmt::format("{}x{}", scene.picture.width, scene.picture.height)};
 }
 
 void read_side(const Property& property, Texts texts, Scene& scene) {
+  const bool is_height = property.key == "image.height";
+  if (is_height) scene.picture.fits = texts.back() == "auto";
+  if (is_height && scene.picture.fits) return;
   side_in_pixels(texts.back(), scene.picture.dots_per_inch);
   scene.lengths[std::string(property.key)] = texts.back();
 }
 
 Written write_side(const Property& property, const Scene& scene) {
   const auto length = scene.lengths.find(property.key);
-  if (length == scene.lengths.end() || !has_lengths_of_sides(scene)) return {};
-  return {length->second};
+  if (!has_lengths_of_sides(scene)) return {};
+  if (length != scene.lengths.end()) return {length->second};
+  return property.key == "image.height" && scene.picture.fits ? Written{"auto"} : Written();
+}
+
+void read_margin(const Property& property, Texts texts, Scene& scene) {
+  read_length(property, texts, scene, scene.picture.margin, "a margin has");
+}
+
+Written write_margin(const Property& property, const Scene& scene) {
+  return written_length(property, scene, scene.picture.margin);
 }
 
 std::optional<float>& number_of(const Property& property, LookRequest& look) {
@@ -161,6 +176,7 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
     {"image.size", read_size, write_size},
     {"image.width", read_side, write_side},
     {"image.height", read_side, write_side},
+    {"image.margin", read_margin, write_margin},
     plain("image.dpi", [](auto& s) { return &s.picture.dots_per_inch; }),
     plain("frames.motion_blur", [](auto& s) { return &s.image.motion_blur; }),
     plain("image.samples", [](auto& s) { return &s.image.samples; }),
@@ -168,6 +184,9 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
     plain("image.aovs", [](auto& s) { return &s.image.aovs; }),
     plain("image.cryptomatte", [](auto& s) { return &s.image.cryptomatte; }),
     worded<Primaries::rec709, Primaries::ap1>("image.color_space", [](auto& s) { return &s.image.primaries; }),
+    worded<TiffCompression::none, TiffCompression::lzw, TiffCompression::zip>(
+        "image.tiff_compression", [](auto& s) { return &s.image.tiff.compression; }),
+    worded<8, 16>("image.tiff_bits", [](auto& s) { return &s.image.tiff.bits; }),
     worded<Extent::visible, Extent::complete, Extent::paper>("image.extent", [](auto& s) { return &s.image.extent; }),
 
     plain("legend.shown", [](auto& s) { return &s.legend.within; }),
@@ -181,6 +200,8 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
     letter_height("annotations.label_size", [](auto& s) { return &s.annotations.letters.labels; }),
     letter_height("annotations.scale_bar_size", [](auto& s) { return &s.annotations.letters.scale_bar; }),
     letter_height("annotations.panel_size", [](auto& s) { return &s.annotations.letters.panel; }),
+    plain("annotations.font", [](auto& s) { return &s.annotations.letters.font.family; }),
+    plain("annotations.font_file", [](auto& s) { return &s.annotations.letters.font.file; }),
     coded<auto_or_color, hex_color>("annotations.letter_color", [](auto& s) { return &s.annotations.letters.color; }),
     plain("annotations.panel", [](auto& s) { return &s.annotations.panel; }),
     plain("annotations.title", [](auto& s) { return &s.annotations.title; }),

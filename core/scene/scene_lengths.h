@@ -65,7 +65,7 @@ Written written_length(const Property& property, const Scene& scene, const std::
 /// Returns the size in pixels that lengths of sides give. If only one side is given, the picture has the default aspect
 /// ratio.
 glm::ivec2 size_by_lengths(const Scene& scene);
-/// True if the size of the picture is size_by_lengths().
+/// True if the size of the picture is size_by_lengths(), except for a height that follows from the molecule.
 bool has_lengths_of_sides(const Scene& scene);
 
 }  // namespace meniscus::scene_values

@@ -18,6 +18,7 @@
 #include "core/color/color_schemes.h"
 #include "core/scene/figure_key.h"
 #include "core/scene/frozen_selections.h"
+#include "core/scene/scene_lengths.h"
 #include "core/scene/scene_values.h"
 
 namespace meniscus {
@@ -129,7 +130,24 @@ PictureLayout::PictureLayout(const Scene& scene, const ColorKey& key) : size(sce
 }
 
 Strips scene_strips(const Scene& scene, glm::ivec2 size) {
-  return strips_for(strip_contents(scene.annotations, scene.frames.is_requested()), scene.annotations.letters, size);
+  const LetterStyle& letters = scene.annotations.letters;
+  Strips strips = strips_for(strip_contents(scene.annotations, scene.frames.is_requested()), letters, size);
+  // Around a molecule that fills its picture there is no free corner.
+  if (scene.picture.fits && scene.annotations.scale_bar)
+    strips.bottom = std::max(strips.bottom, 3 * LetterHeights(letters, size).scale_bar);
+  return strips;
+}
+
+glm::ivec2 fitted_margin(const Scene& scene, glm::ivec2 size) {
+  constexpr double kMillimetersPerInch = 25.4, kUsual = 2.0;
+  const double dots = scene.picture.dots_per_inch > 0.0 ? scene.picture.dots_per_inch : scene_values::kUsualResolution;
+  glm::ivec2 margin(scene.picture.margin.value_or(static_cast<int>(std::lround(kUsual / kMillimetersPerInch * dots))));
+  if (scene.annotations.labels.empty()) return margin;
+  const LetterStyle& letters = scene.annotations.letters;
+  const Font font(LetterHeights(letters, size).labels, Weight::regular, letters.font);
+  int widest = 0;
+  for (const LabelRequest& label : scene.annotations.labels) widest = std::max(widest, font.width(label.text));
+  return margin + glm::ivec2(std::min(widest + font.height(), size.x / 4), 0);
 }
 
 SurfaceRequest picture_request(const Scene& scene) {
@@ -153,6 +171,9 @@ RenderSettings render_settings(const Scene& scene, const PictureLayout& layout) 
 
 void check_picture(const Scene& scene) {
   scene.figure.check();
+  constexpr int kAnyHeight = 12;
+  if (const FontChoice& font = scene.annotations.letters.font; font != FontChoice())
+    Font(kAnyHeight, Weight::regular, font);  // throws if there is no such font
   const auto has_color = [](const FigureObjectRequest& object) { return object.color.has_value(); };
   if (scene.legend.is_requested() && scene.molecule.color.by == ColorScheme::By::fixed &&
       scene.molecule.color.rules.empty() && std::ranges::none_of(scene.figure.objects, has_color))
@@ -175,6 +196,8 @@ SceneFigure made_figure(const Scene& requested, const EglContext* context) {
     throw RequestError("frames: this makes the picture of one molecule; `meniscus render` makes those of a run");
   if (requested.image.extent)
     throw RequestError("image.extent: this draws the complete surface; `meniscus render` draws without it");
+  if (requested.picture.fits)
+    throw RequestError("image.size, image.height: auto is for pictures of `meniscus render`; give a size");
   Scene scene = prepared_scene(requested);
   freeze_selections(scene);
   scene.molecule.surface.cpu = context == nullptr;

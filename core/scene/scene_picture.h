@@ -37,14 +37,18 @@ struct PictureLayout {
 /// Returns the strips above and below the molecule in a picture of this size, without its legend.
 Strips scene_strips(const Scene& scene, glm::ivec2 size);
 
+/// Returns the margin of a picture that ends at its molecule (ViewRequest::fits), in pixels. At the sides it has room
+/// for labels.
+glm::ivec2 fitted_margin(const Scene& scene, glm::ivec2 size);
+
 /// Returns the request for the surfaces of a picture, with the device on which pictures are made.
 SurfaceRequest picture_request(const Scene& scene);
 
 /// Returns the settings for drawing the molecule's part of the picture.
 RenderSettings render_settings(const Scene& scene, const PictureLayout& layout);
 
-/// Checks a scene before any file is read. Throws RequestError for a legend that has nothing to explain, and for a
-/// picture that shows nothing.
+/// Checks a scene before any file is read. Throws RequestError for a legend that has nothing to explain, for a picture
+/// that shows nothing, and for a font that cannot be used.
 void check_picture(const Scene& scene);
 
 /// Returns a whole picture of the molecule with its annotations and its legend. lacks_labels: unless nullptr, set to

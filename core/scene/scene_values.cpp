@@ -87,7 +87,7 @@ glm::ivec2 size_by_lengths(const Scene& scene) {
 
 bool has_lengths_of_sides(const Scene& scene) {
   return (scene.lengths.contains("image.width") || scene.lengths.contains("image.height")) &&
-         size_by_lengths(scene) == scene.picture.size();
+         (scene.picture.fits || size_by_lengths(scene) == scene.picture.size());
 }
 
 }  // namespace meniscus::scene_values

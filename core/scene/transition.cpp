@@ -99,11 +99,34 @@ void blend(Framebuffer& from, const Framebuffer& to, double share) {
   for (std::size_t n = 0; n < from.color.size(); ++n) from.color[n] = between(from.color[n], to.color[n], share);
 }
 
-/// Lays the second picture over the first; both have premultiplied alpha.
-void lay_over(Framebuffer& picture, const Framebuffer& over) {
-  assert(picture.size == over.size);
-  for (std::size_t n = 0; n < picture.color.size(); ++n)
-    picture.color[n] = over.color[n] + picture.color[n] * (1.0f - over.color[n].w);
+/// The annotations of two pictures.
+struct PartedAnnotations {
+  Annotations common, of_first, of_second;
+};
+
+PartedAnnotations parted(const Annotations& first, const Annotations& second) {
+  PartedAnnotations parts{first, first, second};
+  for (Annotations* const one : {&parts.common, &parts.of_first, &parts.of_second}) one->labels_must_fit = false;
+  const auto part = [&](auto Annotations::*member, bool is_common) {
+    if (is_common)
+      parts.of_first.*member = parts.of_second.*member = {};
+    else
+      parts.common.*member = {};
+  };
+  const auto is_same = [](const PlaceLabel& a, const PlaceLabel& b) {
+    return a.text == b.text && a.position == b.position;
+  };
+  part(&Annotations::panel, first.panel == second.panel);
+  part(&Annotations::title, first.title == second.title);
+  part(&Annotations::time, first.time == second.time);
+  part(&Annotations::scale_bar, first.scale_bar == second.scale_bar && first.bar_length == second.bar_length);
+  part(&Annotations::labels, std::ranges::equal(first.labels, second.labels, is_same));
+  part(&Annotations::curve, false);
+  return parts;
+}
+
+bool are_equal(const std::optional<Legend>& one, const std::optional<Legend>& other) {
+  return one && other && one->texts() == other->texts() && one->boxes() == other->boxes();
 }
 
 }  // namespace
@@ -260,31 +283,50 @@ std::vector<MoleculeShot> Transition::shots(double share) const {
   return shots;
 }
 
-Framebuffer Transition::finished(const Framebuffer& drawn, const Side& side, double share) const {
-  const std::optional<glm::vec3>& background = side.shot.scene.image.background;
-  const Strips strips = place(share).strips;
-  Framebuffer picture = with_margin(drawn, drawn.size + glm::ivec2(0, strips.top + strips.bottom), strips.top, false);
-  Annotations annotations = side.shot.annotations;
-  annotations.labels_must_fit = false;
-  annotate(picture, annotations, camera_of(side, share), background, strips);
-  picture = with_margin(picture, side.shot.scene.picture.size(), 0, false);
-  if (!side.shot.layout->legend) return picture;
+void Transition::write(Framebuffer& picture, const Annotations& annotations, const Side& side, double share,
+                       double weight) const {
+  if (weight <= 0.0 || !annotations.any()) return;
+  Framebuffer written = picture;
+  annotate(written, annotations, camera_of(side, share), side.shot.scene.image.background, place(share).strips);
+  blend(picture, written, weight);
+}
+
+void Transition::add_legend(Framebuffer& picture, const Side& side, double share, double weight) const {
+  const std::optional<Legend>& legend = side.shot.layout->legend;
+  if (!legend || weight <= 0.0) return;
   Framebuffer none;
-  none.size = side.shot.layout->legend->molecule_size();
+  none.size = legend->molecule_size();
   none.color.assign(static_cast<std::size_t>(none.size.x) * none.size.y, glm::vec4(0.0f));
-  lay_over(picture, side.shot.layout->legend->add_to(none, background));
-  return picture;
+  const Framebuffer over = legend->add_to(none, side.shot.scene.image.background);
+  assert(picture.size == over.size);
+  const auto [size, strips] = place(share);
+  const int bottom = strips.top + size.y + strips.bottom;
+  for (int y = 0; y < picture.size.y; ++y)
+    for (int x = y < bottom ? size.x : 0; x < picture.size.x; ++x) {
+      const std::size_t pixel = static_cast<std::size_t>(y) * picture.size.x + x;
+      const glm::vec4 ink = over.color[pixel] * static_cast<float>(weight);
+      picture.color[pixel] = ink + picture.color[pixel] * (1.0f - ink.w);
+    }
 }
 
 Framebuffer Transition::picture(double share, StillRenderer& renderer) {
   const auto drawn = [&](MoleculeShot shot) {
     return draw(renderer, std::move(shot.figure), shot.scene.figure, shot.camera, shot.settings);
   };
-  Framebuffer first = drawn(shot(from_, to_, share));
-  Framebuffer second = is_steady_ ? first : drawn(shot(to_, from_, share));
-  first = finished(first, from_, share);
-  blend(first, finished(second, to_, share), share);
-  return first;
+  Framebuffer picture = drawn(shot(from_, to_, share));
+  if (!is_steady_) blend(picture, drawn(shot(to_, from_, share)), share);
+  const Strips strips = place(share).strips;
+  picture = with_margin(picture, picture.size + glm::ivec2(0, strips.top + strips.bottom), strips.top, false);
+  const double first = 1.0 - 2.0 * share, second = -first;
+  const auto [common, of_first, of_second] = parted(from_.shot.annotations, to_.shot.annotations);
+  write(picture, common, share < 0.5 ? from_ : to_, share, 1.0);
+  write(picture, of_first, from_, share, first);
+  write(picture, of_second, to_, share, second);
+  picture = with_margin(picture, from_.shot.scene.picture.size(), 0, false);
+  const bool has_one_legend = are_equal(from_.shot.layout->legend, to_.shot.layout->legend);
+  add_legend(picture, from_, share, has_one_legend ? 1.0 : 1.0 - 4.0 * share);
+  if (!has_one_legend) add_legend(picture, to_, share, 4.0 * share - 3.0);
+  return picture;
 }
 
 std::optional<glm::vec3> Transition::background(double share) const {

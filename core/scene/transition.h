@@ -72,7 +72,9 @@ Look look_between(const Look& from, const Look& to, double share);
 /// A transition between two shots. The probe's radius, radii of sticks and tubes, cut planes, the camera, and the
 /// numbers of the look change steadily. All other differences dissolve: both scenes are drawn with the same camera and
 /// the same numbers, and their pictures are blended in linear light. So an object that only one of them has fades in or
-/// out, and common objects stay. The legend's part of the picture grows or shrinks steadily.
+/// out, and common objects stay. The legend's part of the picture grows or shrinks steadily. Texts of the first scene
+/// fade out in the first half of the way, and texts of the second scene fade in in the second half; legends do so in
+/// the first and in the last quarter, and are never over the molecule's part. Common texts and legends stay.
 class Transition {
  public:
   /// Both shots must have pictures of one size. context: computes surfaces on GL again; nullptr: on the CPU.
@@ -104,7 +106,8 @@ class Transition {
   Place place(double share) const;
   Camera camera_of(const Side& side, double share) const;
   MoleculeShot shot(const Side& side, const Side& other, double share) const;
-  Framebuffer finished(const Framebuffer& drawn, const Side& side, double share) const;
+  void write(Framebuffer& picture, const Annotations& annotations, const Side& side, double share, double weight) const;
+  void add_legend(Framebuffer& picture, const Side& side, double share, double weight) const;
 
   Side from_, to_;
   std::vector<Ball> balls_;  ///< balls of both sides, grown to the farthest extent of a surface

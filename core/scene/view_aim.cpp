@@ -3,12 +3,15 @@
 #include "core/scene/view_aim.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <unordered_map>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/queries/copies.h"
+#include "core/render/annotation.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/representations.h"
@@ -142,6 +145,28 @@ std::vector<Ball> ViewAim::framed(const Structure& structure) const {
   const std::vector<Ball> extras = framed_extras(structure);
   balls.insert(balls.end(), extras.begin(), extras.end());
   return balls;
+}
+
+PictureFit picture_fit(Camera camera, glm::ivec2 size, int height, std::span<const Ball> balls, glm::ivec2 margin) {
+  const ViewBasis basis = view_basis(camera);
+  const double focus = glm::distance(camera.position, camera.target);
+  glm::dvec2 reach(0.0);  // from the middle of the picture, Å at the target
+  for (const Ball& ball : balls) {
+    const glm::dvec3 to = ball.center - camera.position;
+    const auto edge = [&](double side, double depth) {
+      if (camera.projection == Projection::orthographic) return side + ball.radius;
+      return focus * std::tan(std::atan2(side, depth) + std::asin(ball.radius / std::hypot(side, depth)));
+    };
+    const double depth = glm::dot(to, basis.forward);
+    reach.x = std::max(reach.x, edge(std::abs(glm::dot(to, basis.right)), depth));
+    reach.y = std::max(reach.y, edge(std::abs(glm::dot(to, basis.up)), depth));
+  }
+  reach /= angstroms_per_pixel(camera, size);
+  const double zoom = std::max(1.0, size.x - 2.0 * margin.x) / (2.0 * reach.x), share = height / (zoom * size.y);
+  const double half = camera.vertical_fov * std::numbers::pi / 360.0;
+  camera.vertical_fov = 360.0 / std::numbers::pi * std::atan(std::tan(half) * share);
+  camera.height *= share;
+  return {camera, static_cast<int>(std::lround(2.0 * zoom * reach.y)) + 2 * margin.y};
 }
 
 bool sees_nothing(const Camera& camera, double aspect, const Structure& structure, double probe) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/camera/view_request.h"
@@ -56,6 +57,16 @@ class ViewAim {
   bool frames_all_ = true;            ///< true if no atoms were selected to fill the picture
   std::optional<glm::dvec3> symmetry_;
 };
+
+/// The camera of a picture that ends at its balls, and the height that the picture should have, in pixels.
+struct PictureFit {
+  Camera camera;
+  int height;
+};
+
+/// Returns the fit of a picture in which the balls leave a margin, in pixels, at each side. camera: of a picture of
+/// this size, whose middle is that of the balls. height: of the new picture, which has the same width.
+PictureFit picture_fit(Camera camera, glm::ivec2 size, int height, std::span<const Ball> balls, glm::ivec2 margin);
 
 /// True if it is certain, before any surface is computed, that a picture by this camera shows nothing of the structure.
 /// probe: the greatest distance of a surface from its atoms, Å.

@@ -61,7 +61,7 @@ endmacro()
 debian_package(program meniscus
   SECTION science
   DEPENDS "libegl1, libgl1"
-  RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, fonts-dejavu-core, ffmpeg, povray, povray-includes, blender"
+  RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, fonts-liberation2 | fonts-liberation, fonts-dejavu-core, ffmpeg, povray, povray-includes, blender"
   CONTROL ${CMAKE_CURRENT_LIST_DIR}/program/postinst ${CMAKE_CURRENT_LIST_DIR}/program/prerm
   DESCRIPTION "Exact, analytic solvent-excluded surfaces of molecules on the GPU
 Meniscus computes the solvent-excluded surface of a molecule exactly: as

@@ -124,7 +124,7 @@ CONTEXTS = {
     "dry": ["{one.pdb}", "--trajectory", "{dry.pdb}"],
     "curve": ["{run.pdb}", "--frames", "all", "--curve", "{curve.csv}"],
     "assembly": ["{one.pdb}", "--assembly", "1"], "hollow": ["{hollow.pdb}"],
-    "exr": ["{one.pdb}"], "clip": ["{one.pdb}", "--clip", "depth>0.5"], "clip sticks": ["{one.pdb}", "--sticks", "chain A", "--clip", "depth>0.5"], "seen through": ["{one.pdb}", "--opacity", "0.4"],
+    "exr": ["{one.pdb}"], "tiff": ["{one.pdb}"], "auto": ["{one.pdb}", "--width", "64px", "--height", "auto"], "clip": ["{one.pdb}", "--clip", "depth>0.5"], "clip sticks": ["{one.pdb}", "--sticks", "chain A", "--clip", "depth>0.5"], "seen through": ["{one.pdb}", "--opacity", "0.4"],
     "shapes": ["{one.pdb}", "--sticks", "chain A"], "sticks": ["{one.pdb}", "--sticks", "chain A", "--hide-surface"],
     "ring": ["{rings.pdb}", "--opacity", "0.1"], "covered ring": ["{rings.pdb}"],
     "tube": ["{one.pdb}", "--tube", "protein", "--hide-surface"],
@@ -146,7 +146,7 @@ CONTEXTS = {
     "pixels": ["{one.pdb}", "--tolerance-pixels", "2"], "choice": ["{one.pdb}", "--select", "chain A"],
     "pocket fit": ["{cups.pdb}", "--frames", "all", "--csv", "p.csv", "--superpose", "name CA"],
     "cup": ["{cup.pdb}"], "pocket run": ["{cups.pdb}", "--frames", "all", "--csv", "p.csv"], "pocket mesh": ["{cup.pdb}", "--mesh", "p.ply"], "pocket figure": ["{cup.pdb}", "--figure", "p.json"],
-    "panels": ["{a.json}", "{b.json}"], "panels legend": ["{a.json}", "{b.json}", "--legend", "--one-scale"],
+    "panels": ["{a.json}", "{b.json}"], "panels tiff": ["{a.json}", "{b.json}", "--background", "white"], "panels legend": ["{a.json}", "{b.json}", "--legend", "--one-scale"],
     "panels scale": ["{a.json}", "{b.json}", "--one-scale"],
     "panels length": ["{a.json}", "{b.json}", "--width", "20mm"], "panels chains": ["{chains.json}", "--legend"],
     "panels camera": ["{a.json}", "{b.json}", "--one-camera"],
@@ -180,7 +180,7 @@ ROWS = {
     "--color-column": ("second", "table"), "--map": ("magma", "number"), "--map-file": ("{ramp.txt}", "number"),
     "--color-range": ("0:99", "number"), "--color-map-file": ("{map.dx}", "range"), "--map-offset": ("2", "volume"),
     "--color-title": ("Heat", "legend"), "--color-unit": ("K", "legend"), "--missing-color": ("red", "some numbers"),
-    "--size": ("48x30", "plain"), "--dpi": ("90", "plain"), "--width": ("5mm", "plain"), "--height": ("5mm", "plain"),
+    "--size": ("48x30", "plain"), "--margin": ("9", "auto"), "--tiff-compression": ("lzw", "tiff"), "--tiff-bits": ("8", "tiff"), "--dpi": ("90", "plain"), "--width": ("5mm", "plain"), "--height": ("5mm", "plain"),
     "--camera": ("{camera.json}", "plain"), "--projection": ("orthographic", "plain"), "--view": ("top", "plain"),
     "--turn": ("y40", "plain"), "--zoom-to": ("chain B", "plain"), "--look-into": ("chain B", "plain"), "--preset": ("soft", "plain"),
     "--light": ("1,0,1", "plain"), "--light-strength": ("3", "plain"), "--ambient": ("0.1", "plain"),
@@ -192,6 +192,7 @@ ROWS = {
     "--depth-cue": ("1", "plain"), "--linear-alpha": (None, "plain"), "--samples": ("3", "plain"),
     "--background": ("white", "plain"), "--legend": (None, "number"), "--legend-file": ("legend.png", "number"),
     "--legend-name": ("A=Alpha", "named legend"), "--letter-size": ("7", "legend"), "--letter-color": ("red", "legend"),
+    "--font": ("DejaVu Sans Mono", "legend"), "--font-file": ("/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf", "legend"),
     "--label-size": ("7", "label"), "--scale-bar-size": ("7", "bar"), "--panel-size": ("8", "panel"),
     "--legend-title": ("Heat", "legend"), "--legend-size": ("7", "legend"), "--legend-place": ("below", "legend"),
     "--panel": ("B", "plain"), "--title": ("One", "plain"), "--scale-bar": ("5", "plain"), "--label": ("resid 9=Here", "plain"),
@@ -213,6 +214,7 @@ ROWS = {
 RARE = {
     **{option: ("render", "preview") for option in ("--outer-lines", "--inner-lines", "--part-lines", "--linear-alpha")},
     "--legend-place": ("render", "preview", "panels", "film"),
+    "--tiff-compression": ("render", "panels"), "--tiff-bits": ("render", "panels"),
     **{option: ("render",) for option in ("--curve-column", "--stats")},
     "--any-cost": ("render", "film", "panels"),
     **{option: ("render", "film", "farm bundle") for option in ("--bits", "--chroma")},
@@ -244,12 +246,15 @@ OWN_ROWS = {
         ("--height", "10mm", "panels"), ("--dpi", "90", "panels length"), ("--legend", None, "panels scale"),
         ("--legend-title", "Heat", "panels legend"), ("--legend-size", "7", "panels legend"),
         ("--legend-place", "below", "panels legend"), ("--legend-name", "A=Alpha", "panels chains"),
-        ("--letter-size", "7", "panels"), ("--letter-color", "red", "panels"))},
+        ("--letter-size", "7", "panels"), ("--letter-color", "red", "panels"), ("--font", "DejaVu Sans Mono", "panels"),
+        ("--font-file", "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf", "panels"), ("--tiff-compression", "lzw", "panels tiff"),
+        ("--tiff-bits", "8", "panels tiff"))},
     **{("film", option): (value, context) for option, value, context in (
         ("--hold", "0.08", "story"), ("--transition", "0.12", "story"), ("--ease", "even", "story"), ("--to", "povray", "story"), ("--draft", None, "story"), ("--size", "40x20", "story"),
         ("--samples", "3", "story"), ("--background", "white", "story"), ("--legend", None, "story"),
         ("--legend-title", "Heat", "story legend"), ("--legend-size", "7", "story legend"), ("--legend-place", "below", "story legend"),
         ("--legend-name", "A=Alpha", "story chains"), ("--letter-size", "7", "story legend"), ("--letter-color", "red", "story legend"),
+        ("--font", "DejaVu Sans Mono", "story legend"), ("--font-file", "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf", "story legend"),
         ("--fps", "10", "story film"), ("--codec", "h265", "story film"), ("--crf", "40", "story film"), ("--bits", "10", "story film"),
         ("--chroma", "444", "story film"), ("--progress", "json", "story"))},
     ("morph", "--select"): ("chain A", "path"), ("morph", "--superpose-on"): ("name CB or backbone and chain A", "path"),
@@ -285,8 +290,8 @@ EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--
 
 def output_of(command, context):
     of_run = "--frames" in CONTEXTS[context] or "--trajectory" in CONTEXTS[context]
-    return {"film": "a.mp4" if context == "story film" else "a_#.png", "render": "a.mp4" if context == "film" else "a.exr" if context == "exr" else "a_#.png" if of_run else "a.png", "export mesh": "a.usda" if context == "usd" else "a_#.glb" if of_run else "a.glb",
-            "panels": "a.png", "morph": "a.pdb", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export vdb": "a_#.vdb" if of_run else "a.vdb", "export page": "a.html", "export mvs": "a.mvsx", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
+    return {"film": "a.mp4" if context == "story film" else "a_#.png", "render": "a.mp4" if context == "film" else "a.exr" if context == "exr" else "a.tif" if context == "tiff" else "a_#.png" if of_run else "a.png", "export mesh": "a.usda" if context == "usd" else "a_#.glb" if of_run else "a.glb",
+            "panels": "a.tif" if context == "panels tiff" else "a.png", "morph": "a.pdb", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export vdb": "a_#.vdb" if of_run else "a.vdb", "export page": "a.html", "export mvs": "a.mvsx", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
 
 
 def options_of(command):

@@ -126,6 +126,23 @@ TEST(Annotations, LabelsLeadToTheirPlacesAndDoNotMeet) {
   EXPECT_EQ(extent(written(one)).z, 0);
 }
 
+TEST(Annotations, LabelsKeepALetterFromTheBorder) {
+  Annotations corners;
+  for (const double x : {-18.0, 18.0})
+    for (const double y : {-13.0, 13.0}) corners.labels.push_back({"Ser 48", {x, y, 0.0}});
+  const AnnotationLayer layer(corners, kOrthographic, kSize, std::nullopt);
+  int texts = 0;
+  for (const InkStroke& stroke : layer.strokes())
+    if (const auto* const text = std::get_if<InkText>(&stroke)) {
+      ++texts;
+      EXPECT_GE(text->place.x, text->height);
+      EXPECT_LE(text->place.x + layer.font_of(*text).width(text->text), kSize.x - text->height);
+      EXPECT_GE(text->place.y - text->height / 2, text->height);
+      EXPECT_LE(text->place.y + text->height / 2, kSize.y - text->height);
+    }
+  EXPECT_EQ(texts, 4);
+}
+
 TEST(Annotations, LabelsThatHaveNoRoomAreRefusedOrLeftOut) {
   Annotations crowd;
   crowd.scale_bar = true;

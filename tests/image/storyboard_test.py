@@ -111,6 +111,33 @@ class Storyboards(unittest.TestCase):
         self.assertEqual(int((film[0][strip] < 200).sum()), 0)
         self.assertGreater(int((last[strip] < 200).sum()), 20)
 
+    def test_titles_are_not_read_over_each_other(self):
+        for name, title in (("one", "HHHH"), ("two", "oooo"), ("three", "oooo")):
+            self.scene(name, "--title", title, "--color", "white", "--preset", "flat", "--outer-lines", "0", "--inner-lines", "0")
+        self.scene("none", "--title", " ", "--color", "white", "--preset", "flat", "--outer-lines", "0", "--inner-lines", "0")
+        bare, first, second = (pixels_of(self.folder / f"{name}.png") for name in ("none", "one", "two"))
+        strip = numpy.s_[:12]
+        changed = [abs(picture - bare).max(axis=2)[strip] for picture in (first, second)]
+        own = [(changed[0] > 60) & (changed[1] == 0), (changed[1] > 60) & (changed[0] == 0)]
+        for scenes, words in ((["one.json", "two.json"], own), (["two.json", "three.json"], [own[1]])):
+            film = self.film(*scenes, "--hold", "0", "--transition", "0.4", "--force")
+            shown = [[abs(picture - bare).max(axis=2)[strip][pixels].mean() > 8 for pixels in words] for picture in film]
+            if len(words) == 2:
+                self.assertNotIn([True, True], shown)
+                self.assertEqual((shown[0], shown[-1]), ([True, False], [False, True]))
+            else:
+                self.assertNotIn([False], shown, "a title of both stays")
+
+    def test_a_legend_is_not_over_the_molecule(self):
+        look = ["--preset", "flat", "--color", "chain", "--projection", "orthographic"]
+        self.scene("one", *look)
+        last = self.scene("two", *look, "--legend")
+        film = self.film("one.json", "two.json", "--hold", "0", "--transition", "0.4", "--ease", "even")
+        legend = numpy.nonzero((last[:, -24:] < 200).any(axis=2).any(axis=0))[0]
+        self.assertGreater(len(legend), 3)
+        for picture in film[:len(film) // 2]:
+            self.assertEqual(int((picture[:, -6:] < 250).sum()), 0, "no legend yet")
+
     def test_a_scene_with_a_run_shows_its_frames(self):
         self.scene("run", "--frames", "all", "--color", "chain", molecule="run.pdb")
         last = self.scene("two", "--color", "red")

@@ -49,6 +49,7 @@ Texts example_of(const Property& property) {
       {"image.size", {"640x480"}},
       {"image.width", {"85mm"}},
       {"image.height", {"3.5in"}},
+      {"image.margin", {"3mm"}},
       {"image.background", {"#102030"}},
       {"image.extent", {"visible"}},
       {"camera.view", {"-symmetry"}},

@@ -77,12 +77,15 @@ class SurfaceValues(TypedDict, total=False):
     comments: bool
     #: WORD: Projection of the camera: perspective or orthographic [perspective]
     projection: Literal["perspective", "orthographic"]
-    #: WxH: Size of the picture in pixels [1280x960; film 1920x1080, .gif 960x540]
+    #: WxH: Size of the picture in pixels; auto: as high as the molecule [1280x960; film 1920x1080, .gif
+    #: 960x540]
     size: Text
     #: LENGTH: Width of the picture: 85mm, 8.5cm, 3.5in or 1000px
     width: Text
-    #: LENGTH: Height of the picture in the same units
+    #: LENGTH: Height of the picture in the same units; auto: that of the molecule
     height: Text
+    #: LENGTH: Margin around the molecule of size=auto and height=auto [2mm]
+    margin: Text
     #: N: Resolution of the picture in dots per inch [300 for lengths]
     dpi: float
     #: N: Rays per pixel, for smooth edges [9]
@@ -97,6 +100,10 @@ class SurfaceValues(TypedDict, total=False):
     cryptomatte: bool
     #: WORD: Primaries of the colours of an .exr: rec709, those of sRGB, or acescg [rec709]
     color_space: Literal["rec709", "acescg"]
+    #: WORD: Compression of a .tif: none, lzw or zip [zip]
+    tiff_compression: Literal["none", "lzw", "zip"]
+    #: N: Bits per channel of a .tif: 8 or 16 [16]
+    tiff_bits: Literal["8", "16"]
     #: WORD: Part of the surface that the GPU computes: visible, complete or paper. visible: what this view
     #: needs, for the same picture; complete: everything, by the same method; paper: as Krone et al. 2010 select
     #: it, where deep clefts may have holes
@@ -343,6 +350,10 @@ class SceneValues(SurfaceValues, total=False):
     #: SIZE: Height of all letters that have no size of their own: pixels, 8pt or 3mm [by the size of the
     #: picture]
     letter_size: Text
+    #: NAME: Font of all letters: an installed family, such as DejaVu Sans [Liberation Sans, else DejaVu Sans]
+    font: Text
+    #: FILE: Font of all letters: a .ttf or .otf file
+    font_file: Path
     #: SIZE: Height of the letters of labels [that of letter_size]
     label_size: Text
     #: SIZE: Height of the letters of the scale bar [that of letter_size]
