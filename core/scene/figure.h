@@ -13,6 +13,7 @@
 
 #include "core/camera/camera.h"
 #include "core/mesh/velocity.h"
+#include "core/render/annotation.h"
 #include "core/render/picture.h"
 #include "core/scene/cut.h"
 #include "core/scene/figure_object.h"
@@ -95,10 +96,15 @@ struct FigureExtras {
   std::vector<Ball> balls() const;
 };
 
+/// Returns the lengths of the dashed lines in `extras`, which were made of this structure: "2.9 Å".
+std::vector<PlaceLabel> lengths_of(const FigureExtras& extras, const Structure& structure);
+
 /// Everything in a figure, ready to be drawn.
 struct Figure {
   Molecule molecule;
   FigureExtras extras;
+
+  std::vector<PlaceLabel> lengths() const { return lengths_of(extras, molecule.structure); }
 
   /// Returns balls for framing: the atoms of the surface at all their places, and balls around everything else that is
   /// drawn.

@@ -2,7 +2,11 @@
 // Takes the atoms of each object by their marks, and computes its surface as if they were alone.
 #include "core/scene/figure_object.h"
 
+#include <string>
+#include <string_view>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -11,6 +15,8 @@
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/surface_computer.h"
 #include "core/scene/surface_objects.h"
+#include "core/shapes/dashes.h"
+#include "core/structure/hydrogen_bonds.h"
 
 namespace meniscus {
 namespace {
@@ -44,11 +50,53 @@ SurfaceObject surface_of(const FigureObjectRequest& request, const Structure& al
   return object;
 }
 
+ColorScheme one_color(const glm::vec3& color) {
+  ColorScheme scheme;
+  scheme.by = ColorScheme::By::fixed;
+  scheme.fixed = color;
+  return scheme;
+}
+
+/// Finds the pairs of atoms that dashed lines join, and draws them. partners: nothing: all atoms that are drawn.
+void add_dashes(const FigureObjectRequest& request, const Structure& all, const std::vector<bool>& selected,
+                std::optional<std::vector<bool>> partners, FigureObject& object) {
+  if (!partners) {
+    partners.emplace();
+    for (const Atom& atom : all.atoms) partners->push_back(atom.shown != 1u << kHiddenCompanion);
+  }
+  if (request.shapes == RepresentationRequest::Kind::hydrogen_bonds)
+    object.pairs = hydrogen_bonds(all.atoms, selected, *partners);
+  else if (const std::optional<Bond> pair = closest_pair(all.atoms, selected, *partners))
+    object.pairs.push_back(*pair);
+  object.shapes.shapes = dashes(all.atoms, object.pairs, request.radius.value_or(kDashRadius));
+}
+
 }  // namespace
+
+FigureObjectRequest parse_dashes(RepresentationRequest::Kind kind, std::string_view text) {
+  constexpr std::string_view kTo = " to ";
+  const auto side = [](std::string_view part) -> std::optional<Selection> {
+    try {
+      return parse_selection(part);
+    } catch (const SelectionError&) {
+      return {};
+    }
+  };
+  // Selections have ranges such as "resid 5 to 10", so both sides must be selections.
+  for (std::size_t at = text.find(kTo); at != std::string_view::npos; at = text.find(kTo, at + 1)) {
+    const std::optional<Selection> atoms = side(text.substr(0, at)), partners = side(text.substr(at + kTo.size()));
+    if (atoms && partners) return {.atoms = *atoms, .shapes = kind, .partners = partners};
+  }
+  if (kind == RepresentationRequest::Kind::hydrogen_bonds) return {.atoms = parse_selection(text), .shapes = kind};
+  if (const std::size_t last = text.rfind(kTo); last != std::string_view::npos)
+    for (const std::string_view part : {text.substr(0, last), text.substr(last + kTo.size())})
+      parse_selection(part);  // one of them throws an error that says what is wrong
+  throw RequestError(in_quotes(std::string(text)) + " is not EXPR to EXPR, such as 'ligand to resid 25'");
+}
 
 ColorScheme scheme_of(const FigureObjectRequest& request, const Structure& structure, std::size_t shown,
                       const ColorScheme& scheme) {
-  ColorScheme own = request.color ? *request.color : scheme;
+  ColorScheme own = request.color ? *request.color : request.is_dashed() ? one_color(kDashColor) : scheme;
   if (request.is_companion && own.by != ColorScheme::By::element) own.by = ColorScheme::By::element_cpk;
   if (request.color && own.uses_file()) own.set_numbers(scheme.file);
   if (request.color && request.shapes) own.by = scheme_of_shapes(own.by, *request.shapes);
@@ -89,14 +137,16 @@ std::vector<FigureObjectRequest> all_requests(std::span<const FigureObjectReques
 void mark_atoms(std::span<const FigureObjectRequest> objects, ReadOptions& reading) {
   if (!objects.empty() && reading.copy_mode == CopyMode::instances)
     throw RequestError(message("@instances@: copies of one surface cannot be drawn with other objects; leave it out"));
-  if (reading.shown.size() + objects.size() > kMostShown)
-    throw RequestError(message("@object@: at most {} sets of atoms are drawn beside a surface", kMostShown));
   for (const FigureObjectRequest& object : objects) {
-    reading.shown.push_back({"object", object.atoms, object.shapes && draws_each_atom(*object.shapes)});
+    const std::string option = object.is_dashed() ? shape_word(*object.shapes) : "object";
+    reading.shown.push_back({option, object.atoms, object.shapes && draws_each_atom(*object.shapes)});
+    if (object.partners) reading.shown.push_back({option, *object.partners});
     if (object.shapes == RepresentationRequest::Kind::backbone ||
         (object.color && object.color->uses(ColorScheme::By::secondary)))
       reading.secondary_structure = true;
   }
+  if (reading.shown.size() > kMostShown)
+    throw RequestError(message("@object@: at most {} sets of atoms are drawn beside a surface", kMostShown));
 }
 
 std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> objects, const Structure& structure,
@@ -104,11 +154,14 @@ std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> obje
   std::vector<FigureObject> made;
   if (objects.empty() && structure.companions != Companions::drawn) return made;
   const Structure all = structure_of_shown(structure);
-  for (std::size_t n = 0; n < objects.size(); ++n) {
-    const FigureObjectRequest& request = objects[n];
-    const std::vector<bool> selected = marked_atoms(all, first_mark + n);
+  std::size_t mark = first_mark;
+  for (const FigureObjectRequest& request : objects) {
+    const std::vector<bool> selected = marked_atoms(all, mark++);
     FigureObject& object = made.emplace_back();
-    if (request.shapes)
+    if (request.is_dashed())
+      add_dashes(request, all, selected, request.partners ? std::optional(marked_atoms(all, mark++)) : std::nullopt,
+                 object);
+    else if (request.shapes)
       object.shapes.shapes = shapes_of_atoms(
           all, *request.shapes, selected, *structure.shown_bonds,
           {*request.shapes == RepresentationRequest::Kind::backbone ? std::nullopt : request.radius, request.radius});

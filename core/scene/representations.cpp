@@ -64,6 +64,8 @@ Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>&
       return found(all, sugar_symbols(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, kind,
                    "sugar");
     case Kind::spheres:
+    case Kind::hydrogen_bonds:  // shapes of pairs of atoms, made by make_objects()
+    case Kind::distance:
       break;
   }
   return spheres(all, selected);

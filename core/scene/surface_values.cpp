@@ -180,11 +180,31 @@ void read_objects(const Property&, Texts texts, Scene& scene) {
   }
 }
 
+/// True if an object is what --hydrogen-bonds or --distance draws.
+bool is_plainly_dashed(const FigureObjectRequest& object) {
+  return object.is_dashed() && figure_object_json(object).size() == 2;
+}
+
 Written write_objects(const Property&, const Scene& scene) {
   Written texts;
   for (const FigureObjectRequest& object : scene.figure.objects)
-    texts.push_back(figure_object_json(object).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    if (!is_plainly_dashed(object))
+      texts.push_back(figure_object_json(object).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   return texts;
+}
+
+template <Shape kind>
+constexpr SceneValue dashed(std::string_view key) {
+  return {key,
+          [](const Property&, Texts texts, Scene& scene) {
+            for (const std::string& text : texts) scene.figure.objects.push_back(parse_dashes(kind, text));
+          },
+          [](const Property&, const Scene& scene) {
+            Written texts;
+            for (const FigureObjectRequest& object : scene.figure.objects)
+              if (object.shapes == kind && is_plainly_dashed(object)) texts.push_back(object.text());
+            return texts;
+          }};
 }
 
 constexpr auto kSurfaceRows = std::to_array<SceneValue>({
@@ -228,6 +248,8 @@ constexpr auto kSurfaceRows = std::to_array<SceneValue>({
     shapes<Shape::backbone>("figure.tube"),
     shapes<Shape::bases>("figure.bases"),
     shapes<Shape::sugar_symbols>("figure.glycans"),
+    dashed<Shape::hydrogen_bonds>("figure.hydrogen_bonds"),
+    dashed<Shape::distance>("figure.distance"),
     plain("shapes.stick_radius", [](auto& s) { return &s.figure.representations.stick_radius; }),
     plain("shapes.tube_radius", [](auto& s) { return &s.figure.representations.tube_radius; }),
     {"figure.object", read_objects, write_objects},

@@ -40,7 +40,7 @@ COMMANDS["--ligand"] = ["pockets", "{file}", "--assembly", "1", "--ligand", "{}"
 # They mean atoms of a trajectory, before there are copies, or are refused with --assembly.
 BEFORE_COPIES = {"--trajectory-atoms", "--superpose", "--center", "--superpose-on", "--context"}
 # Copies as instances cannot be drawn so.
-NOT_OF_INSTANCES = {"--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans", "--object", "--interface"}
+NOT_OF_INSTANCES = {"--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans", "--object", "--interface", "--hydrogen-bonds", "--distance"}
 
 
 def turn(degrees):

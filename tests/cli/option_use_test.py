@@ -23,7 +23,8 @@ HOW = {"--threads", "--jobs", "--serve", "--token-file", "--device", "--require-
 # They say what to do with something that a file may hold, and are right to be silent where it does not.
 POLICIES = {"--unknown-element", "--missing-color", "--altloc", "--hydrogens", "--keep-water", "--keep-ions", "--whole",
             "--select-once", "--cavities", "--instances", "--min-volume", "--cap-color", "--cap-hatching",
-            "--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans", "--object"}
+            "--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans", "--object",
+            "--hydrogen-bonds", "--distance"}
 
 
 def pdb(atoms, record="ATOM"):
