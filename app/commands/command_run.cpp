@@ -136,12 +136,9 @@ void FigureRun::log_missing_lines() const {
   const std::vector<FigureObjectRequest>& objects = scene().figure.objects;
   for (std::size_t n = 0; n < objects.size(); ++n)
     if (objects[n].is_dashed() && ((lines_ >> n) & 1u) == 0)
-      log_line(command_,
-               fmt::format(
-                   "note: {} draws nothing{}: no atoms {}; water counts where it is drawn or selected",
-                   option_name(fmt::format("{} {}", shape_word(*objects[n].shapes), in_quotes(objects[n].text()))),
-                   frames_ ? " in any frame" : "",
-                   objects[n].shapes == RepresentationRequest::Kind::distance ? "are apart" : "form hydrogen bonds"));
+      log_line(command_, fmt::format("note: {} finds no atoms to join{}; water counts where it is drawn or selected",
+                                     option_name(shape_word(*objects[n].shapes)) + " " + in_quotes(objects[n].text()),
+                                     frames_ ? " in any frame" : ""));
 }
 
 namespace {

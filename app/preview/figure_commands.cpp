@@ -102,14 +102,10 @@ Outcome set_patches(const CommandReader& command, PreviewState state, const Surr
 
 Outcome represent(const CommandReader& command, PreviewState state, const Surroundings&) {
   using Kind = RepresentationRequest::Kind;
-  const Kind kind = static_cast<Kind>(command.choice("as", shapes_of_one_set()));
+  constexpr std::array<Kind, 6> kKinds{Kind::sticks, Kind::balls_and_sticks, Kind::spheres, Kind::backbone,
+                                       Kind::bases,  Kind::sugar_symbols};
+  const Kind kind = kKinds[command.choice("as", {"sticks", "balls", "spheres", "tube", "bases", "glycans"})];
   require_room_for_set(command, state.figure);
-  if (draws_dashes(kind)) {
-    std::vector<FigureObjectRequest>& objects = state.figure.objects;
-    objects.push_back(command.naming([&] { return parse_dashes(kind, command.text("selection")); }));
-    const std::size_t index = objects.size() - 1;
-    return with_shapes(state, {{"index", index}});
-  }
   std::vector<RepresentationRequest>& requests = state.figure.representations.requests;
   requests.push_back({kind, command.selection()});
   const std::size_t index = requests.size() - 1;

@@ -206,7 +206,7 @@ Json get_choices(const CommandReader&, const Surroundings& around) {
           {"actions", actions},
           {"presets", words_of(property_of("look.preset"))},
           {"sliders", look_sliders()},
-          {"representations", shapes_of_one_set()}};
+          {"representations", {"sticks", "balls", "spheres", "tube", "bases", "glycans"}}};
 }
 
 glm::ivec2 pixel_of(const CommandReader& command, const PreviewState& state) {

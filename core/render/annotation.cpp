@@ -294,28 +294,25 @@ class Writer {
     return false;
   }
 
-  /// Writes the lengths of dashed lines beside their middles. A length is left out if all places for it are taken.
+  /// Writes the lengths of dashed lines beside their middles. A length is left out if both places for it are taken.
   void lengths(const std::vector<PlaceLabel>& labels) {
     const int em = std::max(kLeastTitle, 3 * heights_.labels / 4);
     const PixelBox room{{0, strips_.top}, {size_.x, size_.y - strips_.bottom}};
     for (std::size_t n = 0; n < labels.size(); ++n) {
-      if (!labels[n].is_length()) continue;
       const std::optional<glm::dvec2> middle = place_of(labels[n].position),
-                                      end = place_of(labels[n].position + 0.5 * labels[n].along);
-      if (!middle || !end) continue;
+                                      end = place_of(labels[n].position + labels[n].along);
+      if (!labels[n].is_length() || !middle || !end || *middle == *end) continue;
       const glm::dvec2 way = *end - *middle, half = 0.5 * glm::dvec2(fonts_.at(em).width(labels[n].text), em);
-      const glm::dvec2 across =
-          glm::length(way) > 0.0 ? glm::normalize(glm::dvec2(-way.y, way.x)) : glm::dvec2(0.0, 1.0);
-      const double apart = glm::dot(glm::abs(across), half) + 0.4 * em;
-      for (const glm::dvec2 shift : {apart * across, -apart * across, way + apart * across, way - apart * across,
-                                     -way + apart * across, -way - apart * across}) {
-        const glm::ivec2 low(glm::round(*middle + shift - half)), high = low + glm::ivec2(2.0 * half);
-        const PixelBox box = PixelBox{low, high}.grown(em / 6);
-        if (glm::clamp(low, room.low, room.high) != low || glm::clamp(high, room.low, room.high) != high) continue;
-        if (std::ranges::any_of(taken_, [&](const PixelBox& taken) { return taken.meets(box); })) continue;
+      const glm::dvec2 across = glm::normalize(glm::dvec2(way.y, -way.x)) * (way.x < 0.0 ? -1.0 : 1.0);
+      for (const double side : {1.0, -1.0}) {
+        const glm::dvec2 place = *middle + side * (glm::dot(glm::abs(across), half) + 0.4 * em) * across;
+        const PixelBox box = PixelBox{glm::ivec2(place - half), glm::ivec2(place + half)}.grown(em / 6);
+        const auto meets = [&](const PixelBox& taken) { return taken.meets(box); };
+        if (marks_[n] != kNotDrawn || glm::max(box.low, room.low) != box.low ||
+            glm::min(box.high, room.high) != box.high || std::ranges::any_of(taken_, meets))
+          continue;
         marks_[n] = strokes_.size();
-        write({labels[n].text, {low.x, (low.y + high.y) / 2}, em});
-        break;
+        write({labels[n].text, glm::ivec2(place.x - half.x, place.y), em});
       }
     }
   }

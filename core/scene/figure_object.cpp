@@ -3,10 +3,7 @@
 #include "core/scene/figure_object.h"
 
 #include <string>
-#include <string_view>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -15,7 +12,6 @@
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/surface_computer.h"
 #include "core/scene/surface_objects.h"
-#include "core/shapes/dashes.h"
 #include "core/structure/hydrogen_bonds.h"
 
 namespace meniscus {
@@ -50,53 +46,42 @@ SurfaceObject surface_of(const FigureObjectRequest& request, const Structure& al
   return object;
 }
 
-ColorScheme one_color(const glm::vec3& color) {
-  ColorScheme scheme;
-  scheme.by = ColorScheme::By::fixed;
-  scheme.fixed = color;
-  return scheme;
-}
-
 /// Finds the pairs of atoms that dashed lines join, and draws them. partners: nothing: all atoms that are drawn.
 void add_dashes(const FigureObjectRequest& request, const Structure& all, const std::vector<bool>& selected,
-                std::optional<std::vector<bool>> partners, FigureObject& object) {
-  if (!partners) {
-    partners.emplace();
-    for (const Atom& atom : all.atoms) partners->push_back(atom.shown != 1u << kHiddenCompanion);
-  }
+                std::vector<bool> partners, FigureObject& object) {
+  for (const Atom& atom : all.atoms)
+    if (!request.partners) partners.push_back(atom.shown != 1u << kHiddenCompanion);
   if (request.shapes == RepresentationRequest::Kind::hydrogen_bonds)
-    object.pairs = hydrogen_bonds(all.atoms, selected, *partners);
-  else if (const std::optional<Bond> pair = closest_pair(all.atoms, selected, *partners))
+    object.pairs = hydrogen_bonds(all, selected, partners);
+  else if (const std::optional<Bond> pair = closest_pair(all.atoms, selected, partners))
     object.pairs.push_back(*pair);
-  object.shapes.shapes = dashes(all.atoms, object.pairs, request.radius.value_or(kDashRadius));
+  object.shapes.shapes = dashes(all, object.pairs, request.radius.value_or(kDashRadius));
 }
 
 }  // namespace
 
 FigureObjectRequest parse_dashes(RepresentationRequest::Kind kind, std::string_view text) {
   constexpr std::string_view kTo = " to ";
-  const auto side = [](std::string_view part) -> std::optional<Selection> {
-    try {
-      return parse_selection(part);
-    } catch (const SelectionError&) {
-      return {};
-    }
-  };
-  // Selections have ranges such as "resid 5 to 10", so both sides must be selections.
   for (std::size_t at = text.find(kTo); at != std::string_view::npos; at = text.find(kTo, at + 1)) {
-    const std::optional<Selection> atoms = side(text.substr(0, at)), partners = side(text.substr(at + kTo.size()));
-    if (atoms && partners) return {.atoms = *atoms, .shapes = kind, .partners = partners};
+    const std::string_view left = text.substr(0, at), right = text.substr(at + kTo.size());
+    try {
+      return {.atoms = parse_selection(left), .shapes = kind, .partners = parse_selection(right)};
+    } catch (const SelectionError&) {
+      continue;  // "to" may be part of a range, as in "resid 5 to 10"
+    }
   }
   if (kind == RepresentationRequest::Kind::hydrogen_bonds) return {.atoms = parse_selection(text), .shapes = kind};
-  if (const std::size_t last = text.rfind(kTo); last != std::string_view::npos)
-    for (const std::string_view part : {text.substr(0, last), text.substr(last + kTo.size())})
-      parse_selection(part);  // one of them throws an error that says what is wrong
-  throw RequestError(in_quotes(std::string(text)) + " is not EXPR to EXPR, such as 'ligand to resid 25'");
+  throw RequestError(in_quotes(text) + " is not EXPR to EXPR, such as 'ligand to resid 25'");
 }
 
 ColorScheme scheme_of(const FigureObjectRequest& request, const Structure& structure, std::size_t shown,
                       const ColorScheme& scheme) {
-  ColorScheme own = request.color ? *request.color : request.is_dashed() ? one_color(kDashColor) : scheme;
+  ColorScheme own = request.color ? *request.color : scheme;
+  if (request.is_dashed() && !request.color) {
+    own.by = ColorScheme::By::fixed;
+    own.fixed = kDashColor;
+    own.rules.clear();
+  }
   if (request.is_companion && own.by != ColorScheme::By::element) own.by = ColorScheme::By::element_cpk;
   if (request.color && own.uses_file()) own.set_numbers(scheme.file);
   if (request.color && request.shapes) own.by = scheme_of_shapes(own.by, *request.shapes);
@@ -159,8 +144,7 @@ std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> obje
     const std::vector<bool> selected = marked_atoms(all, mark++);
     FigureObject& object = made.emplace_back();
     if (request.is_dashed())
-      add_dashes(request, all, selected, request.partners ? std::optional(marked_atoms(all, mark++)) : std::nullopt,
-                 object);
+      add_dashes(request, all, selected, request.partners ? marked_atoms(all, mark++) : std::vector<bool>(), object);
     else if (request.shapes)
       object.shapes.shapes = shapes_of_atoms(
           all, *request.shapes, selected, *structure.shown_bonds,

@@ -113,6 +113,7 @@ Structure structure_of_shown(const Structure& structure) {
   all.file = structure.file;
   all.report = structure.report;
   all.chains = structure.chains;
+  all.added = structure.added;
   all.frame = structure.frame;
   all.atoms = shown_atoms(structure);
   return all;

@@ -3,7 +3,6 @@
 // colours.
 #pragma once
 
-#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,9 +26,6 @@ struct RepresentationRequest {
 inline constexpr const char* kShapeWords[] = {"sticks", "balls",   "spheres",        "tube",
                                               "bases",  "glycans", "hydrogen_bonds", "distance"};
 constexpr const char* shape_word(RepresentationRequest::Kind kind) { return kShapeWords[static_cast<int>(kind)]; }
-
-/// Returns the words of the shapes that are made of one set of atoms.
-inline std::vector<std::string> shapes_of_one_set() { return {std::begin(kShapeWords), std::end(kShapeWords) - 1}; }
 
 /// True if a shape consists of dashed lines. They are objects of their own (FigureObjectRequest).
 constexpr bool draws_dashes(RepresentationRequest::Kind kind) {

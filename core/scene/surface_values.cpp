@@ -180,31 +180,21 @@ void read_objects(const Property&, Texts texts, Scene& scene) {
   }
 }
 
-/// True if an object is what --hydrogen-bonds or --distance draws.
-bool is_plainly_dashed(const FigureObjectRequest& object) {
-  return object.is_dashed() && figure_object_json(object).size() == 2;
-}
-
 Written write_objects(const Property&, const Scene& scene) {
   Written texts;
   for (const FigureObjectRequest& object : scene.figure.objects)
-    if (!is_plainly_dashed(object))
-      texts.push_back(figure_object_json(object).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    texts.push_back(figure_object_json(object).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   return texts;
 }
 
+/// Returns the value of dashed lines, which are written as objects.
 template <Shape kind>
 constexpr SceneValue dashed(std::string_view key) {
   return {key,
           [](const Property&, Texts texts, Scene& scene) {
             for (const std::string& text : texts) scene.figure.objects.push_back(parse_dashes(kind, text));
           },
-          [](const Property&, const Scene& scene) {
-            Written texts;
-            for (const FigureObjectRequest& object : scene.figure.objects)
-              if (object.shapes == kind && is_plainly_dashed(object)) texts.push_back(object.text());
-            return texts;
-          }};
+          [](const Property&, const Scene&) { return Written(); }};
 }
 
 constexpr auto kSurfaceRows = std::to_array<SceneValue>({

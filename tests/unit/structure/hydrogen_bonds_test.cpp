@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <random>
 #include <set>
 #include <string>
 #include <utility>
@@ -21,9 +22,7 @@ namespace meniscus {
 namespace {
 
 /// Atoms of ligands that get their residues and places in the order in which they are added.
-struct Molecules {
-  std::vector<Atom> atoms;
-
+struct Molecules : Structure {
   std::uint32_t add(std::uint32_t residue, std::uint8_t element, glm::dvec3 position, const char* name = "X") {
     Atom& atom = atoms.emplace_back();
     atom.position = position;
@@ -39,7 +38,7 @@ struct Molecules {
 
   std::vector<Bond> bonds() const {
     const std::vector<bool> all(atoms.size(), true);
-    return hydrogen_bonds(atoms, all, all);
+    return hydrogen_bonds(*this, all, all);
   }
 };
 
@@ -112,11 +111,13 @@ TEST(HydrogenBonds, AreBetweenTwoSetsAndNeverWithinAResidueOrAcrossThreeBonds) {
   waters.add(2, 8, {2.8, 0.0, 0.0});
   waters.add(3, 8, {5.6, 0.0, 0.0});
   EXPECT_EQ(waters.bonds(), (std::vector<Bond>{{0, 1}, {1, 2}})) << "each once, although both may be donors";
-  EXPECT_EQ(hydrogen_bonds(waters.atoms, {true, false, false}, {true, true, true}), (std::vector<Bond>{{0, 1}}));
-  EXPECT_EQ(hydrogen_bonds(waters.atoms, {false, false, true}, {true, true, false}), (std::vector<Bond>{{1, 2}}));
-  EXPECT_TRUE(hydrogen_bonds(waters.atoms, {true, false, false}, {false, false, true}).empty());
+  EXPECT_EQ(hydrogen_bonds(waters, {true, false, false}, {true, true, true}), (std::vector<Bond>{{0, 1}}));
+  EXPECT_EQ(hydrogen_bonds(waters, {false, false, true}, {true, true, false}), (std::vector<Bond>{{1, 2}}));
+  EXPECT_TRUE(hydrogen_bonds(waters, {true, false, false}, {false, false, true}).empty());
   waters.atoms[1].model = 2;
   EXPECT_TRUE(waters.bonds().empty()) << "between models";
+  waters.added.emplace_back();
+  EXPECT_EQ(waters.bonds().size(), 2u) << "between files";
   waters.atoms[1].model = 1;
   waters.atoms[0].residue = waters.atoms[1].residue = waters.atoms[2].residue = 1;
   EXPECT_TRUE(waters.bonds().empty()) << "within a residue";
@@ -127,7 +128,7 @@ TEST(HydrogenBonds, AreBetweenTwoSetsAndNeverWithinAResidueOrAcrossThreeBonds) {
   glycol.add(2, 6, {1.5, 0.0, 0.0});
   glycol.add(2, 8, {2.0, 1.3, 0.0});
   EXPECT_TRUE(glycol.bonds().empty());
-  EXPECT_TRUE(hydrogen_bonds({}, {}, {}).empty());
+  EXPECT_TRUE(Molecules().bonds().empty());
 }
 
 /// Returns the bonds from N to O of the backbone by plain loops: number of the donor's residue, and of the acceptor's.
@@ -164,7 +165,7 @@ TEST(HydrogenBonds, OfTheBackboneOfUbiquitinAreThoseOfPlainLoops) {
   const Structure structure = read_structure(kUbiquitin, {});
   const std::vector<bool> all(structure.atoms.size(), true);
   std::set<std::pair<int, int>> found;
-  for (const auto& [donor, acceptor] : hydrogen_bonds(structure.atoms, all, all)) {
+  for (const auto& [donor, acceptor] : hydrogen_bonds(structure, all, all)) {
     const Atom &d = structure.atoms[donor], &a = structure.atoms[acceptor];
     if (d.name == "N" && a.name == "O") EXPECT_TRUE(found.insert({d.residue_number, a.residue_number}).second);
   }
@@ -174,6 +175,43 @@ TEST(HydrogenBonds, OfTheBackboneOfUbiquitinAreThoseOfPlainLoops) {
        {std::pair(3, 15), {5, 13}, {13, 5}, {15, 3}, {4, 65}, {6, 67}, {67, 4}, {69, 6}, {44, 68}, {68, 44}})
     EXPECT_TRUE(found.contains(pair)) << "sheet, from " << pair.first;
   EXPECT_EQ(found.count({27, 24}), 0u) << "helices have no bonds to the third residue";
+}
+
+std::vector<Atom> atoms_at(const std::vector<glm::dvec3>& places) {
+  std::vector<Atom> atoms(places.size());
+  for (std::size_t n = 0; n < places.size(); ++n) atoms[n].position = places[n];
+  return atoms;
+}
+
+TEST(ClosestPair, IsThatOfAllPairs) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(-9.0, 9.0);
+  for (int turn = 0; turn < 50; ++turn) {
+    std::vector<glm::dvec3> places;
+    std::vector<bool> one, other;
+    for (int n = 0; n < 40; ++n) {
+      places.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+      one.push_back(random() % 3 == 0);
+      other.push_back(random() % 3 == 0);
+    }
+    const std::vector<Atom> atoms = atoms_at(places);
+    double least = 1e9;
+    for (std::size_t a = 0; a < places.size(); ++a)
+      for (std::size_t b = 0; b < places.size(); ++b)
+        if (a != b && one[a] && other[b]) least = std::min(least, glm::distance(places[a], places[b]));
+    const std::optional<Bond> found = closest_pair(atoms, one, other);
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(one[(*found)[0]] && other[(*found)[1]]);
+    EXPECT_DOUBLE_EQ(glm::distance(places[(*found)[0]], places[(*found)[1]]), least);
+  }
+}
+
+TEST(ClosestPair, IsTheFirstOfEqualOnesAndNeedsTwoAtoms) {
+  const std::vector<Atom> atoms = atoms_at({{1.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {5.0, 0.0, 0.0}});
+  EXPECT_EQ(closest_pair(atoms, {true, false, true, true}, {false, true, false, false}), (Bond{0, 1}));
+  EXPECT_EQ(closest_pair(atoms, {false, true, false, false}, {true, true, true, true}), (Bond{1, 0}));
+  EXPECT_FALSE(closest_pair(atoms, {true, false, false, false}, {true, false, false, false}));
+  EXPECT_FALSE(closest_pair(atoms, {false, false, false, false}, {true, true, true, true}));
 }
 
 }  // namespace
