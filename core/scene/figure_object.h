@@ -12,6 +12,7 @@
 #include "core/color/color_schemes.h"
 #include "core/math/ball.h"
 #include "core/queries/surface_object.h"
+#include "core/render/annotation.h"
 #include "core/render/picture.h"
 #include "core/scene/cut.h"
 #include "core/scene/representations.h"
@@ -59,8 +60,8 @@ FigureObjectRequest parse_dashes(RepresentationRequest::Kind kind, std::string_v
 struct FigureObject {
   std::optional<SurfaceObject> surface;
   ColoredShapes shapes;
-  std::vector<Bond> pairs;  ///< atoms that dashed lines join
-  CutAtoms cut_atoms;       ///< atoms of FigureObjectRequest::cuts
+  std::vector<PlaceLabel> lengths;  ///< the length of each dashed line: "2.9 Å"
+  CutAtoms cut_atoms;               ///< atoms of FigureObjectRequest::cuts
 };
 
 /// Makes read_structure mark the atoms of the objects, after the sets that it already marks. Throws RequestError for
