@@ -50,7 +50,7 @@ struct FigureObjectRequest {
 };
 
 /// The colour of dashed lines without a colour of their own, sRGB.
-inline constexpr glm::vec3 kDashColor{0.90f, 0.45f, 0.0f};
+inline constexpr glm::vec3 kDashColor{1.0f, 0.70f, 0.0f};
 
 /// Reads the atoms of dashed lines: "EXPR to EXPR" or, for hydrogen bonds, also "EXPR". Throws RequestError and
 /// SelectionError.
