@@ -156,8 +156,8 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
   SessionContext context;
   context.scene = command.scene;
   context.read_shown = ShownReader(command);
-  context.annotations = [request = command.scene.annotations](const Structure& structure) {
-    return annotations_of(request, structure);
+  context.annotations = [request = command.scene.annotations](const Structure& structure, const FigureExtras* extras) {
+    return annotations_of(request, structure, extras ? extras->lengths() : std::vector<PlaceLabel>());
   };
   context.make_device = [request = command.scene.molecule.surface] { return std::make_unique<PictureDevice>(request); };
   context.make_film = make_film;

@@ -207,6 +207,7 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
     plain("annotations.title", [](auto& s) { return &s.annotations.title; }),
     {"annotations.scale_bar", read_scale_bar, write_scale_bar},
     coded<parse_label, label_text>("annotations.labels", [](auto& s) { return &s.annotations.labels; }),
+    plain("annotations.lengths", [](auto& s) { return &s.annotations.hides_lengths; }),
     plain("annotations.time_stamp", [](auto& s) { return &s.annotations.time_stamp; }),
     plain("annotations.curve", [](auto& s) { return &s.annotations.curve; }),
     plain("annotations.curve_column", [](auto& s) { return &s.annotations.curve_column; }),

@@ -238,15 +238,13 @@ std::vector<Bond> find_shown_bonds(const Structure& structure, const FileContent
     return n < own ? structure.atoms[n] : structure.extra_atoms[n - own];
   };
   std::vector<std::uint32_t> places;
-  for (std::uint32_t n = 0; n < own + structure.extra_atoms.size(); ++n)
-    if (atom(n).shown != 0) places.push_back(n);
-  // Residues must be in the order of the file.
-  std::stable_sort(places.begin(), places.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::pair(atom(a).copy, atom(a).index) < std::pair(atom(b).copy, atom(b).index);
-  });
   std::vector<Atom> shown;
-  for (const std::uint32_t n : places) shown.push_back(atom(n));
-  std::vector<Bond> bonds = molecule_bonds(shown, contents.bonds, contents.fully_bonded);
+  for (std::uint32_t n = 0; n < own + structure.extra_atoms.size(); ++n) {
+    if (atom(n).shown == 0) continue;
+    places.push_back(n);
+    shown.push_back(atom(n));
+  }
+  std::vector<Bond> bonds = bonds_in_any_order(shown, contents.bonds, contents.fully_bonded);
   for (auto& [a, b] : bonds) {
     a = places[a];
     b = places[b];
