@@ -346,6 +346,7 @@ void SceneOptions::take(const std::vector<std::string>& named) {
       !is_given("image.height"))
     size_film(into_.scene);
   into_.scene.molecule.surface.check = check_by_mesh;
+  const Preset& preset = preset_of(into_.scene.look.preset);
   try {
     complete(into_.scene);
   } catch (const ValueError& error) {
@@ -353,8 +354,12 @@ void SceneOptions::take(const std::vector<std::string>& named) {
   }
   settings.insert(settings.end(), typed_by_key.begin(), typed_by_key.end());
   guard_files(settings);
-  const GivenScene given{into_.scene, [this](std::string_view key) { return is_given(key); }, is_live_};
+  const auto has_value = [&](std::string_view key) { return is_given(key) || preset.sets(key); };
+  const GivenScene given{into_.scene, has_value, is_live_};
   std::vector<std::string> sentences;
+  if (preset.sets("camera.zoom_to") && !is_given("camera.zoom_to") && !is_given("camera.look_into"))
+    sentences.push_back(fmt::format("note: --preset {} looks at the first of {}; --zoom-to EXPR names other atoms",
+                                    preset.word, in_quotes(preset.needs)));
   for (SceneNote& note : ineffective_values(given, taken_.needs())) {
     if (note.is_refused) throw UsageError(note.text);
     sentences.push_back(std::move(note.text));
