@@ -158,7 +158,7 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
   context.scene = command.scene;
   context.read_shown = ShownReader(command);
   context.annotations = [request = command.scene.annotations](const Structure& structure, const FigureExtras* extras) {
-    return annotations_of(request, structure, extras ? lengths_of(*extras, structure) : std::vector<PlaceLabel>());
+    return annotations_of(request, structure, extras ? extras->lengths() : std::vector<PlaceLabel>());
   };
   context.make_device = [request = command.scene.molecule.surface] { return std::make_unique<PictureDevice>(request); };
   context.make_film = make_film;

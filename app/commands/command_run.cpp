@@ -122,23 +122,12 @@ void FigureRun::make_one_figure() {
   Structure structure = read_and_log(command_);
   aim_.emplace(command_.scene.picture, command_.scene.molecule.show, structure);
   warn_if_unseen(command_, given_.still, structure);
-  figure_ = noted(make_figure(build_and_log(command_, std::move(structure)), command_.scene.figure));
-}
-
-/// Notes which objects have dashed lines. Called on any thread.
-Figure FigureRun::noted(Figure figure) {
-  for (std::size_t n = 0; n < figure.extras.objects.size(); ++n)
-    if (!figure.extras.objects[n].pairs.empty()) lines_ |= 1u << n;
-  return figure;
-}
-
-void FigureRun::log_missing_lines() const {
-  const std::vector<FigureObjectRequest>& objects = scene().figure.objects;
-  for (std::size_t n = 0; n < objects.size(); ++n)
-    if (objects[n].is_dashed() && ((lines_ >> n) & 1u) == 0)
-      log_line(command_, fmt::format("note: {} finds no atoms to join{}; water counts where it is drawn or selected",
-                                     option_name(shape_word(*objects[n].shapes)) + " " + in_quotes(objects[n].text()),
-                                     frames_ ? " in any frame" : ""));
+  figure_ = make_figure(build_and_log(command_, std::move(structure)), command_.scene.figure);
+  for (std::size_t n = 0; n < scene().figure.objects.size(); ++n)
+    if (const FigureObjectRequest& object = scene().figure.objects[n];
+        object.is_dashed() && figure_->extras.objects[n].lengths.empty())
+      log_line(command_, fmt::format("note: {} {} finds no atoms to join; water counts where it is drawn or selected",
+                                     option_name(shape_word(*object.shapes)), in_quotes(object.text())));
 }
 
 namespace {
@@ -232,7 +221,7 @@ void FigureRun::make(const FigureWork& work, const std::function<Sink()>& make_s
     const Camera& camera = framing_.cameras.front();
     if (make_sink()({0, 0, 0, std::nullopt, std::move(*figure_), camera, {}})().shows_nothing)
       log_line(command_, kShowsNothing);
-    return log_missing_lines();
+    return;
   }
   const std::uint64_t bytes = work.bytes_per_atom * structure().atoms.size() + work.bytes_per_frame;
   const auto builders = frame_builders(*frames_, command_, bytes, work.context);
@@ -241,12 +230,11 @@ void FigureRun::make(const FigureWork& work, const std::function<Sink()>& make_s
     workers.push_back([this, builder, sink = make_sink()](RunFrame frame) {
       const Camera& seen_by = camera(frame.place);
       return sink({frame.number, frame.source, frame.place, frame.time,
-                   noted(make_figure(builder->build(std::move(frame.structure)), scene().figure)), seen_by,
+                   make_figure(builder->build(std::move(frame.structure)), scene().figure), seen_by,
                    std::move(frame.velocities)});
     });
   run_frames(*frames_, command_, std::move(workers));
   warn_beyond_map(command_, builders);
-  log_missing_lines();
 }
 
 void merge_copies(std::vector<SurfaceObject>& objects, bool are_cut) {

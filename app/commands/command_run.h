@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -145,8 +144,6 @@ class FigureRun {
   void open_run(Velocities velocities);
   void make_one_figure();
   void log_ineffective_cuts() const;
-  Figure noted(Figure figure);
-  void log_missing_lines() const;
 
   SceneCommand command_;
   GivenCameras given_;  ///< cameras from files
@@ -155,7 +152,6 @@ class FigureRun {
   RunFraming framing_;
   std::optional<Figure> figure_;  ///< for a single molecule
   std::optional<ViewAim> aim_;
-  std::atomic<std::uint32_t> lines_ = 0;  ///< bit n is set if the n-th object has dashed lines in some figure
 };
 
 /// Merges several copies into one object if planes cut them at different places, or if the copies differ.

@@ -58,7 +58,7 @@ LabelRequest parse_label(std::string_view text);
 std::optional<Curve> curve_of(const AnnotationRequest& request, std::span<const std::uint64_t> frames);
 
 /// Returns the texts and marks in a picture of the structure, without the time. lengths: of its dashed lines, which
-/// follow the requested labels (lengths_of). Throws InputError for a label that selects no atoms.
+/// follow the requested labels. Throws InputError for a label that selects no atoms.
 Annotations annotations_of(const AnnotationRequest& request, const Structure& structure,
                            std::span<const PlaceLabel> lengths = {});
 

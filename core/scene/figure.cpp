@@ -88,17 +88,10 @@ std::vector<Ball> FigureExtras::balls() const {
   return balls;
 }
 
-std::vector<PlaceLabel> lengths_of(const FigureExtras& extras, const Structure& structure) {
-  const auto position = [&](std::size_t atom) {
-    const std::size_t own = structure.atoms.size();
-    return (atom < own ? structure.atoms[atom] : structure.extra_atoms[atom - own]).position;
-  };
+std::vector<PlaceLabel> FigureExtras::lengths() const {
   std::vector<PlaceLabel> lengths;
-  for (const FigureObject& object : extras.objects)
-    for (const auto& [from, to] : object.pairs) {
-      const glm::dvec3 along = 0.5 * (position(to) - position(from));
-      lengths.push_back({fmt::format("{:.1f} Å", 2.0 * glm::length(along)), position(from) + along, false, along});
-    }
+  for (const FigureObject& object : objects)
+    lengths.insert(lengths.end(), object.lengths.begin(), object.lengths.end());
   return lengths;
 }
 

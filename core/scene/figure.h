@@ -13,7 +13,6 @@
 
 #include "core/camera/camera.h"
 #include "core/mesh/velocity.h"
-#include "core/render/annotation.h"
 #include "core/render/picture.h"
 #include "core/scene/cut.h"
 #include "core/scene/figure_object.h"
@@ -94,17 +93,14 @@ struct FigureExtras {
   bool empty() const { return shapes.empty() && objects.empty(); }
   /// Returns balls around all of it, for framing.
   std::vector<Ball> balls() const;
+  /// Returns the lengths of all dashed lines.
+  std::vector<PlaceLabel> lengths() const;
 };
-
-/// Returns the lengths of the dashed lines in `extras`, which were made of this structure: "2.9 Å".
-std::vector<PlaceLabel> lengths_of(const FigureExtras& extras, const Structure& structure);
 
 /// Everything in a figure, ready to be drawn.
 struct Figure {
   Molecule molecule;
   FigureExtras extras;
-
-  std::vector<PlaceLabel> lengths() const { return lengths_of(extras, molecule.structure); }
 
   /// Returns balls for framing: the atoms of the surface at all their places, and balls around everything else that is
   /// drawn.

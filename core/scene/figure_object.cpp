@@ -5,6 +5,9 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_schemes.h"
@@ -46,16 +49,22 @@ SurfaceObject surface_of(const FigureObjectRequest& request, const Structure& al
   return object;
 }
 
-/// Finds the pairs of atoms that dashed lines join, and draws them. partners: nothing: all atoms that are drawn.
+/// Draws dashed lines. partners: nothing: all atoms that are drawn.
 void add_dashes(const FigureObjectRequest& request, const Structure& all, const std::vector<bool>& selected,
                 std::vector<bool> partners, FigureObject& object) {
   for (const Atom& atom : all.atoms)
     if (!request.partners) partners.push_back(atom.shown != 1u << kHiddenCompanion);
+  std::vector<Bond> pairs;
   if (request.shapes == RepresentationRequest::Kind::hydrogen_bonds)
-    object.pairs = hydrogen_bonds(all, selected, partners);
+    pairs = hydrogen_bonds(all, selected, partners);
   else if (const std::optional<Bond> pair = closest_pair(all.atoms, selected, partners))
-    object.pairs.push_back(*pair);
-  object.shapes.shapes = dashes(all, object.pairs, request.radius.value_or(kDashRadius));
+    pairs.push_back(*pair);
+  object.shapes.shapes = dashes(all, pairs, request.radius.value_or(kDashRadius));
+  for (const auto& [from, to] : pairs) {
+    const glm::dvec3 along = 0.5 * (all.atoms[to].position - all.atoms[from].position);
+    object.lengths.push_back(
+        {fmt::format("{:.1f} Å", 2.0 * glm::length(along)), all.atoms[from].position + along, false, along});
+  }
 }
 
 }  // namespace

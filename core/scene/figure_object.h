@@ -12,6 +12,7 @@
 #include "core/color/color_schemes.h"
 #include "core/math/ball.h"
 #include "core/queries/surface_object.h"
+#include "core/render/annotation.h"
 #include "core/render/picture.h"
 #include "core/scene/cut.h"
 #include "core/scene/representations.h"
@@ -49,7 +50,7 @@ struct FigureObjectRequest {
 };
 
 /// The colour of dashed lines without a colour of their own, sRGB.
-inline constexpr glm::vec3 kDashColor{0.90f, 0.45f, 0.0f};
+inline constexpr glm::vec3 kDashColor{1.0f, 0.70f, 0.0f};
 
 /// Reads the atoms of dashed lines: "EXPR to EXPR" or, for hydrogen bonds, also "EXPR". Throws RequestError and
 /// SelectionError.
@@ -59,8 +60,8 @@ FigureObjectRequest parse_dashes(RepresentationRequest::Kind kind, std::string_v
 struct FigureObject {
   std::optional<SurfaceObject> surface;
   ColoredShapes shapes;
-  std::vector<Bond> pairs;  ///< atoms that dashed lines join
-  CutAtoms cut_atoms;       ///< atoms of FigureObjectRequest::cuts
+  std::vector<PlaceLabel> lengths;  ///< the length of each dashed line: "2.9 Å"
+  CutAtoms cut_atoms;               ///< atoms of FigureObjectRequest::cuts
 };
 
 /// Makes read_structure mark the atoms of the objects, after the sets that it already marks. Throws RequestError for

@@ -210,7 +210,7 @@ Framebuffer scene_picture(const Scene& requested, StillRenderer& renderer, const
   auto [scene, given, aim, figure] = made_figure(requested, context);
   const PictureLayout layout(scene, key_of(figure.molecule, scene.figure, figure.extras));
   const Camera camera = aim.camera(layout.size, given.still, aim.viewed(figure));
-  Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure, figure.lengths());
+  Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure, figure.extras.lengths());
   const Survey survey = survey_of(scene, figure.molecule.structure, camera, layout.size.size(), annotations);
   Framebuffer drawn = draw(renderer, std::move(figure), scene.figure, camera, render_settings(scene, layout), survey);
   return finished_picture(std::move(drawn), annotations, layout, camera, scene.image.background);

@@ -63,7 +63,7 @@ Shapes dashes(const Structure& structure, std::span<const Bond> pairs, double ra
     const double count = std::round(2.0 * glm::length(along));
     for (double n = 0.0; n < count; n += 1.0) {
       const std::uint32_t atom = 2.0 * n + 1.0 <= count ? a : b;
-      const glm::dvec3 from = begin + (n + 0.25) / count * along, to = begin + (n + 0.75) / count * along;
+      const glm::dvec3 from = begin + (n + 0.34) / count * along, to = begin + (n + 0.66) / count * along;
       shapes.cylinders.push_back({from, to, radius, atom, atom});
       shapes.spheres.insert(shapes.spheres.end(), {{from, radius, atom}, {to, radius, atom}});
     }

@@ -49,7 +49,7 @@ struct Shapes {
 /// The default radius of sticks in Å, as in most programs.
 inline constexpr double kStickRadius = 0.25;
 inline constexpr double kThinStickRadius = 0.15;
-inline constexpr double kDashRadius = 0.08;
+inline constexpr double kDashRadius = 0.1;
 /// The radius of balls as a share of the van der Waals radius.
 inline constexpr double kBallShare = 0.25;
 

@@ -147,8 +147,6 @@ class Dashes(unittest.TestCase):
             self.assertIn(expected, done.stderr)
         done = self.made("render", "apart.pdb", "-o", "a.png", "--force", "--size", "64x48", "--hydrogen-bonds", "all")
         self.assertIn("note: --hydrogen-bonds 'all' finds no atoms to join;", done.stderr)
-        done = self.made("render", "models.pdb", "-o", "n_#.png", "--size", "64x48", "--frames", "2", "--hydrogen-bonds", "all")
-        self.assertIn("finds no atoms to join in any frame", done.stderr)
         done = self.made("render", "pair.pdb", "-o", "a.png", "--force", "--size", "64x48", "--hide-lengths")
         self.assertIn("--hide-lengths", done.stderr)
         self.assertIn("no dashed lines", done.stderr)

@@ -80,6 +80,11 @@ def rings():
     return "\n".join(pdb(atoms, "HETATM") + ["END", ""])
 
 
+def pair():
+    """Two oxygens with a hydrogen bond."""
+    return "\n".join(pdb([("O1", " ", "ALC", "A", 1, 0.0, 0.0, 0.0, "O"), ("O1", " ", "KET", "B", 2, 2.8, 0.0, 0.0, "O")], "HETATM") + ["END", ""])
+
+
 def potential():
     """A volume map around the molecule that falls along x."""
     values = "\n".join(f"{0.3 * x - 2.0:.3f}" for x in range(14) for _ in range(14 * 14))
@@ -95,7 +100,7 @@ def camera(x):
 INPUTS = {
     "one.pdb": molecule(1), "run.pdb": molecule(4), "other.pdb": molecule(3, 0.9), "dry.pdb": molecule(3, water=False),
     "broken.pdb": molecule(3, broken=True), "moved.pdb": molecule(1, shift=9.0), "odd.pdb": molecule(1).replace(" H\n", " Q\n").replace(" H   ALA", " Q   ALA"),
-    "rings.pdb": rings(), "cup.pdb": sphere(lid=False), "hollow.pdb": sphere(lid=True), "cups.pdb": sphere(False, 3), "map.dx": potential(),
+    "rings.pdb": rings(), "pair.pdb": pair(), "cup.pdb": sphere(lid=False), "hollow.pdb": sphere(lid=True), "cups.pdb": sphere(False, 3), "map.dx": potential(),
     "numbers.csv": "chain,number,first,second\nA,1,1.0,7\nA,2,2.0,5\nB,1,3.0,1\n",
     "plain.txt": "A 1 1.0\nA 2 2.0\nB 1 3.0\n", "ramp.txt": "#ff0000\n#00ff00\n#0000ff\n", "radii.txt": "ALA CA 2.5\n",
     "curve.csv": "frame,time,area,volume\n" + "".join(f"{n},{n},{n * n},{5 - n}\n" for n in range(4)),
@@ -128,6 +133,8 @@ CONTEXTS = {
     "exr": ["{one.pdb}"], "clip": ["{one.pdb}", "--clip", "depth>0.5"], "clip sticks": ["{one.pdb}", "--sticks", "chain A", "--clip", "depth>0.5"], "seen through": ["{one.pdb}", "--opacity", "0.4"],
     "shapes": ["{one.pdb}", "--sticks", "chain A"], "sticks": ["{one.pdb}", "--sticks", "chain A", "--hide-surface"],
     "ring": ["{rings.pdb}", "--opacity", "0.1"], "covered ring": ["{rings.pdb}"],
+    "pair": ["{pair.pdb}", "--opacity", "0.1"], "covered pair": ["{pair.pdb}"],
+    "dashes": ["{pair.pdb}", "--opacity", "0.1", "--hydrogen-bonds", "all"], "covered dashes": ["{pair.pdb}", "--hydrogen-bonds", "all"],
     "tube": ["{one.pdb}", "--tube", "protein", "--hide-surface"],
     "mesh sticks": ["{one.pdb}", "--sticks", "chain A"], "mesh tube": ["{one.pdb}", "--tube", "protein"],
     "bare": ["{one.pdb}", "--opacity", "0.1"],
@@ -173,6 +180,7 @@ ROWS = {
     "--camera-path": ("{path.json}", "frames"), "--turntable": ("0.4", "frames"), "--follow": ("chain B", "frames"),
     "--sticks": ("chain A", "bare"), "--balls": ("chain A", "bare"), "--spheres": ("chain A", "bare"),
     "--tube": ("protein", "bare"), "--bases": ("resname LIG", "ring"), "--glycans": ("resname NAG", "ring"),
+    "--hydrogen-bonds": ("chain A", "pair"), "--distance": ("chain A to chain B", "pair"), "--hide-lengths": (None, "dashes"),
     "--stick-radius": ("0.7", "sticks"), "--tube-radius": ("0.9", "tube"),
     "--object": ('{"representation": "surface", "selection": "resname LIG", "probe": 3}', "bare"),
     "--hide-surface": (None, "shapes"), "--opacity": ("0.4", "plain"), "--film-opacity": (None, "seen through"),
@@ -263,6 +271,8 @@ for export in ("povray", "blender", "mitsuba", "pbrt", "mvs"):
     OWN_ROWS["export " + export, "--dpi"] = ("90", "length")
 for shape in ("--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans"):
     OWN_ROWS["export page", shape] = (ROWS[shape][0], "covered ring" if shape in ("--bases", "--glycans") else "plain")
+for option, context in (("--hydrogen-bonds", "pair"), ("--distance", "pair"), ("--hide-lengths", "dashes")):
+    OWN_ROWS["export page", option] = (ROWS[option][0], "covered " + context)
 OWN_ROWS["export page", "--background"] = ("black", "plain")
 OWN_ROWS["export page", "--named-view"] = ("Back={camera.json}", "plain")
 OWN_ROWS["export mesh", "--preset"] = ("cover", "plain")
@@ -348,7 +358,7 @@ class OptionUse(unittest.TestCase):
         own = list(SMALL.get(command, []))
         if command in MESHES and "--tolerance-pixels" not in CONTEXTS[context]:
             own += ["--tolerance", "0.5"]
-        if command in SMALL and {"--legend", "--legend-file", "--label"} & {*CONTEXTS[context], option}:
+        if command in SMALL and {"--legend", "--legend-file", "--label", "--hydrogen-bonds"} & {*CONTEXTS[context], option}:
             own[1] = "400x150" if command == "panels" else "200x150"
         excluded = {EXCLUDES.get(word) for word in (option, *CONTEXTS[context])}
         for name in excluded & set(own):

@@ -501,23 +501,23 @@ Structure pair_at(const glm::dvec3& one, const glm::dvec3& other) {
 }
 
 TEST(Dashes, AreEquallyLongWithTheirMiddleInTheMiddleOfTheLine) {
-  const Structure atoms = pair_at({1.0, 2.0, 3.0}, {1.0, 5.0, 3.0});
-  const Shapes shapes = dashes(atoms, std::vector<Bond>{{0, 1}}, 0.1);
+  const Structure pair = pair_at({1.0, 2.0, 3.0}, {1.0, 5.0, 3.0});
+  const Shapes shapes = dashes(pair, std::vector<Bond>{{0, 1}}, 0.1);
   ASSERT_EQ(shapes.cylinders.size(), 6u);  // one each 0.5 Å
   EXPECT_EQ(shapes.spheres.size(), 12u);
   glm::dvec3 middle(0.0);
   double length = 0.0;
   for (const CylinderShape& dash : shapes.cylinders) {
-    EXPECT_NEAR(glm::distance(dash.from, dash.to), 0.25, 1e-12);
+    EXPECT_NEAR(glm::distance(dash.from, dash.to), 0.16, 1e-12);
     EXPECT_EQ(dash.radius, 0.1);
     EXPECT_EQ(dash.from_atom, 0.5 * (dash.from.y + dash.to.y) < 3.5 ? 0u : 1u);
     middle += (dash.from + dash.to) / 12.0;
     length += glm::distance(dash.from, dash.to);
   }
   EXPECT_NEAR(glm::distance(middle, glm::dvec3(1.0, 3.5, 3.0)), 0.0, 1e-12);
-  EXPECT_NEAR(length, 1.5, 1e-12) << "half of the line";
-  EXPECT_NEAR(shapes.cylinders.front().from.y, 2.125, 1e-12);
-  EXPECT_TRUE(dashes(atoms, {}).empty());
+  EXPECT_NEAR(length, 0.96, 1e-12);
+  EXPECT_NEAR(shapes.cylinders.front().from.y, 2.17, 1e-12);
+  EXPECT_TRUE(dashes(pair, {}).empty());
   EXPECT_TRUE(dashes(pair_at({}, {}), std::vector<Bond>{{0, 1}}).empty());
 }
 

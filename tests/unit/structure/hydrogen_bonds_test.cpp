@@ -167,7 +167,8 @@ TEST(HydrogenBonds, OfTheBackboneOfUbiquitinAreThoseOfPlainLoops) {
   std::set<std::pair<int, int>> found;
   for (const auto& [donor, acceptor] : hydrogen_bonds(structure, all, all)) {
     const Atom &d = structure.atoms[donor], &a = structure.atoms[acceptor];
-    if (d.name == "N" && a.name == "O") EXPECT_TRUE(found.insert({d.residue_number, a.residue_number}).second);
+    if (d.name != "N" || a.name != "O") continue;
+    EXPECT_TRUE(found.insert({d.residue_number, a.residue_number}).second);
   }
   EXPECT_EQ(found, plain_backbone_bonds(structure.atoms));
   for (int n = 26; n <= 34; ++n) EXPECT_TRUE(found.contains({n, n - 4})) << "helix, from " << n;
