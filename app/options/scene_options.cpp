@@ -324,8 +324,7 @@ void SceneOptions::take_setting(const SceneSetting& setting) {
 void SceneOptions::take(const std::vector<std::string>& named) {
   std::vector<SceneSetting> settings = read_scene_file(named);
   const std::vector<SceneSetting> typed_by_key = typed_settings();
-  for (const Property* property : properties()) {
-    if (!is_scene_value(*property)) continue;
+  const auto take_values = [&](const Property* property) {
     const bool is_overruled = !typed(property->key) && std::ranges::any_of(properties(), [&](const Property* other) {
       if (other->excluded.empty() || !has_option(*other)) return false;
       const std::vector<std::string> keys = parted(other->excluded);
@@ -335,10 +334,12 @@ void SceneOptions::take(const std::vector<std::string>& named) {
       if (setting.property == property && !is_overruled) take_setting(setting);
     for (const SceneSetting& setting : typed_by_key)
       if (setting.property == property) take_setting(setting);
-    if (!has_option(*property)) continue;
+    if (!has_option(*property)) return;
     if (const std::vector<std::string> texts = typed_texts(*property); !texts.empty() || typed(property->key))
       set(*property, texts);
-  }
+  };
+  for (const Property* property : properties())
+    if (is_scene_value(*property)) take_values(property);
   check_table();
   check_inputs();
   turn_one_molecule();
@@ -352,6 +353,9 @@ void SceneOptions::take(const std::vector<std::string>& named) {
   } catch (const ValueError& error) {
     refuse(error.key(), error.what());
   }
+  for (const PresetSetting& setting : preset.settings)  // a default that is given counts, too
+    if (const Property& property = property_of(setting.key); !property.has(repeatable) && is_given(setting.key))
+      take_values(&property);
   settings.insert(settings.end(), typed_by_key.begin(), typed_by_key.end());
   guard_files(settings);
   const auto has_value = [&](std::string_view key) { return is_given(key) || preset.sets(key); };
