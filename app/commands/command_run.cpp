@@ -127,7 +127,7 @@ void FigureRun::make_one_figure() {
     if (const FigureObjectRequest& object = scene().figure.objects[n];
         object.is_dashed() && figure_->extras.objects[n].lengths.empty())
       log_line(command_, fmt::format("note: {} {} finds no atoms to join; water counts where it is drawn or selected",
-                                     option_name(shape_word(*object.shapes)), in_quotes(object.text())));
+                                     option_name(object.option()), in_quotes(object.text())));
 }
 
 namespace {

@@ -2,7 +2,6 @@
 // Takes the atoms of each object by their marks, and computes its surface as if they were alone.
 #include "core/scene/figure_object.h"
 
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -132,9 +131,8 @@ void mark_atoms(std::span<const FigureObjectRequest> objects, ReadOptions& readi
   if (!objects.empty() && reading.copy_mode == CopyMode::instances)
     throw RequestError(message("@instances@: copies of one surface cannot be drawn with other objects; leave it out"));
   for (const FigureObjectRequest& object : objects) {
-    const std::string option = object.is_dashed() ? shape_word(*object.shapes) : "object";
-    reading.shown.push_back({option, object.atoms, object.shapes && draws_each_atom(*object.shapes)});
-    if (object.partners) reading.shown.push_back({option, *object.partners});
+    reading.shown.push_back({object.option(), object.atoms, object.shapes && draws_each_atom(*object.shapes)});
+    if (object.partners) reading.shown.push_back({object.option(), *object.partners});
     if (object.shapes == RepresentationRequest::Kind::backbone ||
         (object.color && object.color->uses(ColorScheme::By::secondary)))
       reading.secondary_structure = true;

@@ -45,6 +45,10 @@ struct FigureObjectRequest {
   /// True if its colours do not follow the molecule's scheme.
   bool has_own_colors() const { return color.has_value() || is_companion || is_dashed(); }
   bool is_dashed() const { return shapes && draws_dashes(*shapes); }
+  /// Returns the name of the option that requests it, for option_name().
+  std::string option() const {
+    return !is_dashed() ? "object" : *shapes == RepresentationRequest::Kind::distance ? "distance" : "hydrogen-bonds";
+  }
   /// Returns the text of the selection, which parse_dashes() reads.
   std::string text() const { return atoms.text() + (partners ? " to " + partners->text() : ""); }
 };

@@ -71,7 +71,7 @@ def atoms(moved=0.0):
                 found.append((name, "ALA", chain, n + 1, 24.0 + 3.6 * n + dx, y + (moved if chain == "B" else 0.0), dz))
     found += ring("N1 C2 N3 C4 C5 C6", "U", "B", 9, (28.0, 13.0 + moved, 0.0))
     found += ring("C1 C2 C3 C4 C5 O5", "NAG", "B", 10, (35.0, 13.0 + moved, 0.0))
-    found.append(("O1", "ALC", "B", 11, 37.2, 4.6 + moved, -4.0))
+    found.append(("O1", "LGA", "B", 11, 37.2, 4.6 + moved, -4.0))
     return [f"ATOM  {serial:5d}  {name:<3} {residue:>3} {chain}{number:4d}    {x:8.3f}{y:8.3f}{z:8.3f}  1.00 20.00          {name[0]:>2}"
             for serial, (name, residue, chain, number, x, y, z) in enumerate(found, 1)]
 

@@ -82,7 +82,7 @@ def rings():
 
 def pair():
     """Two oxygens with a hydrogen bond."""
-    return "\n".join(pdb([("O1", " ", "ALC", "A", 1, 0.0, 0.0, 0.0, "O"), ("O1", " ", "KET", "B", 2, 2.8, 0.0, 0.0, "O")], "HETATM") + ["END", ""])
+    return "\n".join(pdb([("O1", " ", "LGA", "A", 1, 0.0, 0.0, 0.0, "O"), ("O1", " ", "LGB", "B", 2, 2.8, 0.0, 0.0, "O")], "HETATM") + ["END", ""])
 
 
 def potential():

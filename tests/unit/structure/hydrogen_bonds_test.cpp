@@ -22,7 +22,7 @@ namespace meniscus {
 namespace {
 
 /// Atoms of ligands that get their residues and places in the order in which they are added.
-struct Molecules : Structure {
+struct FewMolecules : Structure {
   std::uint32_t add(std::uint32_t residue, std::uint8_t element, glm::dvec3 position, const char* name = "X") {
     Atom& atom = atoms.emplace_back();
     atom.position = position;
@@ -49,7 +49,7 @@ glm::dvec3 towards(double degrees, double length) {
 
 /// An alcohol with its hydrogen, and a carbonyl at this distance (Å) and angle (degrees) of the hydrogen.
 std::vector<Bond> alcohol_and_carbonyl(double distance, double angle) {
-  Molecules both;
+  FewMolecules both;
   both.add(1, 6, towards(110.0, 1.42));
   both.add(1, 8, {});
   const glm::dvec3 hydrogen(0.96, 0.0, 0.0), oxygen = hydrogen + towards(180.0 - angle, distance);
@@ -69,7 +69,7 @@ TEST(HydrogenBonds, WithHydrogensHaveTheLimitsOfBakerAndHubbard) {
 
 /// An alcohol without its hydrogen, and a carbonyl at this distance (Å), with these angles at the two oxygens.
 std::vector<Bond> heavy_pair(double distance, double at_donor, double at_acceptor, double donor_bond = 1.42) {
-  Molecules both;
+  FewMolecules both;
   both.add(1, 6, towards(at_donor, donor_bond));
   both.add(1, 8, {});
   both.add(2, 8, {distance, 0.0, 0.0});
@@ -89,7 +89,7 @@ TEST(HydrogenBonds, WithoutHydrogensHaveTheDistanceAndTheAnglesAtBothEnds) {
 
 /// An amide nitrogen at the origin, with the direction of its hydrogen along x, and water at a place.
 std::vector<Bond> amide_and_water(const glm::dvec3& water) {
-  Molecules both;
+  FewMolecules both;
   const std::uint32_t carbon = both.add(1, 6, towards(120.0, 1.33));
   both.add(1, 8, both.atoms[carbon].position + towards(60.0, 1.23));
   both.add(1, 6, towards(240.0, 1.46));
@@ -106,7 +106,7 @@ TEST(HydrogenBonds, OfPlanarNitrogenHaveTheHydrogenInItsPlane) {
 }
 
 TEST(HydrogenBonds, AreBetweenTwoSetsAndNeverWithinAResidueOrAcrossThreeBonds) {
-  Molecules waters;
+  FewMolecules waters;
   waters.add(1, 8, {0.0, 0.0, 0.0});
   waters.add(2, 8, {2.8, 0.0, 0.0});
   waters.add(3, 8, {5.6, 0.0, 0.0});
@@ -122,13 +122,13 @@ TEST(HydrogenBonds, AreBetweenTwoSetsAndNeverWithinAResidueOrAcrossThreeBonds) {
   waters.atoms[0].residue = waters.atoms[1].residue = waters.atoms[2].residue = 1;
   EXPECT_TRUE(waters.bonds().empty()) << "within a residue";
   // O-C-C-O in two residues.
-  Molecules glycol;
+  FewMolecules glycol;
   glycol.add(1, 8, {-0.5, 1.3, 0.0});
   glycol.add(1, 6, {0.0, 0.0, 0.0});
   glycol.add(2, 6, {1.5, 0.0, 0.0});
   glycol.add(2, 8, {2.0, 1.3, 0.0});
   EXPECT_TRUE(glycol.bonds().empty());
-  EXPECT_TRUE(Molecules().bonds().empty());
+  EXPECT_TRUE(FewMolecules().bonds().empty());
 }
 
 /// Returns the bonds from N to O of the backbone by plain loops: number of the donor's residue, and of the acceptor's.

@@ -290,6 +290,11 @@ class SceneValues(SurfaceValues, total=False):
     #: EXPR: Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours:
     #: color=snfg
     glycans: Union[Text, Sequence[Text]]
+    #: EXPR: Draw hydrogen bonds of these atoms as dashed lines, with lengths. 'EXPR to EXPR': only those
+    #: between two sets. Water counts where it is drawn or selected
+    hydrogen_bonds: Union[Text, Sequence[Text]]
+    #: EXPR to EXPR: Draw the smallest distance of two sets of atoms as a dashed line
+    distance: Union[Text, Sequence[Text]]
     #: Draw no ligands and ions beside the surface of a polymer. Objects that are named stay
     bare: bool
     #: Å: Radius of sticks in Å, also of bases and between glycans [0.25; 0.15 between balls]
@@ -354,6 +359,8 @@ class SceneValues(SurfaceValues, total=False):
     letter_color: Text
     #: EXPR=TEXT: Write TEXT at these atoms, with a line to their centre. Repeatable
     label: Union[Text, Sequence[Text]]
+    #: Write no lengths beside dashed lines
+    hide_lengths: bool
     #: Write the time of each frame in ps, ns or µs, or else its number
     time_stamp: bool
     #: FILE.csv: Draw a curve of the run from a CSV table, with a mark at each frame. Such tables are written by
