@@ -163,11 +163,16 @@ void run(const DeclaredPanels& declared) {
   make_page(declared.state, panels, arrangement_of(declared, panels.front().scene));
 }
 
-/// True if what a look needs is among the atoms of the surface and those drawn in addition to it.
-bool is_possible(const Preset& preset, const Scene& scene, const Structure& structure) {
-  if (preset.needs.empty() || (scene.picture.zoom_to && preset.sets("camera.zoom_to"))) return true;
-  const std::vector<bool> found = parse_selection(preset.needs).evaluate(shown_atoms(structure));
-  return std::ranges::find(found, true) != found.end();
+/// Returns the selection that a look needs and that has no atoms among all that are drawn; empty: it has what it needs.
+std::string lacking(const Preset& preset, const Scene& scene, const Structure& structure) {
+  if (preset.needs.empty()) return {};
+  const bool is_elsewhere = scene.picture.zoom_to && preset.sets("camera.zoom_to");
+  for (const std::string_view needed : {std::string_view("polymer"), preset.needs}) {
+    const std::vector<bool> found = parse_selection(needed).evaluate(shown_atoms(structure));
+    if (std::ranges::find(found, true) == found.end() && (needed == "polymer" || !is_elsewhere))
+      return std::string(needed);
+  }
+  return {};
 }
 
 /// Makes the page of a molecule in each look that it can have. The word of a look takes the place of a letter.
@@ -182,8 +187,8 @@ void run_looks(DeclaredPanels& declared) {
   const Structure structure = read_and_log(reading);
   std::vector<SceneCommand> panels;
   for (const Preset& preset : kPresets) {
-    if (!is_possible(preset, scene, structure)) {
-      log_line(page, fmt::format("{} is left out: no atom is {}", preset.word, in_quotes(preset.needs)));
+    if (const std::string lack = lacking(preset, scene, structure); !lack.empty()) {
+      log_line(page, fmt::format("{} is left out: no atom is {}", preset.word, in_quotes(lack)));
       continue;
     }
     SceneCommand& panel = panels.emplace_back(page);
