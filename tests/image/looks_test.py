@@ -126,7 +126,7 @@ class Looks(unittest.TestCase):
         self.run_program("render", "1hpv.pdb", "--frames", "0", *WRITTEN_OUT["ghost"], *SMALL, "-o", "g_#.png")
         self.assert_same(frame, pixels_of(self.folder / "g_0.png"))
         self.run_program("farm", "bundle", "b", "--", "render", "1hpv.pdb", "--frames", "0", "--preset", "ghost", *SMALL[:-1])
-        self.run_program("work", "b", "-q")
+        self.run_program("work", "b")
         self.assert_same(pixels_of(next((self.folder / "b").rglob("frame*.png"))), frame)
 
     def test_the_preview_has_them(self):
