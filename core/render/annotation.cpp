@@ -294,7 +294,7 @@ class Writer {
     return false;
   }
 
-  /// Writes the lengths of dashed lines beside their middles. A length is left out if both places for it are taken.
+  /// Writes the lengths of dashed lines next to their middles. A length is left out if both places for it are taken.
   void lengths(const std::vector<PlaceLabel>& labels) {
     const int em = std::max(kLeastTitle, 3 * heights_.labels / 4);
     const PixelBox room{{0, strips_.top}, {size_.x, size_.y - strips_.bottom}};

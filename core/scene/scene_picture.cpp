@@ -74,21 +74,22 @@ void find_seen(std::vector<Sought>& sought, const std::vector<Atom>& atoms, cons
         one.is_seen || std::ranges::any_of(one.atoms, [&](std::uint32_t a) { return seen.contains(atoms[a].index); });
 }
 
-/// Hides the lengths of dashed lines that lie behind what the picture shows at three points of each.
+/// Hides the lengths of dashed lines that lie behind what the picture shows at three points.
 void hide_lengths(std::span<PlaceLabel> labels, const Camera& camera, const Framebuffer& picture) {
-  constexpr double kInFront = 0.5;  // Å; the dashes themselves are nearer
+  constexpr double kInFront = 0.2;  // Å; the dashes themselves are in front of their middle
   const glm::dvec3 forward = view_basis(camera).forward;
-  const auto is_behind = [&](const glm::dvec3& point) {
+  const auto is_seen = [&](const glm::dvec3& point) {
     const glm::ivec2 pixel(place_in_picture(camera, glm::dvec2(picture.size), point));
-    if (glm::clamp(pixel, glm::ivec2(0), picture.size - 1) != pixel) return false;
+    if (glm::clamp(pixel, glm::ivec2(0), picture.size - 1) != pixel) return true;
     const glm::dvec3 way = point - camera.position;
     const double depth = camera.projection == Projection::orthographic ? glm::dot(way, forward) : glm::length(way);
-    return picture.z[static_cast<std::size_t>(pixel.y) * picture.size.x + pixel.x] < depth - kInFront;
+    return picture.z[static_cast<std::size_t>(pixel.y) * picture.size.x + pixel.x] >= depth - kInFront;
   };
-  for (PlaceLabel& label : labels)
-    label.is_hidden = label.is_length() ? is_behind(label.position) && is_behind(label.position + 0.5 * label.along) &&
-                                              is_behind(label.position - 0.5 * label.along)
-                                        : label.is_hidden;
+  for (PlaceLabel& label : labels) {
+    if (!label.is_length()) continue;
+    const glm::dvec3 part = 0.5 * label.along;
+    label.is_hidden = !is_seen(label.position) && !is_seen(label.position + part) && !is_seen(label.position - part);
+  }
 }
 
 /// Returns the end of a sentence: the turns after which some of the atoms are visible.

@@ -90,9 +90,6 @@ class Dashes(unittest.TestCase):
         self.assertEqual(self.dashes(self.picture("--hide-surface", "--distance", "resname LGA to resname LGB", "--hide-lengths")), DASHES)
         other = self.picture("--hide-surface", "--distance", "name C1 to resid 2", "--hide-lengths")
         self.assertGreater(self.dashes(other), DASHES, "3.6 Å")
-        page = self.made("export", "page", "pair.pdb", "-o", "a.html", "-q", "--distance", "name C1 to name C2", "--hydrogen-bonds", "all")
-        self.assertEqual(page.stderr, "")
-        self.assertEqual(set(re.findall(r"\d\.\d Å", (self.folder / "a.html").read_text())), {"2.8 Å", "4.6 Å"})
 
     def test_objects_have_their_own_colour_and_radius(self):
         own = {"representation": "hydrogen_bonds", "selection": "resname LGA", "color": "blue", "radius": 0.3}
@@ -103,16 +100,12 @@ class Dashes(unittest.TestCase):
 
     def test_a_bond_that_breaks_is_gone_in_the_frames_without_it(self):
         done = self.made("render", "models.pdb", "--frames", "all", "-o", "f_#.png", *SMALL, "--background", "white", *BONDS,
-                         "--hide-lengths", "--camera", self.camera())
+                         "--hide-lengths", "--sticks", "all")
         self.assertEqual(done.stderr, "")
         counts = [self.dashes(self.pixels(f"f_{n}.png")) for n in range(3)]
         self.assertEqual(counts, [6, 6, 0])
         lengths = self.pixels("f_0.png"), self.pixels("f_1.png")
         self.assertTrue((lengths[0] != lengths[1]).any())
-
-    def camera(self):
-        self.made("render", "pair.pdb", "-o", "c.png", *SMALL, "--hide-surface", "--sticks", "all", "--save-camera", "c.json")
-        return "c.json"
 
     def test_exports_have_the_dashes(self):
         self.made("export", "povray", "pair.pdb", "-o", "pov", "-q", *BONDS)
@@ -123,6 +116,10 @@ class Dashes(unittest.TestCase):
         for renderer in ("mitsuba", "pbrt"):
             self.made("export", renderer, "pair.pdb", "-o", renderer, "-q", *BONDS)
         self.made("export", "mvs", "pair.pdb", "-o", "a.mvsx", "-q", *BONDS)
+        written = [self.made("export", "page", "pair.pdb", "-o", f"{n}.html", "-q", *BONDS, *more) and (self.folder / f"{n}.html").read_bytes()
+                   for n, more in enumerate(([], [], ["--hide-lengths"]))]
+        self.assertEqual(written[0], written[1])
+        self.assertGreater(len(written[0]), len(written[2]))
         for exporter, name in (("povray", "p"), ("blender", "b"), ("mitsuba", "m"), ("page", "p.html")):
             self.made("export", exporter, "models.pdb", "--frames", "all", "-o", name, "-q", *BONDS, "--sticks", "all")
 
