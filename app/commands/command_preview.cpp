@@ -161,6 +161,9 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
   };
   context.make_device = [request = command.scene.molecule.surface] { return std::make_unique<PictureDevice>(request); };
   context.make_film = make_film;
+  context.aim = [](const Scene& scene, const ColorScheme& color, const Structure& structure) {
+    return aimed_camera(scene, {}, color, structure);
+  };
   context.open_scene = SceneOpener(declared);
   std::unique_ptr<PreviewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,

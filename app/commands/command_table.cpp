@@ -29,6 +29,7 @@ constexpr Command kCommands[] = {
     {"render", "Make a picture of the surface by ray casting its exact patches", add_render},
     {"film", "Make a film that goes from one scene to the next", add_film},
     {"panels", "Make one picture of several, side by side, with letters and one legend", add_panels},
+    {"looks", "Make one picture of a molecule in all looks (--preset)", add_looks},
     {"preview", "Show the surface in a browser, and change it", add_preview},
     {"morph", "Make a path from one structure to another, as models of a PDB file", add_morph},
     {"export", "Write the surface for another program", add_export, "Formats", exporters},

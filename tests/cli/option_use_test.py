@@ -266,6 +266,7 @@ OWN_ROWS = {
         ("--font", "DejaVu Sans Mono", "story legend"), ("--font-file", "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf", "story legend"),
         ("--fps", "10", "story film"), ("--codec", "h265", "story film"), ("--crf", "40", "story film"), ("--bits", "10", "story film"),
         ("--chroma", "444", "story film"), ("--progress", "json", "story"))},
+    ("looks", "--size"): ("240x150", "plain"),
     ("morph", "--select"): ("chain A", "path"), ("morph", "--superpose-on"): ("name CB or backbone and chain A", "path"),
     ("morph", "--steps"): ("3", "path"),
     **{("farm bundle", option): (value, "bundled film")
@@ -292,7 +293,7 @@ for export in ("mesh", "ply"):
 
 SMALL = {"render": ["--size", "32x24", "--samples", "1", "--no-provenance"], "preview": ["--size", "32x24", "--samples", "1"],
          "export page": ["--size", "32x24"],
-         "panels": ["--size", "200x100", "--samples", "1"],
+         "panels": ["--size", "200x100", "--samples", "1"], "looks": ["--size", "200x150", "--samples", "1"],
          "film": ["--size", "32x24", "--samples", "1", "--hold", "0", "--transition", "0.08"]}
 MESHES = {"export blender", "export mitsuba", "export pbrt", "export mvs", "export mesh", "export ply"}
 EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--width": "--size", "--height": "--size",
@@ -302,7 +303,7 @@ EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--
 def output_of(command, context):
     of_run = "--frames" in CONTEXTS[context] or "--trajectory" in CONTEXTS[context]
     return {"film": "a.mp4" if context == "story film" else "a_#.png", "render": "a.mp4" if context == "film" else "a.exr" if context == "exr" else "a.tif" if context == "tiff" else "a_#.png" if of_run else "a.png", "export mesh": "a.usda" if context == "usd" else "a_#.glb" if of_run else "a.glb",
-            "panels": "a.tif" if context == "panels tiff" else "a.png", "morph": "a.pdb", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export vdb": "a_#.vdb" if of_run else "a.vdb", "export page": "a.html", "export mvs": "a.mvsx", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
+            "panels": "a.tif" if context == "panels tiff" else "a.png", "looks": "a.png", "morph": "a.pdb", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export vdb": "a_#.vdb" if of_run else "a.vdb", "export page": "a.html", "export mvs": "a.mvsx", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
 
 
 def options_of(command):
@@ -375,7 +376,7 @@ class OptionUse(unittest.TestCase):
             words += ["--device", "cpu", *(["--threads", "1"] if command != "preview" else [])]
         if command == "preview":
             words += ["--serve", "--commands", str(self.folder / "look.jsonl")]
-        if command in ("render", "film", "panels", "morph") or command.startswith("export"):
+        if command in ("render", "film", "panels", "looks", "morph") or command.startswith("export"):
             words += ["-o", output_of(command, context)]
         tail = ["--", "render", str(self.folder / "run.pdb"), "--frames", "all", "--size", "64x48"] if command == "farm bundle" else []
         asked = [option] if value is None else [option, filled(value)]
@@ -391,7 +392,7 @@ class OptionUse(unittest.TestCase):
                     continue
                 value, own = OWN_ROWS.get((command, option)) or ROWS[option]
                 for context in dict.fromkeys([own, *contexts]):
-                    if context is None or (context != own and command in ("formats", "farm bundle", "pockets", "film", "panels", "morph")):
+                    if context is None or (context != own and command in ("formats", "farm bundle", "pockets", "film", "panels", "looks", "morph")):
                         continue
                     if any(word.startswith("--") and word not in options for word in CONTEXTS[context]):
                         continue
@@ -436,7 +437,7 @@ class OptionUse(unittest.TestCase):
                 self.assertTrue(more.differs_from(base) or any(option in line for line in said), more.err)
 
 
-TESTED = ["surface", "pockets", "info", "render", "film", "panels", "morph", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
+TESTED = ["surface", "pockets", "info", "render", "film", "panels", "looks", "morph", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
           "export mvs", "export mesh", "export ply", "export vdb", "export atoms", "export page", "formats", "farm bundle"]
 # What it is for is nothing that the command can do, or not with an output of that name.
 REFUSED = {("pockets", "--instances"), ("export vdb", "--instances"), ("export atoms", "--instances"), ("render", "--frames"), ("render", "--trajectory"),

@@ -21,11 +21,13 @@ class SurfaceValues(TypedDict, total=False):
     #: 'ligand=orange:ATP' names them in the legend. Repeatable; the last one counts. meniscus colors explains
     #: the schemes [auto]
     color: Union[Text, Sequence[Text]]
-    #: WORD: Look: publication, cover, flat, soft or classic. publication: shade, thin lines, colours as given;
-    #: cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic: studio
-    #: light alone. Other options of light and lines change single values of it. Where colours show numbers,
-    #: light changes only their lightness [publication]
-    preset: Literal["publication", "cover", "flat", "soft", "classic"]
+    #: WORD: Look by one word, such as ghost, pocket or ribbon. publication: shade, thin lines, colours as
+    #: given; cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic:
+    #: studio light alone; ghost: the fold in a surface that is seen through; goodsell: atoms in flat colours of
+    #: chains, with outlines and shadows; pocket: a ligand in its pocket, with its neighbours and hydrogen
+    #: bonds; ribbon: the fold without a surface. meniscus looks FILE draws them all. Other options change
+    #: single values of a look. Where colours show numbers, light changes only their lightness [publication]
+    preset: Literal["publication", "cover", "flat", "soft", "classic", "ghost", "goodsell", "pocket", "ribbon"]
     #: X,Y,Z: Direction towards the lamp, as X,Y,Z: right, up, to the viewer [-0.45,0.65,0.75]
     light: Text
     #: F: Strength of the lamp, 0 to 10 [1]
