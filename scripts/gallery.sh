@@ -116,9 +116,8 @@ EOF
 }
 
 preview() {
-  cp "$(find_input 1hpv.pdb)" "$(find_input 1tii.pdb)" "$work"
+  cp "$(find_input 1hpv.pdb)" "$work"
   /usr/bin/python3 scripts/check/preview_pictures.py "$program" "$work"
-  picture "$work/preview.png" docs/images/preview.jpg 1100 200000
   picture "$work/preview_page.png" docs/images/preview-page.jpg 1100 200000
 }
 

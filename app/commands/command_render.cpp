@@ -154,7 +154,7 @@ void draw_figures(FigureRun& run, const PictureLayout& layout, PictureSink& sink
     if (run.scene().image.cryptomatte) picture.mattes = mattes_of(frame.figure.molecule.structure);
     picture.moves = !frame.velocities.empty();
     const FigureMotion motion{std::move(frame.velocities), run.next_camera(frame.place)};
-    Annotations annotations = sink.annotations(picture, frame.figure.molecule.structure);
+    Annotations annotations = sink.annotations(picture, frame.figure.molecule.structure, frame.figure.extras.lengths());
     std::vector<std::string> unseen;
     const bool is_logged = !run.is_run() && !run.command().reporting.quiet;
     const Survey survey = survey_of(run.scene(), frame.figure.molecule.structure, frame.camera, layout.size.size(),

@@ -125,6 +125,11 @@ void FigureRun::make_one_figure() {
   aim_.emplace(command_.scene.picture, command_.scene.molecule.show, structure);
   warn_if_unseen(command_, given_.still, structure);
   figure_ = make_figure(build_and_log(command_, std::move(structure)), command_.scene.figure);
+  for (std::size_t n = 0; n < scene().figure.objects.size(); ++n)
+    if (const FigureObjectRequest& object = scene().figure.objects[n];
+        object.is_dashed() && figure_->extras.objects[n].lengths.empty())
+      log_line(command_, fmt::format("note: {} {} finds no atoms to join; water counts where it is drawn or selected",
+                                     option_name(object.option()), in_quotes(object.text())));
 }
 
 namespace {

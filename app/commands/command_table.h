@@ -47,6 +47,7 @@ void add_film(CLI::App& command);
 void add_formats(CLI::App& command);
 void add_help(CLI::App& command);
 void add_info(CLI::App& command);
+void add_looks(CLI::App& command);
 void add_morph(CLI::App& command);
 void add_panels(CLI::App& command);
 void add_pockets(CLI::App& command);

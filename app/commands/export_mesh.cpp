@@ -196,8 +196,9 @@ bool is_usd(const Scene& scene) {
 
 TakenProperties mesh_export_properties() {
   return figure_properties().with(
-      {"-Figure", "surface.opacity", "-figure.object", "-camera.look_into", "-camera.path", "-camera.turntable",
-       "-camera.follow", "-camera.save", "look.preset", "look.specular", "look.shininess", "frames.fps", "Mesh"},
+      {"-Figure", "surface.opacity", "-figure.object", "-figure.hydrogen_bonds", "-figure.distance",
+       "-camera.look_into", "-camera.path", "-camera.turntable", "-camera.follow", "-camera.save", "look.preset",
+       "look.specular", "look.shininess", "frames.fps", "Mesh"},
       {{{"frames.fps"},
         [](const GivenScene& given) { return given.scene.frames.is_requested() && is_usd(given.scene); },
         "of meshes USD alone has times; name a file of a run, such as -o a.usda"},

@@ -165,7 +165,7 @@ void declare_page(CLI::App& command) {
       command, figure_properties().with({"surface.patches", "surface.min_patch", "Light", "Lines", "-look.material",
                                          "-look.ambient_occlusion_rays", "-look.ambient_occlusion_radius",
                                          "-frames.only", "-camera.path", "-camera.turntable", "-camera.follow",
-                                         "image.background", "annotations.labels"}));
+                                         "image.background", "annotations.labels", "annotations.lengths"}));
   PropertyOptions(command).add("camera.named_views", declared->state.named_views);
   declared->options.describe_output("HTML file to write");
   declared->options.show_anyway("legend.shown");

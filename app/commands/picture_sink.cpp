@@ -90,8 +90,9 @@ FrameAnnotations::FrameAnnotations(const Scene& scene, FrameRun* run)
   if (request_.time_stamp) longest_ = run->last_time().value_or(0.0);
 }
 
-Annotations FrameAnnotations::of(const SinkPicture& picture, const Structure& structure) const {
-  Annotations annotations = annotations_of(request_, structure);
+Annotations FrameAnnotations::of(const SinkPicture& picture, const Structure& structure,
+                                 std::span<const PlaceLabel> lengths) const {
+  Annotations annotations = annotations_of(request_, structure, lengths);
   if (!is_run_) return annotations;
   annotations.labels_must_fit = false;  // otherwise the other pictures would lack one
   if (request_.time_stamp) annotations.time = time_text(picture.time, picture.source, longest_);

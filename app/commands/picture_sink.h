@@ -38,8 +38,9 @@ class FrameAnnotations {
   /// run: the run of the frames; nullptr: there is one picture. The scene must stay valid. Throws InputError for its
   /// curve.
   FrameAnnotations(const Scene& scene, FrameRun* run);
-  /// Returns the annotations of a picture. Throws InputError for a label of no atoms.
-  Annotations of(const SinkPicture& picture, const Structure& structure) const;
+  /// Returns the annotations of a picture. lengths: of dashed lines. Throws InputError for a label of no atoms.
+  Annotations of(const SinkPicture& picture, const Structure& structure,
+                 std::span<const PlaceLabel> lengths = {}) const;
   /// Checks the annotations before the first picture. Throws the errors of annotate() if something does not fit with
   /// any of the cameras. structure: the molecule, or the first frame, whose labels need neither exist nor fit.
   void check(const PictureLayout& layout, std::span<const Camera> cameras, const Structure& structure) const;
@@ -72,9 +73,10 @@ class PictureSink {
   /// Draws the molecule with these settings: in bands if a function takes them (RenderSettings::take_band), else as a
   /// whole.
   using Draw = std::function<Framebuffer(const RenderSettings& settings)>;
-  /// Returns the annotations for a picture of the structure. Throws InputError for a label of no atoms.
-  Annotations annotations(const SinkPicture& picture, const Structure& structure) const {
-    return annotations_.of(picture, structure);
+  /// Calls FrameAnnotations::of().
+  Annotations annotations(const SinkPicture& picture, const Structure& structure,
+                          std::span<const PlaceLabel> lengths = {}) const {
+    return annotations_.of(picture, structure, lengths);
   }
   /// Calls FrameAnnotations::check().
   void check(std::span<const Camera> cameras, const Structure& structure) const {

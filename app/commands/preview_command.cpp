@@ -78,6 +78,7 @@ void add_preview_options(CLI::App& command, DeclaredPreview& declared) {
   PropertyOptions options(command);
   PreviewCommand& state = declared.state;
   options.add_parsed("preview.serve", [&state](const std::string& text) { state.port = parse_port(text); });
+  options.add("preview.no_open", state.no_open);
   options.add("preview.token_file", state.token_file);
   options.add("preview.commands", state.commands);
   options.add("preview.record", state.record);

@@ -23,6 +23,7 @@ struct PreviewCommand : SceneCommand {
   bool aims = false;                  ///< true if the scene sets the first camera
   ExportOptions export_options;       ///< for exported pictures
   std::optional<std::uint16_t> port;  ///< the value of --serve
+  bool no_open = false;               ///< true if the user opens the page
   std::string record, commands, token_file, output_folder = ".";
 
   /// Returns the request for the molecule: all models, if each is a frame.

@@ -157,7 +157,8 @@ void Storyboard::play(FilmMaker& maker, const EglContext* context, std::uint64_t
     scene.run.make({kSurfaceBytesPerAtom, bytes_per_pixel * size.x * size.y, context}, [&]() -> FigureRun::Sink {
       return [&](FigureFrame frame) -> FinishFrame {
         const SinkPicture picture{frame.number, frame.place, frame.source, frame.time, frame.camera};
-        Annotations annotations = scene.annotations.of(picture, frame.figure.molecule.structure);
+        Annotations annotations =
+            scene.annotations.of(picture, frame.figure.molecule.structure, frame.figure.extras.lengths());
         auto shot = std::make_shared<Shot>(
             Shot{scene.run.scene(), std::move(frame.figure), frame.camera, scene.layout, std::move(annotations)});
         return [this, &maker, &scene, context, n, shot, count, place = frame.place] {

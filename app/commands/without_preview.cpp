@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reports that there is no `meniscus preview`, in builds without window and page.
+// Reports that there is no `meniscus preview`, in builds without its page.
 #include "app/commands/command_table.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_main.h"
@@ -7,7 +7,7 @@
 namespace meniscus {
 
 void add_preview(CLI::App& command) {
-  describe(command, "", "This build has neither window nor page; those from source have (meniscus help install).");
+  describe(command, "", "This build has no preview; those from source have (meniscus help install).");
   command.allow_extras();
   command.callback([] {
     throw UsageError(

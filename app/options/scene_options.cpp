@@ -324,8 +324,7 @@ void SceneOptions::take_setting(const SceneSetting& setting) {
 void SceneOptions::take(const std::vector<std::string>& named) {
   std::vector<SceneSetting> settings = read_scene_file(named);
   const std::vector<SceneSetting> typed_by_key = typed_settings();
-  for (const Property* property : properties()) {
-    if (!is_scene_value(*property)) continue;
+  const auto take_values = [&](const Property* property) {
     const bool is_overruled = !typed(property->key) && std::ranges::any_of(properties(), [&](const Property* other) {
       if (other->excluded.empty() || !has_option(*other)) return false;
       const std::vector<std::string> keys = parted(other->excluded);
@@ -335,10 +334,12 @@ void SceneOptions::take(const std::vector<std::string>& named) {
       if (setting.property == property && !is_overruled) take_setting(setting);
     for (const SceneSetting& setting : typed_by_key)
       if (setting.property == property) take_setting(setting);
-    if (!has_option(*property)) continue;
+    if (!has_option(*property)) return;
     if (const std::vector<std::string> texts = typed_texts(*property); !texts.empty() || typed(property->key))
       set(*property, texts);
-  }
+  };
+  for (const Property* property : properties())
+    if (is_scene_value(*property)) take_values(property);
   check_table();
   check_inputs();
   turn_one_molecule();
@@ -346,15 +347,23 @@ void SceneOptions::take(const std::vector<std::string>& named) {
       !is_given("image.height"))
     size_film(into_.scene);
   into_.scene.molecule.surface.check = check_by_mesh;
+  const Preset& preset = preset_of(into_.scene.look.preset);
   try {
     complete(into_.scene);
   } catch (const ValueError& error) {
     refuse(error.key(), error.what());
   }
+  for (const PresetSetting& setting : preset.settings)  // a default that is given counts, too
+    if (const Property& property = property_of(setting.key); !property.has(repeatable) && is_given(setting.key))
+      take_values(&property);
   settings.insert(settings.end(), typed_by_key.begin(), typed_by_key.end());
   guard_files(settings);
-  const GivenScene given{into_.scene, [this](std::string_view key) { return is_given(key); }, is_live_};
+  const auto has_value = [&](std::string_view key) { return is_given(key) || preset.sets(key); };
+  const GivenScene given{into_.scene, has_value, is_live_};
   std::vector<std::string> sentences;
+  if (preset.sets("camera.zoom_to") && !is_given("camera.zoom_to") && !is_given("camera.look_into"))
+    sentences.push_back(fmt::format("note: --preset {} looks at the first of {}; --zoom-to EXPR names other atoms",
+                                    preset.word, in_quotes(preset.needs)));
   for (SceneNote& note : ineffective_values(given, taken_.needs())) {
     if (note.is_refused) throw UsageError(note.text);
     sentences.push_back(std::move(note.text));

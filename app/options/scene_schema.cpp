@@ -90,7 +90,7 @@ options whose values they take:
     page += fmt::format("  {:<26}{}\n", property->name(), property->long_option());
   }
   page += R"(
-"objects" is a list. Each object has a "representation" (surface, sticks, balls, spheres, tube, bases, glycans) and a "selection".
+"objects" is a list. Each object has a "representation" (surface, sticks, balls, spheres, tube, bases, glycans, hydrogen_bonds, distance) and a "selection".
 The first surface is that of the molecule. Its keys:
 
 )";
@@ -103,7 +103,7 @@ All others consist of their own atoms alone, which may lie outside molecule.sele
   for (const ObjectKey& key : object_keys())
     page += fmt::format("  {:<26}{}{}\n", key.name, key.property->long_option(),
                         !key.of_shapes     ? "; of surfaces"
-                        : !key.of_surfaces ? " or --tube-radius; of sticks and tubes"
+                        : !key.of_surfaces ? " or --tube-radius; of sticks, tubes and dashes"
                                            : "");
   return page;
 }
@@ -121,7 +121,9 @@ std::string scene_schema() {
   for (const ObjectKey& key : object_keys())
     if (const std::string name(key.name); !object.contains(name)) object[name] = described(*key.property);
   object["selection"] = {{"type", "string"}, {"description", "The atoms of the object"}};
-  object["representation"] = {{"enum", {"surface", "sticks", "balls", "spheres", "tube", "bases", "glycans"}}};
+  Json representations = Json::array({"surface"});
+  for (const char* const word : kShapeWords) representations.push_back(word);
+  object["representation"] = {{"enum", representations}};
   sections["superposed"] = {{"type", "array"},
                             {"description", "Files that were superposed, with atoms and RMSD; ignored"}};
   sections["objects"] = {{"type", "array"}, {"items", strict(object)}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How mouse and keys move a camera about its target: pure functions, shared by window, page and recorded sessions.
+// How mouse and keys move a camera about its target: pure functions, shared by the page and recorded sessions.
 #pragma once
 
 #include <numbers>

@@ -46,10 +46,6 @@ std::string command_word(const nlohmann::json& command) {
   return found != command.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-std::string sentence_of(const std::string& error, const std::string& word) {
-  return error.starts_with(word + ": ") ? error.substr(word.size() + 2) : error;
-}
-
 bool is_question(const nlohmann::json& command) {
   const std::string word = command_word(command);
   if (word == "pick") return command.value("wait", nlohmann::json()) == false;

@@ -25,9 +25,6 @@ std::string json_line(const nlohmann::json& json);
 /// The text under "command"; empty if there is none.
 std::string command_word(const nlohmann::json& command);
 
-/// What an error says, without the word of its command, which is a program's and no reader's.
-std::string sentence_of(const std::string& error, const std::string& word);
-
 /// Does the command only ask: state, stats, choices, scene, render_command, export_state, or a pick that does not wait?
 /// Any client may send it, and it is not recorded.
 bool is_question(const nlohmann::json& command);

@@ -175,7 +175,8 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   }
   const MakePictureDevice& make_device = exporter.context.make_device;
   Annotations annotations;
-  if (exporter.context.annotations) annotations = exporter.context.annotations(molecule.annotated_structure());
+  if (exporter.context.annotations)
+    annotations = exporter.context.annotations(molecule.annotated_structure(), molecule.extras().get());
   auto view = std::make_shared<const ExportedView>(ExportedView{
       molecule.structure(), molecule.atoms(), molecule.balls(), molecule.coloring(state), molecule.key(state), state,
       molecule.extras(), std::move(annotations), options.size, options.samples, options.transparent,

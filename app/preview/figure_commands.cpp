@@ -46,7 +46,7 @@ void remove_from(Entries& entries, const CommandReader& command) {
 
 /// Whether both are made of the same atoms in the same way, so that only looks differ.
 bool same_shape(const FigureObjectRequest& a, const FigureObjectRequest& b) {
-  return a.shapes == b.shapes && a.atoms.text() == b.atoms.text() && a.radius == b.radius && a.kind == b.kind &&
+  return a.shapes == b.shapes && a.text() == b.text() && a.radius == b.radius && a.kind == b.kind &&
          a.probe_radius == b.probe_radius;
 }
 

@@ -22,7 +22,7 @@ constexpr double kUsualSilhouettes = 1.5;  // pixels
 
 constexpr KeyHelp kHelp[] = {
     {"left drag, arrows", "turn"},
-    {"right drag, middle drag, shift + left drag", "move"},
+    {"right drag, middle drag, shift + left drag", "shift"},
     {"wheel", "zoom at the cursor"},
     {"+  -", "zoom"},
     {"click", "show the atom's data"},
@@ -41,7 +41,6 @@ constexpr KeyHelp kHelp[] = {
     {"e", "export this view"},
     {"p", "panel"},
     {"h", "this help"},
-    {"q  Esc", "close the window"},
 };
 
 Json turned(double dx, double dy) { return {{"command", "orbit"}, {"dx", kTurn * dx}, {"dy", kTurn * dy}}; }
@@ -121,8 +120,10 @@ std::optional<Json> command_of(char letter, const Json& state) {
 }
 
 constexpr FaceKey kFaceKeys[] = {
-    {"h", FaceAction::help},        {"?", FaceAction::help},  {"p", FaceAction::panel},
-    {"e", FaceAction::export_name}, {"q", FaceAction::leave}, {"Escape", FaceAction::leave},
+    {"h", FaceAction::help},
+    {"?", FaceAction::help},
+    {"p", FaceAction::panel},
+    {"e", FaceAction::export_name},
 };
 
 std::optional<FaceAction> action_of(std::string_view key) {
@@ -133,7 +134,7 @@ std::optional<FaceAction> action_of(std::string_view key) {
 }  // namespace
 
 std::string_view face_action_word(FaceAction action) {
-  constexpr std::string_view kWords[] = {"help", "panel", "export", "leave"};
+  constexpr std::string_view kWords[] = {"help", "panel", "export"};
   return kWords[static_cast<std::size_t>(action)];
 }
 

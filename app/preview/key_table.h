@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The keys of a preview, one table for the window and the page.
+// The keys of a preview and what they mean.
 #pragma once
 
 #include <optional>
@@ -12,10 +12,10 @@
 
 namespace meniscus {
 
-/// What a key does to the face alone: to the window, or to the page.
-enum class FaceAction { help, panel, export_name, leave };
+/// What a key does to the page alone.
+enum class FaceAction { help, panel, export_name };
 
-/// "help", "panel", "export" or "leave".
+/// Returns "help", "panel" or "export".
 std::string_view face_action_word(FaceAction action);
 
 /// A row of the help: keys or mouse, and what they do.
@@ -25,7 +25,7 @@ struct KeyHelp {
 };
 std::span<const KeyHelp> key_help();
 
-/// A key as key_meaning() takes it, in small letters, and what it does to the face whatever the state.
+/// A key as key_meaning() takes it, in small letters, and what it does to the page whatever the state.
 struct FaceKey {
   std::string_view key;
   FaceAction action;
@@ -38,7 +38,7 @@ struct KeyMeaning {
 };
 
 /// What a key means while the session has this state (the reply to "state"); nothing for all other keys. typed: the
-/// letter, great or small, or "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Escape", as browsers call them.
+/// letter, great or small, or "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", as browsers call them.
 KeyMeaning key_meaning(std::string_view typed, const nlohmann::json& state);
 
 /// The colour schemes of the keys 1, 2, 3, ...: those that every molecule has.

@@ -13,6 +13,7 @@
 #include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
 #include "core/properties/properties.h"
+#include "core/scene/scene_values.h"
 
 namespace meniscus {
 namespace {
@@ -178,9 +179,28 @@ Outcome set_look(const CommandReader& command, PreviewState state, const Surroun
   return {std::move(state), Renewal::legend};
 }
 
-Outcome set_preset(const CommandReader& command, PreviewState state, const Surroundings&) {
-  state.look = {.preset = static_cast<LookPreset>(command.choice("preset", property_of("look.preset")))};
-  return {std::move(state), Renewal::legend};
+Outcome set_preset(const CommandReader& command, PreviewState state, const Surroundings& around) {
+  const Preset& before = preset_of(state.preset);
+  state.preset = static_cast<LookPreset>(command.choice("preset", property_of("look.preset")));
+  state.look = {};
+  state.look.preset = state.preset;
+  if (before.settings.empty() && preset_of(state.preset).settings.empty()) return {std::move(state), Renewal::legend};
+  // The figure of the beginning takes the place of what another look draws.
+  const SessionContext& context = around.exporter.context;
+  Scene scene = rendered_scene(context.scene.value_or(Scene{}), {around.first, state.size, 1, false, {}, {}, {}});
+  scene.molecule.color_named = context.scene && context.scene->molecule.color_named;
+  scene.picture.camera_file.clear();
+  scene.look = state.look;
+  take_preset(scene);
+  state.kind = scene.molecule.surface.kind;
+  state.color = scene.molecule.color;
+  state.figure = scene.figure;
+  state.look = scene.look;
+  if (scene.picture.zoom_to && context.aim) {
+    state.camera = context.aim(scene, state.color, context.read_shown(state.figure, state.frame));
+    state.overview = false;
+  }
+  return {std::move(state), Renewal::shapes, {}, true};
 }
 
 Outcome set_legend(const CommandReader& command, PreviewState state, const Surroundings&) {

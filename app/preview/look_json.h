@@ -25,7 +25,7 @@ glm::vec3 changed_background(const glm::vec3& background, const CommandReader& c
 /// Every key with its value.
 nlohmann::json look_json(Look look);
 
-/// The sliders that windows and pages show: key, label, end and help of each, in the order of the table of properties.
+/// The sliders that the page shows: key, label, end and help of each, in the order of the table of properties.
 nlohmann::json look_sliders();
 
 /// A look without the effects that take time.

@@ -138,6 +138,7 @@ PreviewFigure figure_of(const Scene& scene, const ColorScheme& color) {
   figure.color = color;
   figure.figure = scene.figure;
   figure.look = scene.look;
+  figure.preset = scene.look.preset;
   if (scene.image.background) figure.background = *scene.image.background;
   figure.legend = scene.legend.within;
   figure.legend_style = scene.legend.style;

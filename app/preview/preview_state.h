@@ -39,7 +39,8 @@ struct PreviewFigure {
   bool patch_kinds = false;  ///< coloured by kind of patch, whatever the scheme (figure 2 of Krone et al. 2010)
   FigureRequest figure;
   LookRequest look;
-  glm::vec3 background{1.0f};  ///< sRGB
+  LookPreset preset = LookPreset::publication;  ///< the word that was chosen last
+  glm::vec3 background{1.0f};                   ///< sRGB
   bool legend = false;
   LegendStyle legend_style;
   LetterStyle letters;

@@ -149,7 +149,7 @@ Json get_state(const CommandReader&, const Surroundings& around) {
       {"probe_radius", state.probe_radius},
       {"color", color_json(state.color)},
       {"patch_kinds", state.patch_kinds},
-      {"preset", words_of(property_of("look.preset"))[static_cast<std::size_t>(state.look.preset)]},
+      {"preset", words_of(property_of("look.preset"))[static_cast<std::size_t>(state.preset)]},
       {"look", look_json(state.full_look())},
       {"width", state.size.x},
       {"height", state.size.y},

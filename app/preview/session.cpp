@@ -173,13 +173,6 @@ std::optional<Quality> LiveView::drawn() const {
   return {};
 }
 
-std::optional<Quality> LiveView::next() const {
-  const std::optional<Quality> best = drawn();
-  if (!fault_.empty() || best == Quality::full || (best && session_.state().playing)) return {};
-  if (!best) return at_once();
-  return best == Quality::balls ? Quality::draft : best == Quality::draft ? Quality::plain : Quality::full;
-}
-
 LiveView::Clock::duration LiveView::rest(Quality quality) const {
   if (quality <= Quality::draft) return Clock::duration::zero();
   return quality == Quality::plain ? kPause : rest_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A preview as window, page and recorded sessions drive it: commands go in, replies and pictures come out.
+// A preview as its page and recorded sessions drive it: commands go in, replies and pictures come out.
 #pragma once
 
 #include <chrono>
@@ -56,7 +56,6 @@ class PreviewSession {
   bool wants_balls() const { return pictures_.wants_balls(state_, molecule_); }
   bool is_drawn(Quality quality) const { return pictures_.is_drawn(state_, quality); }
   std::vector<std::uint8_t> rgba() const { return pictures_.rgba(); }
-  std::uint32_t texture() const { return pictures_.texture(); }
   glm::ivec2 picture_size() const { return pictures_.size(); }
 
   /// A command asked to end.
@@ -86,7 +85,7 @@ class PreviewSession {
 void replay_commands(const std::string& path, std::span<const WrittenCommand> commands, PreviewSession& session,
                      std::ostream& replies);
 
-/// When which picture of a session is due, for the window and the page alike. One thread, that of the session.
+/// Decides when which picture of a session is due. Used by one thread, that of the session.
 class LiveView {
  public:
   using Clock = std::chrono::steady_clock;
@@ -104,11 +103,6 @@ class LiveView {
   /// for any change. False: it was given up, or it cannot be drawn (fault). Throws GpuError.
   bool draw(Quality quality, const std::function<Change()>& waiting);
 
-  /// The best picture that there is of the view; nothing: none yet.
-  std::optional<Quality> drawn() const;
-  /// The next better one that is worth drawing. Nothing: this is the best, none can be drawn, or the next frame of a
-  /// trajectory that plays will replace it.
-  std::optional<Quality> next() const;
   /// Without a change for so long a picture of this quality is begun. A full one is rested for as long as it may take,
   /// for it stops between samples only.
   Clock::duration rest(Quality quality) const;
@@ -125,6 +119,8 @@ class LiveView {
 
  private:
   void note_change();
+  /// Returns the quality of the best picture that there is of the view; nothing if there is none yet.
+  std::optional<Quality> drawn() const;
 
   PreviewSession& session_;
   std::uint64_t seen_revision_;

@@ -87,8 +87,6 @@ class ViewCache {
 
   /// The last picture with its legend; see PreviewRenderer::draw().
   std::vector<std::uint8_t> rgba() const;
-  /// Of GL; 0: the picture is rgba() alone.
-  std::uint32_t texture() const { return drawn_.legend || shows_balls() ? 0 : renderer_->texture(); }
   glm::ivec2 size() const;
   bool draws_on_cpu() const { return renderer_->draws_on_cpu(); }
 

@@ -122,10 +122,13 @@ struct SessionContext {
   ReadShown read_shown;
   std::optional<Scene> scene;     ///< that the preview began with; nothing: it writes no scenes
   MakePictureDevice make_device;  ///< of exported pictures
-  /// What is written into exported pictures of the molecule, as it is at a frame.
-  std::function<Annotations(const Structure& structure)> annotations;
+  /// Returns the annotations of exported pictures. structure: the molecule at a frame. extras: everything drawn in
+  /// addition to its surface; nullptr: nothing.
+  std::function<Annotations(const Structure& structure, const FigureExtras* extras)> annotations;
   /// Makes the film of a scene, as `meniscus render` does; empty: there are none. Throws RequestError, OutputError.
   std::function<void(const Scene& scene, const ExportTarget& target, const ExportWatch& watch)> make_film;
+  /// The camera by which render would draw a scene. The structure has the atoms that the scene draws.
+  std::function<Camera(const Scene& scene, const ColorScheme& color, const Structure& structure)> aim;
   /// Reads a scene. Throws InputError, UsageError; RequestError where it is one of another molecule.
   std::function<OpenedScene(const std::filesystem::path& path)> open_scene;
 };

@@ -17,6 +17,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -82,6 +83,16 @@ std::string program_path(const std::string& name) {
   return fmt::format("/{}", name);  // starting it reports that it is not there
 }
 
+/// Returns the words for an exec function, which do not change them.
+std::vector<char*> pointers_to(const std::vector<std::string>& arguments) {
+  std::vector<char*> argv;
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  return argv;
+}
+
+int exit_code(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : kSignalCode + WTERMSIG(status); }
+
 struct Pipe {
   Pipe() {
     if (!system_process::make_pipe(ends))
@@ -98,9 +109,7 @@ struct Pipe {
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
-  std::vector<char*> argv;
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
+  const std::vector<char*> argv = pointers_to(arguments);
   // Some programs, such as Blender, take their folder from PWD rather than from the system.
   std::string working_folder = "PWD=" + std::filesystem::absolute(folder).lexically_normal().string();
   std::vector<char*> environment{working_folder.data()};
@@ -182,7 +191,34 @@ int ChildProcess::wait() {
     std::erase(registry().running, std::exchange(pid_, -1));
     stay_if_stopping();
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : kSignalCode + WTERMSIG(status);
+  return exit_code(status);
+}
+
+int run_apart(const std::vector<std::string>& arguments) {
+  posix_spawn_file_actions_t files;
+  ::posix_spawn_file_actions_init(&files);
+  ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  ::posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  ::posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+  posix_spawnattr_t attributes;
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  sigset_t none, changed;  // the signals that are blocked for it, and those that this program ignores
+  sigemptyset(&none);
+  sigemptyset(&changed);
+  sigaddset(&changed, SIGPIPE);
+  sigaddset(&changed, SIGXFSZ);
+  ::posix_spawnattr_setsigmask(&attributes, &none);
+  ::posix_spawnattr_setsigdefault(&attributes, &changed);
+  pid_t pid = -1;
+  const int error = ::posix_spawn(&pid, program_path(arguments[0]).c_str(), &files, &attributes,
+                                  pointers_to(arguments).data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
+  ::posix_spawn_file_actions_destroy(&files);
+  int status = 0;
+  while (error == 0 && ::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  return error == 0 ? exit_code(status) : kNotStarted;
 }
 
 std::string signal_text(int code) {

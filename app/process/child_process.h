@@ -42,6 +42,12 @@ class ChildProcess {
   std::string pending_;
 };
 
+/// Runs a program that may outlive this one, such as a browser, and waits for its end. It has a session of its own,
+/// where neither Ctrl-C nor the end of this program reaches it, and an empty standard input. Its output is discarded.
+/// arguments: as for ChildProcess. Returns what ChildProcess::wait() returns, or kNotStarted.
+int run_apart(const std::vector<std::string>& arguments);
+constexpr int kNotStarted = 127;
+
 /// If a code of wait() is above this one, a signal ended the child.
 constexpr int kSignalCode = 128;
 

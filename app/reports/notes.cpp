@@ -14,9 +14,17 @@
 #include "app/reports/file_report.h"
 #include "core/base/text.h"
 #include "core/color/ordered_classes.h"
+#include "core/properties/presets.h"
 
 namespace meniscus {
 namespace {
+
+/// True if a preset has this rule for molecules of all kinds.
+bool is_rule_of_preset(const std::string& atoms) {
+  return std::ranges::any_of(kPresets, [&](const Preset& preset) {
+    return std::ranges::any_of(preset.settings, [&](const auto& one) { return one.text.starts_with(atoms + "="); });
+  });
+}
 
 void log_structure(const SceneCommand& command, const Structure& structure) {
   log_line(command, fmt::format("{}: {}", structure.file, structure.report.sentence()));
@@ -26,8 +34,10 @@ void log_structure(const SceneCommand& command, const Structure& structure) {
     log_line(command, fmt::format("{}: pLDDT is that of {}", structure.file, source_of_confidence(structure)));
   log_warnings(command, structure);
   for (const std::string& rule : rules_without_atoms(structure, command.scene.molecule.color))
-    log_line(command, fmt::format("warning: {}: {} selects none of the atoms used; chains and names are case-sensitive",
-                                  structure.file, in_quotes(rule)));
+    if (!is_rule_of_preset(rule))
+      log_line(command,
+               fmt::format("warning: {}: {} selects none of the atoms used; chains and names are case-sensitive",
+                           structure.file, in_quotes(rule)));
 }
 
 }  // namespace

@@ -61,10 +61,11 @@ struct Coloring {
   bool hides_some() const {
     return std::ranges::find(hidden, true) != hidden.end() || std::ranges::find(opacity, 0.0f) != opacity.end();
   }
-  /// Returns whether each atom blocks light: only opaque ones do.
-  std::vector<bool> blocking() const {
-    std::vector<bool> result(atom.size());
-    for (std::uint32_t a = 0; a < atom.size(); ++a) result[a] = shows(a) && opacity_of(a) >= 1.0f;
+  /// Returns the share of the light, in [0, 1], that each atom blocks: the square of its opacity, so that what is
+  /// inside a transparent surface is lit and a dissolving surface loses its shade gradually.
+  std::vector<float> blocking() const {
+    std::vector<float> result(atom.size());
+    for (std::uint32_t a = 0; a < atom.size(); ++a) result[a] = shows(a) ? opacity_of(a) * opacity_of(a) : 0.0f;
     return result;
   }
   bool is_translucent() const {

@@ -187,8 +187,8 @@ GlDevice describe(EGLDeviceEXT device, int egl_index) {
   return result;
 }
 
-/// Creates a GL 4.5 core context; EGL_NO_CONTEXT on failure. Contexts that share must agree on reset notification.
-EGLContext create_context(EGLDisplay display, EGLConfig config, EGLContext sibling, bool reports_resets) {
+/// Creates a GL 4.5 core context; returns EGL_NO_CONTEXT on failure.
+EGLContext create_context(EGLDisplay display, EGLConfig config, bool reports_resets) {
   std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION,       4,
                                  EGL_CONTEXT_MINOR_VERSION,       5,
                                  EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
@@ -196,16 +196,7 @@ EGLContext create_context(EGLDisplay display, EGLConfig config, EGLContext sibli
     attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE,
                                          EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
   attributes.push_back(EGL_NONE);
-  return eglCreateContext(display, config, sibling, attributes.data());
-}
-
-EGLConfig config_of(EGLDisplay display, EGLContext context) {
-  EGLint id = 0;
-  eglQueryContext(display, context, EGL_CONFIG_ID, &id);
-  const std::array<EGLint, 3> same{EGL_CONFIG_ID, id, EGL_NONE};
-  EGLConfig config = nullptr;
-  EGLint count = 0;
-  return eglChooseConfig(display, same.data(), &config, 1, &count) && count == 1 ? config : nullptr;
+  return eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
 }
 
 std::string visibility_note(const DeviceChoice& choice) {
@@ -219,13 +210,6 @@ std::vector<GlDevice> list_gl_devices() {
   std::vector<GlDevice> result;
   for (const EGLDeviceEXT device : query_devices()) result.push_back(describe(device, static_cast<int>(result.size())));
   return result;
-}
-
-std::optional<ForeignContext> current_egl_context() {
-  if (!epoxy_has_egl() || eglGetCurrentContext() == EGL_NO_CONTEXT) return {};
-  GLint strategy = GL_NO_RESET_NOTIFICATION;
-  glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
-  return ForeignContext{eglGetCurrentDisplay(), eglGetCurrentContext(), strategy == GL_LOSE_CONTEXT_ON_RESET, {}};
 }
 
 EglContext::EglContext(const DeviceChoice& choice) {
@@ -262,8 +246,8 @@ bool EglContext::try_device(const DeviceAttempt& attempt, const std::string& ker
   if (!eglChooseConfig(display, config_attributes.data(), &config, 1, &config_count) || config_count == 0)
     config = nullptr;
   // If the driver notifies of resets, work that a reset destroyed is known to be lost.
-  EGLContext context = create_context(display, config, EGL_NO_CONTEXT, true);
-  if (context == EGL_NO_CONTEXT) context = create_context(display, config, EGL_NO_CONTEXT, false);
+  EGLContext context = create_context(display, config, true);
+  if (context == EGL_NO_CONTEXT) context = create_context(display, config, false);
   if (context == EGL_NO_CONTEXT)
     return why_not = fmt::format("no GL 4.5 core (EGL error 0x{:x})", eglGetError()), false;
   if (!adopt_context(display, context, kernel_folder, why_not)) {
@@ -288,19 +272,6 @@ bool EglContext::adopt_context(void* display, void* context, const std::string& 
   KernelFiles::make_current(nullptr);
   if (!kernel_folder.empty()) kernel_files_.emplace(kernel_folder);
   return true;
-}
-
-EglContext::EglContext(const ForeignContext& sibling) {
-  if (!epoxy_has_egl_extension(sibling.display, "EGL_KHR_surfaceless_context") || !eglBindAPI(EGL_OPENGL_API))
-    throw GpuError("this display cannot draw outside its windows (EGL_KHR_surfaceless_context is missing)");
-  const EGLContext context = create_context(sibling.display, config_of(sibling.display, sibling.context),
-                                            sibling.context, sibling.reports_resets);
-  if (context == EGL_NO_CONTEXT)
-    throw GpuError(fmt::format("no GL context beside the window's (EGL error 0x{:x})", eglGetError()));
-  if (std::string why_not; !adopt_context(sibling.display, context, sibling.kernel_folder, why_not)) {
-    eglDestroyContext(sibling.display, context);
-    throw GpuError("the GL context beside the window's: " + why_not);
-  }
 }
 
 EglContext::~EglContext() { abandon(); }

@@ -50,17 +50,6 @@ class KernelFiles {
 /// Lists all devices that EGL_EXT_device_enumeration offers. Throws GpuError if EGL cannot enumerate devices.
 std::vector<GlDevice> list_gl_devices();
 
-/// A context that other code made through EGL, such as a window's.
-struct ForeignContext {
-  void* display = nullptr;
-  void* context = nullptr;
-  bool reports_resets = false;  ///< GL_LOSE_CONTEXT_ON_RESET
-  std::string kernel_folder{};  ///< as in DeviceChoice; for contexts that share with it
-};
-
-/// Returns the context current on this thread; nothing if there is none, or if it was not made through EGL.
-std::optional<ForeignContext> current_egl_context();
-
 /// Owns one GL 4.5 core context, current on the thread that made it. All GL calls of the library need one current.
 class EglContext {
  public:
@@ -68,8 +57,6 @@ class EglContext {
   /// draw on the CPU: its renderer is checked, because EGL's list may take Mesa's software for a GPU. Throws GpuError
   /// that names the devices that were tried.
   explicit EglContext(const DeviceChoice& choice = {});
-  /// Shares textures and buffers with `sibling`, which outlives it and is current on another thread. Throws GpuError.
-  explicit EglContext(const ForeignContext& sibling);
   ~EglContext();
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Properties of the look: light, material, shade, lines, and fading into the background.
 #include <array>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include <fmt/format.h>
+
+#include "core/properties/presets.h"
 #include "core/properties/properties.h"
 
 namespace meniscus {
@@ -12,14 +18,7 @@ constexpr unsigned kLook = kShared | live;
 constexpr std::string_view kLight = "Light", kLines = "Lines";
 
 constexpr auto kTable = std::to_array<Property>({
-    word("look.preset", "--preset", "WORD",
-         "Look: publication, cover, flat, soft or classic. publication: shade, thin lines, colours as given; "
-         "cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic: studio "
-         "light alone. Other options of light and lines change single values of it. Where colours show numbers, "
-         "light changes only their lightness")
-        .one_of("publication|cover|flat|soft|classic")
-        .initially("publication")
-        .in(kLight, kLook | in_short_help),
+    word("look.preset", "--preset", "WORD", "").initially("publication").in(kLight, kLook | in_short_help),
     text("look.light", "--light", "X,Y,Z", "Direction towards the lamp, as X,Y,Z: right, up, to the viewer")
         .initially("-0.45,0.65,0.75")
         .in(kLight, kLook),
@@ -43,7 +42,7 @@ constexpr auto kTable = std::to_array<Property>({
         .from(1, 1000)
         .in(kLight, kLook | of_objects),
     number("look.ambient_occlusion", "--ambient-occlusion", "F",
-           "Shade in pockets and clefts, 0 (none) to 1. All that is drawn casts shade; what is seen through casts none")
+           "Shade in pockets and clefts, 0 (none) to 1. All that is drawn casts shade; what is seen through casts less")
         .from(0, 1)
         .slider("Shade", 1)
         .in(kLight, kLook | in_short_help),
@@ -57,7 +56,7 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("0")
         .in(kLight, kLook),
     number("look.shadows", "--shadows", "F",
-           "Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts none")
+           "Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts less")
         .from(0, 1)
         .slider("Shadows", 1)
         .in(kLight, kLook | in_short_help),
@@ -118,6 +117,22 @@ constexpr auto kTable = std::to_array<Property>({
 
 }  // namespace
 
-std::span<const Property> look_properties() { return kTable; }
+std::span<const Property> look_properties() {
+  static std::string words, help;
+  static const std::vector<Property> table = [] {
+    for (const Preset& preset : kPresets) {
+      words += fmt::format("{}{}", words.empty() ? "" : "|", preset.word);
+      help += fmt::format("{}{}: {}", help.empty() ? "Look by one word, such as ghost, pocket or ribbon. " : "; ",
+                          preset.word, preset.sentence);
+    }
+    help +=
+        ". meniscus looks FILE draws them all. Other options change single values of a look. Where colours show "
+        "numbers, light changes only their lightness";
+    std::vector<Property> rows(kTable.begin(), kTable.end());
+    rows.front() = rows.front().one_of(words).with<&Property::help>(std::string_view(help));
+    return rows;
+  }();
+  return table;
+}
 
 }  // namespace meniscus

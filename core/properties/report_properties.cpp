@@ -54,8 +54,10 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kOutput),
 
     text("preview.serve", "--serve", "[PORT]",
-         "Serve a web page instead of a window, on 127.0.0.1. PORT: by default any free one")
+         "Serve the page on this port of 127.0.0.1, and open no browser. PORT: by default any free one")
         .in(kSession, live | value_optional | in_short_help),
+    flag("preview.no_open", "--no-open", "Print the address of the page, and open no browser")
+        .in(kSession, live | in_short_help),
     file("preview.token_file", "--token-file", "FILE",
          "Take the token of the page's address from this file. The address then stays; the token has 16 to 128 letters "
          "and digits. Without this option the variable MENISCUS_TOKEN is read")

@@ -152,6 +152,13 @@ constexpr auto kTable = std::to_array<Property>({
     text("figure.glycans", "--glycans", "EXPR",
          "Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours: @color snfg@")
         .in(kBeside, in_bundle | live | repeatable | in_short_help),
+    text("figure.hydrogen_bonds", "--hydrogen-bonds", "EXPR",
+         "Draw hydrogen bonds of these atoms as dashed lines, with lengths. 'EXPR to EXPR': only those between two "
+         "sets. Water counts where it is drawn or selected")
+        .in(kBeside, in_bundle | live | repeatable | in_short_help),
+    text("figure.distance", "--distance", "EXPR to EXPR",
+         "Draw the smallest distance of two sets of atoms as a dashed line")
+        .in(kBeside, in_bundle | live | repeatable | in_short_help),
     flag("shapes.bare", "--bare",
          "Draw no ligands and ions beside the surface of a polymer. Objects that are named stay")
         .in(kFigure, kSeen | live),

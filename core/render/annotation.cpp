@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -155,6 +156,8 @@ class CoveredGround {
   std::vector<bool> cells_;
 };
 
+constexpr std::size_t kNotDrawn = std::numeric_limits<std::size_t>::max();  ///< of a label without a mark
+
 /// Places texts in the corners, and labels next to the places that they name.
 class Writer {
  public:
@@ -265,12 +268,12 @@ class Writer {
     std::vector<const PlaceLabel*> shown;
     std::vector<UnplacedLabel> unplaced;
     for (const PlaceLabel& label : labels) {
-      const std::optional<glm::dvec2> seen = place_in_picture(camera_, molecule_size_, label.position);
-      if (!seen || seen->x < 0.0 || seen->y < 0.0 || seen->x > molecule_size_.x || seen->y > molecule_size_.y) continue;
+      const std::optional<glm::dvec2> seen = place_of(label.position);
+      if (!seen || label.is_length()) continue;
       shown.push_back(&label);
-      unplaced.push_back({*seen + glm::dvec2(0.0, strips_.top), {}});
+      unplaced.push_back({*seen, {}});
     }
-    marks_.assign(labels.size(), 0);
+    marks_.assign(labels.size(), kNotDrawn);
     if (shown.empty()) return true;
     LabelGround ground;
     ground.taken = taken_;
@@ -301,6 +304,29 @@ class Writer {
     return false;
   }
 
+  /// Writes the lengths of dashed lines next to their middles. A length is left out if both places for it are taken.
+  void lengths(const std::vector<PlaceLabel>& labels) {
+    const int em = std::max(kLeastTitle, 3 * heights_.labels / 4);
+    const PixelBox room{{0, strips_.top}, {size_.x, size_.y - strips_.bottom}};
+    for (std::size_t n = 0; n < labels.size(); ++n) {
+      const std::optional<glm::dvec2> middle = place_of(labels[n].position),
+                                      end = place_of(labels[n].position + labels[n].along);
+      if (!labels[n].is_length() || !middle || !end || *middle == *end) continue;
+      const glm::dvec2 way = *end - *middle, half = 0.5 * glm::dvec2(fonts_.at(em).width(labels[n].text), em);
+      const glm::dvec2 across = glm::normalize(glm::dvec2(way.y, -way.x)) * (way.x < 0.0 ? -1.0 : 1.0);
+      for (const double side : {1.0, -1.0}) {
+        const glm::dvec2 place = *middle + side * (glm::dot(glm::abs(across), half) + 0.4 * em) * across;
+        const PixelBox box = PixelBox{glm::ivec2(place - half), glm::ivec2(place + half)}.grown(em / 6);
+        const auto meets = [&](const PixelBox& taken) { return taken.meets(box); };
+        if (marks_[n] != kNotDrawn || glm::max(box.low, room.low) != box.low ||
+            glm::min(box.high, room.high) != box.high || std::ranges::any_of(taken_, meets))
+          continue;
+        marks_[n] = strokes_.size();
+        write({labels[n].text, glm::ivec2(place.x - half.x, place.y), em});
+      }
+    }
+  }
+
   static constexpr int kLeastTitle = 8;  // pixels, the smallest title
   static int panel_row(const LetterHeights& heights) { return heights.panel; }
   static double curve_height(const LetterHeights& heights, glm::ivec2 size) {
@@ -310,6 +336,13 @@ class Writer {
 
  private:
   void begin(std::string_view group) { groups_.push_back({group, strokes_.size()}); }
+
+  /// Returns the pixel of a point; nothing if the picture does not have it.
+  std::optional<glm::dvec2> place_of(const glm::dvec3& point) const {
+    const std::optional<glm::dvec2> seen = place_in_picture(camera_, molecule_size_, point);
+    if (!seen || seen->x < 0.0 || seen->y < 0.0 || seen->x > molecule_size_.x || seen->y > molecule_size_.y) return {};
+    return *seen + glm::dvec2(0.0, strips_.top);
+  }
 
   void draw_line(const glm::dvec2& from, const glm::dvec2& to, double width, double share = 1.0) {
     strokes_.emplace_back(InkLine{from, to, width, share});
@@ -394,6 +427,7 @@ AnnotationLayer::AnnotationLayer(const Annotations& annotations, const Camera& c
         message("@label@: labels find no places in {} x {} pixels where they do not meet; make them fewer or shorter, "
                 "their letters smaller (@label-size@), or the picture larger",
                 picture_size.x, picture_size.y));
+  writer.lengths(annotations.labels);
   strokes_ = writer.strokes();
   groups_ = writer.groups();
   marks_ = writer.marks();
@@ -404,7 +438,11 @@ AnnotationLayer::AnnotationLayer(const Annotations& annotations, const Camera& c
 void AnnotationLayer::hollow(std::span<const PlaceLabel> labels) {
   constexpr int kSides = 24;
   for (std::size_t n = 0; n < marks_.size(); ++n) {
-    if (!labels[n].is_hidden || marks_[n] == 0) continue;
+    if (!labels[n].is_hidden || marks_[n] == kNotDrawn) continue;
+    if (labels[n].is_length()) {
+      std::get<InkText>(strokes_[marks_[n]]).text.clear();
+      continue;
+    }
     InkLine &line = std::get<InkLine>(strokes_[marks_[n] - 1]), &mark = std::get<InkLine>(strokes_[marks_[n]]);
     const glm::dvec2 middle = mark.from, along = line.to - line.from;
     const double radius = 0.75 * mark.width;
@@ -416,7 +454,7 @@ void AnnotationLayer::hollow(std::span<const PlaceLabel> labels) {
     mark = {corner(0), corner(1), line.width};
     for (int side = 1; side < kSides; ++side)
       strokes_.emplace_back(InkLine{corner(side), corner(side + 1), std::get<InkLine>(strokes_[marks_[n]]).width});
-    marks_[n] = 0;
+    marks_[n] = kNotDrawn;
   }
 }
 

@@ -19,11 +19,15 @@ namespace meniscus {
 
 struct Camera;
 
-/// A text that names a place, and the point that its line leads to.
+/// A text that names a place, and the point that its line leads to; or the length of a dashed line, which is written
+/// next to the line's middle, without a mark.
 struct PlaceLabel {
   std::string text;
   glm::dvec3 position{0.0};  ///< Å
-  bool is_hidden = false;    ///< behind what the picture shows; its mark is hollow
+  bool is_hidden = false;    ///< behind what the picture shows; its mark is hollow, or a length is not written
+  glm::dvec3 along{0.0};     ///< of a length: from the line's middle to its end, Å; 0 for others
+
+  bool is_length() const { return along != glm::dvec3(0.0); }
 };
 
 /// A curve of numbers, one for each frame of a run.
@@ -101,7 +105,8 @@ class AnnotationLayer {
   /// Draws its part of some whole rows of the picture. first_row: the number of the first of them in the whole picture.
   void lay_over(Framebuffer& rows, int first_row) const;
 
-  /// Makes the marks of hidden labels hollow. labels: the constructor's labels, with is_hidden set.
+  /// Makes the marks of hidden labels hollow, and removes hidden lengths. labels: the constructor's labels, with
+  /// is_hidden set.
   void hollow(std::span<const PlaceLabel> labels);
 
   /// True if there are labels but no room for them.
@@ -118,7 +123,8 @@ class AnnotationLayer {
  private:
   std::vector<InkStroke> strokes_;
   std::vector<StrokeGroup> groups_;
-  /// The index of each label's mark, which is the stroke after its line; 0 if the label is not shown.
+  /// The index of each label's mark, which is the stroke after its line, or of a length; the greatest number if there
+  /// is none.
   std::vector<std::size_t> marks_;
   Inks inks_;
   int height_, rim_width_ = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws pictures on the GPU block by block, and returns them as pixels in memory or as textures.
+// Draws pictures on the GPU block by block, and returns them as pixels in memory.
 #include "core/render/gl_renderer.h"
 
 #include <algorithm>

@@ -86,8 +86,8 @@ class GlRenderer {
   Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                      const RenderSettings& settings);
 
-  /// Draws a finished picture over the look's background, which stays on the GPU as texture(). `stop` is called
-  /// regularly; if it returns true, drawing stops, draw() returns false, the texture keeps the previous picture, and
+  /// Draws a finished picture over the look's background, which stays on the GPU for rgba(). `stop` is called
+  /// regularly; if it returns true, drawing stops, draw() returns false, rgba() returns the previous picture, and
   /// pick() finds nothing. The drawable must outlive all calls of pick(). Throws what render() throws.
   bool draw(Drawable& drawable, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop = {});
@@ -97,9 +97,6 @@ class GlRenderer {
 
   /// Returns the last drawn picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.
   std::vector<std::uint8_t> rgba() const { return presenter_.rgba(); }
-  /// Returns the last drawn picture as a GL texture (GL_RGBA8, sRGB values, first row on top), which is valid until the
-  /// next draw.
-  std::uint32_t texture() const { return presenter_.texture(); }
   glm::ivec2 size() const { return frame_.size; }
   /// Returns what a pixel (column, row from the top) of the last drawn picture shows; nothing where no ray hit
   /// anything.

@@ -47,8 +47,8 @@ struct GpuPack : PackPlacement {
   std::uint32_t atom_count = 0;
   bool color_by_kind = false;
   bool some_hidden = false;
-  std::vector<bool> blocks_light;  ///< Coloring::blocking()
-  Buffer marks;                    ///< one uint32 per atom, or empty: Coloring::line_marks()
+  std::vector<float> blocks_light;  ///< Coloring::blocking()
+  Buffer marks;                     ///< one uint32 per atom, or empty: Coloring::line_marks()
 };
 
 /// Uploads the coloring: sets the last five members.

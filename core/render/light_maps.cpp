@@ -3,6 +3,7 @@
 #include "core/render/light_maps.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -21,8 +22,7 @@
 namespace meniscus {
 namespace {
 
-constexpr float kEmpty = -1e30f;
-constexpr double kGoldenAngle = std::numbers::pi * (3.0 - 2.2360679774997896);
+constexpr float kEmpty = -1e30f, kNone = 2.0f * kEmpty;  // heights of an empty texel, and of nothing
 
 /// Calls add(point) for points of a line that are at most `step` apart.
 template <typename Add>
@@ -31,57 +31,131 @@ void walk(const glm::dvec3& from, const glm::dvec3& to, double step, const Add& 
   for (int n = 0; n <= count; ++n) add(count ? glm::mix(from, to, static_cast<double>(n) / count) : from);
 }
 
-void add_balls(const Shapes& shapes, const std::vector<bool>& blocking, std::vector<Ball>& balls) {
-  for (const SphereShape& sphere : shapes.spheres)
-    if (blocking[sphere.atom]) balls.push_back({sphere.center, sphere.radius});
-  for (const CylinderShape& stick : shapes.cylinders) {
-    const glm::dvec3 middle = 0.5 * (stick.from + stick.to);
-    const auto add = [&](const glm::dvec3& point) { balls.push_back({point, stick.radius}); };
-    if (blocking[stick.from_atom]) walk(stick.from, middle, kLightMapStep, add);
-    if (blocking[stick.to_atom]) walk(middle, stick.to, kLightMapStep, add);
+constexpr int kRun = 4;              // texels whose coverage is computed at once
+constexpr float kLeastDisc = 0.71f;  // texels; each ball has a texel
+constexpr float kLeastSoft = 1.2f;   // texels; the edges of smaller balls are not smoothed, because many overlap
+
+/// What the balls of a map cover of each texel. Heights are in texels.
+class Coverage {
+ public:
+  explicit Coverage(std::size_t texels) : whole_(texels + kRun, kEmpty), edge_(whole_), clear_(whole_.size(), 1.0f) {}
+
+  /// Adds a ball at `count` texels. shares: of the texels that the ball covers; at most 0: nothing, at least 1: all.
+  void add(std::size_t first, int count, const float* __restrict heights, const float* __restrict shares) {
+    float* __restrict whole = &whole_[first], * __restrict edge = &edge_[first], * __restrict clear = &clear_[first];
+    for (int n = 0; n < count; ++n) {
+      const float h = heights[n], share = shares[n], w = whole[n], e = edge[n], c = clear[n];
+      const float all = share >= 1.0f ? h : kNone, some = share >= 1.0f ? kNone : share > 0.0f ? h : kNone;
+      const float part = some > w ? some : kNone, left = some > w ? 1.0f - share : 1.0f;
+      whole[n] = w < all ? all : w;
+      edge[n] = e < part ? part : e;
+      clear[n] = all >= e ? 1.0f : c * left;  // covers the edge
+    }
   }
-  const MeshShape& mesh = shapes.mesh;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    if (!blocking[mesh.atoms[a]]) continue;
-    const glm::dvec3 corner = mesh.positions[a], from = mesh.positions[b], to = mesh.positions[c];
-    walk(from, to, kLightMapStep, [&](const glm::dvec3& end) {
-      walk(corner, end, kLightMapStep, [&](const glm::dvec3& point) { balls.push_back({point, 0.0}); });
-    });
+
+  /// Writes the words of light_maps.glsl, as floats of these bits. steps: of height, of a texel.
+  void write(float steps, std::span<float> words) const {
+    const auto step = [&](float height) {  // nothing is step 0
+      return static_cast<int>(std::max(height * steps + 0.5f * (kernel::kLightSteps + 1), 0.0f));
+    };
+    for (std::size_t at = 0; at < words.size(); ++at) {
+      const int covered = step(edge_[at]) << 5 | static_cast<int>(31.5f - 31.0f * clear_[at]);
+      words[at] = std::bit_cast<float>(step(whole_[at]) << 18 | (edge_[at] > whole_[at] ? covered : 0));
+    }
+  }
+
+ private:
+  std::vector<float> whole_, edge_;  ///< height of what covers all of a texel, and of the highest edge above that
+  std::vector<float> clear_;         ///< share of a texel that edges leave clear
+};
+
+/// Computes what a ball covers of `count` texels of a line: heights along and against the axis, and shares, which are
+/// about the areas within the ball's disc. x, y: from the first texel to the ball's centre; z: of the centre.
+void cover(float x, float y, float z, float radius, int count, float* __restrict highest, float* __restrict lowest,
+           float* __restrict shares) {
+  const float disc = std::max(radius, kLeastDisc), per_square = radius < kLeastSoft ? 1e6f : 0.5f / disc;
+  const float middle = 0.5f + disc * disc * per_square;
+  for (int n = 0; n < count; ++n) {
+    const float aside = static_cast<float>(n) - x, square = aside * aside + y * y, under = radius * radius - square;
+    const float height = std::sqrt(under > 0.0f ? under : 0.0f);
+    highest[n] = z + height;
+    lowest[n] = height - z;
+    shares[n] = middle - square * per_square;
   }
 }
 
 }  // namespace
 
+glm::dvec2 r2_point(std::size_t index) {
+  const auto n = static_cast<double>(index);
+  const double u = 0.5 + n * 0.7548776662466927, v = 0.5 + n * 0.5698402909980532;
+  return {u - std::floor(u), v - std::floor(v)};
+}
+
+std::vector<glm::dvec3> lamp_directions(const Look& look, const ViewBasis& basis, std::size_t count) {
+  const glm::dvec3 aside = glm::normalize(glm::dvec3(look.light_direction));
+  const glm::dvec3 lamp = basis.right * aside.x + basis.up * aside.y - basis.forward * aside.z;
+  const glm::dvec3 x =
+      glm::normalize(glm::cross(lamp, std::abs(glm::dot(lamp, basis.up)) < 0.9 ? basis.up : basis.right));
+  const glm::dvec3 y = glm::cross(lamp, x);
+  const double disc = std::tan(static_cast<double>(look.shadow_softness) * std::numbers::pi / 180.0);
+  std::vector<glm::dvec3> directions;
+  for (std::size_t n = 0; n < count; ++n) {
+    const glm::dvec2 point = r2_point(n);
+    const double r = disc * std::sqrt(point.x), angle = 2.0 * std::numbers::pi * point.y;
+    directions.push_back(glm::normalize(lamp + r * (std::cos(angle) * x + std::sin(angle) * y)));
+  }
+  return directions;
+}
+
+void LightMaps::add_shapes(const Shapes& shapes, const std::vector<float>& blocking, std::vector<Blocker>& balls) {
+  const auto add = [&](const glm::dvec3& center, double radius, std::uint32_t atom) {
+    if (blocking[atom] > 0.0f) balls.push_back({{center, radius}, blocking[atom]});
+  };
+  for (const SphereShape& sphere : shapes.spheres) add(sphere.center, sphere.radius, sphere.atom);
+  for (const CylinderShape& stick : shapes.cylinders) {
+    const glm::dvec3 middle = 0.5 * (stick.from + stick.to);
+    walk(stick.from, middle, kLightMapStep, [&](const glm::dvec3& p) { add(p, stick.radius, stick.from_atom); });
+    walk(middle, stick.to, kLightMapStep, [&](const glm::dvec3& p) { add(p, stick.radius, stick.to_atom); });
+  }
+  const MeshShape& mesh = shapes.mesh;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const auto sunk = [&](std::uint32_t v) {
+      return mesh.positions[v] - kMeshBallRadius * glm::dvec3(mesh.normals[v]);
+    };
+    const glm::dvec3 corner = sunk(a), right = sunk(b) - corner, up = sunk(c) - corner;
+    const double longest = std::max({glm::length(right), glm::length(up), glm::length(up - right)});
+    const int parts = std::max(static_cast<int>(std::ceil(longest / kLightMapStep)), 1);
+    // The middles of equal triangles, of which every second is upside down.
+    for (int i = 0; i < parts; ++i)
+      for (int j = 0; j < 2 * (parts - i) - 1; ++j)
+        add(corner + ((i + (j % 2 + 1) / 3.0) * right + (j / 2 + (j % 2 + 1) / 3.0) * up) / static_cast<double>(parts),
+            kMeshBallRadius, mesh.atoms[a]);
+  }
+}
+
 void LightMaps::add(const PictureObject& object) {
-  const std::vector<bool> blocking = object.coloring->blocking();
+  const std::vector<float> blocking = object.coloring->blocking();
   if (object.surface)
     add(object.surface->atoms, blocking);
   else
-    add_balls(*object.shapes, blocking, groups_.emplace_back().balls);
+    add_shapes(*object.shapes, blocking, groups_.emplace_back().balls);
   groups_.back().planes = object.clip;
 }
 
 void LightMaps::add(const SurfaceObject& object) {
-  const std::vector<bool> blocking = object.coloring.blocking();
+  const std::vector<float> blocking = object.coloring.blocking();
   for (const RigidMotion& motion : object.copies) {
     add(object.surface.atoms, blocking);
-    for (Ball& ball : groups_.back().balls) ball.center = motion(ball.center);
+    for (Blocker& ball : groups_.back().balls) ball.center = motion(ball.center);
   }
 }
 
-void LightMaps::add(std::span<const Ball> balls, const std::vector<bool>& blocking) {
-  std::vector<Ball>& group = groups_.emplace_back().balls;
+void LightMaps::add(std::span<const Ball> balls, const std::vector<float>& blocking) {
+  std::vector<Blocker>& group = groups_.emplace_back().balls;
   for (std::size_t a = 0; a < balls.size(); ++a)
-    if (blocking[a]) group.push_back(balls[a]);
+    if (blocking[a] > 0.0f) group.push_back({balls[a], blocking[a]});
 }
-
-/// The maps of a view: heights along its axis, and against it (nullptr: none).
-struct LightMaps::Raster {
-  double texel;  // Å
-  int edge;      // texels
-  float* along;
-  float* against;
-};
 
 LightMaps::View LightMaps::view_along(const glm::dvec3& axis) {
   const glm::dvec3 aside = std::abs(axis.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
@@ -90,9 +164,10 @@ LightMaps::View LightMaps::view_along(const glm::dvec3& axis) {
 }
 
 bool LightMaps::same(const Group& a, const Group& b) {
-  return std::ranges::equal(
-             a.balls, b.balls,
-             [](const Ball& x, const Ball& y) { return x.center == y.center && x.radius == y.radius; }) &&
+  return std::ranges::equal(a.balls, b.balls,
+                            [](const Blocker& x, const Blocker& y) {
+                              return x.center == y.center && x.radius == y.radius && x.share == y.share;
+                            }) &&
          std::ranges::equal(a.planes, b.planes, [](const ClipPlane& x, const ClipPlane& y) {
            return x.normal == y.normal && x.offset == y.offset;
          });
@@ -118,24 +193,11 @@ void LightMaps::place_sky(int axes) {
   fit(kLampMapSize, lamp_texel_, lamp_edge_);
   sky_axes_ = axes;
   views_.clear();
+  const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
   for (int n = 0; n < axes; ++n) {
     // A spiral over the hemisphere (Vogel 1979): each axis has the same solid angle.
-    const double z = 1.0 - (n + 0.5) / axes, across = std::sqrt(1.0 - z * z), angle = n * kGoldenAngle;
+    const double z = 1.0 - (n + 0.5) / axes, across = std::sqrt(1.0 - z * z), angle = n * golden_angle;
     views_.push_back(view_along({across * std::cos(angle), across * std::sin(angle), z}));
-  }
-}
-
-/// Adds the places on the lamp's disc, by the same spiral.
-void LightMaps::place_lamp(const Look& look, const ViewBasis& basis) {
-  const glm::dvec3 aside = glm::normalize(glm::dvec3(look.light_direction));
-  const glm::dvec3 lamp = basis.right * aside.x + basis.up * aside.y - basis.forward * aside.z;
-  const glm::dvec3 x =
-      glm::normalize(glm::cross(lamp, std::abs(glm::dot(lamp, basis.up)) < 0.9 ? basis.up : basis.right));
-  const glm::dvec3 y = glm::cross(lamp, x);
-  const double disc = std::tan(static_cast<double>(look.shadow_softness) * std::numbers::pi / 180.0);
-  for (int n = 0; n < kernel::kMostLampPlaces; ++n) {
-    const double r = disc * std::sqrt((n + 0.5) / kernel::kMostLampPlaces), angle = n * kGoldenAngle;
-    views_.push_back(view_along(glm::normalize(lamp + r * (std::cos(angle) * x + std::sin(angle) * y))));
   }
 }
 
@@ -144,63 +206,68 @@ void LightMaps::make(const Look& look, const ViewBasis& basis) {
   const bool keeps_sky = axes == sky_axes_ && !views_.empty() && std::ranges::equal(groups_, drawn_, same);
   if (!keeps_sky) place_sky(axes);
   views_.resize(static_cast<std::size_t>(axes));
-  if (look.maps_lamp()) place_lamp(look, basis);
+  if (look.maps_lamp())
+    for (const glm::dvec3& way : lamp_directions(look, basis, kernel::kMostLampPlaces))
+      views_.push_back(view_along(way));
   const auto texels_of = [](int edge) { return static_cast<std::size_t>(edge) * edge; };
   const std::size_t sky = texels_of(sky_edge_), lamp = texels_of(lamp_edge_), sky_end = 2 * sky * axes;
   texels_.resize(keeps_sky ? sky_end : 0);
-  texels_.resize(sky_end + lamp * (views_.size() - axes), kEmpty);
+  texels_.resize(sky_end + lamp * (views_.size() - axes));
   tbb::parallel_for(std::size_t{keeps_sky ? static_cast<std::size_t>(axes) : 0}, views_.size(), [&](std::size_t n) {
     const auto first_lamp = static_cast<std::size_t>(axes);
+    // The least shares of maps that look in neighbouring directions are distant.
+    const double place = (static_cast<double>(n) + 0.5) * std::numbers::sqrt3, least_share = place - std::floor(place);
     if (n < first_lamp)
-      draw(views_[n], {sky_texel_, sky_edge_, &texels_[2 * n * sky], &texels_[(2 * n + 1) * sky]});
+      draw(views_[n], {sky_texel_, sky_edge_, least_share, &texels_[2 * n * sky], &texels_[(2 * n + 1) * sky]});
     else
-      draw(views_[n], {lamp_texel_, lamp_edge_, &texels_[sky_end + (n - first_lamp) * lamp], nullptr});
+      draw(views_[n], {lamp_texel_, lamp_edge_, least_share, &texels_[sky_end + (n - first_lamp) * lamp], nullptr});
   });
   drawn_ = groups_;
 }
 
 void LightMaps::draw(const View& view, const Raster& raster) const {
   const double scale = 1.0 / raster.texel, half = 0.5 * (raster.edge - 1);
-  const auto put = [&](std::size_t at, float low, float high) {
-    raster.along[at] = std::max(raster.along[at], high);
-    if (raster.against) raster.against[at] = std::max(raster.against[at], -low);
-  };
+  const std::size_t texels = static_cast<std::size_t>(raster.edge) * raster.edge;
+  Coverage along(texels), against(raster.against ? texels : 0);
+  // Of a line: heights along and against the axis, and shares of the texels that a ball covers.
+  std::vector<float> highest(static_cast<std::size_t>(raster.edge) + kRun), lowest(highest), shares(highest);
   for (const Group& group : groups_)
-    for (const Ball& ball : group.balls) {
+    for (const Blocker& ball : group.balls) {
+      if (static_cast<double>(ball.share) <= raster.least_share) continue;
       const bool cut = std::ranges::any_of(group.planes, [&](const ClipPlane& plane) {
         return plane.offset - glm::dot(plane.normal, ball.center) < ball.radius;
       });
-      const glm::dvec3 center = ball.center - middle_;
-      const auto x = static_cast<float>(glm::dot(center, view.right) * scale + half),
-                 y = static_cast<float>(glm::dot(center, view.up) * scale + half),
-                 z = static_cast<float>(glm::dot(center, view.axis)), radius = static_cast<float>(ball.radius),
-                 texel = static_cast<float>(raster.texel);
-      const float reach = std::max(radius / texel, 0.71f);  // each ball has a texel
-      for (int line = static_cast<int>(std::ceil(y - reach)), last = static_cast<int>(y + reach); line <= last;
-           ++line) {
-        const float off = static_cast<float>(line) - y, across = std::sqrt(std::max(reach * reach - off * off, 0.0f));
-        const int first = static_cast<int>(std::ceil(x - across)), end = static_cast<int>(x + across) + 1;
-        const std::size_t row = static_cast<std::size_t>(line) * raster.edge;
-        for (int column = first; column < end; ++column) {
-          const float aside = static_cast<float>(column) - x;
-          const float height = std::sqrt(std::max(radius * radius - (aside * aside + off * off) * texel * texel, 0.0f));
-          float low = z - height, high = z + height;
-          if (cut) {
-            const glm::dvec3 foot =
-                middle_ + view.right * ((column - half) * raster.texel) + view.up * ((line - half) * raster.texel);
-            for (const ClipPlane& plane : group.planes) {
-              const double slope = glm::dot(plane.normal, view.axis);
-              const double room = plane.offset - glm::dot(plane.normal, foot);
-              if (slope > 0.0) high = std::min(high, static_cast<float>(room / slope));
-              if (slope < 0.0) low = std::max(low, static_cast<float>(room / slope));
-              if (slope == 0.0 && room < 0.0) high = -std::numeric_limits<float>::max();
-            }
-            if (low > high) continue;
-          }
-          put(row + static_cast<std::size_t>(column), low, high);
+      // Keeps the part of column n of a run that is not cut.
+      const auto keep = [&](int column, int line, int n) {
+        const glm::dvec3 foot =
+            middle_ + view.right * ((column - half) * raster.texel) + view.up * ((line - half) * raster.texel);
+        for (const ClipPlane& plane : group.planes) {
+          const double slope = glm::dot(plane.normal, view.axis) * raster.texel;
+          const double room = plane.offset - glm::dot(plane.normal, foot);
+          if (slope > 0.0) highest[n] = std::min(highest[n], static_cast<float>(room / slope));
+          if (slope < 0.0) lowest[n] = std::min(lowest[n], static_cast<float>(-room / slope));
+          if ((slope == 0.0 && room < 0.0) || -lowest[n] > highest[n]) shares[n] = 0.0f;
         }
+      };
+      const glm::dvec3 center = (ball.center - middle_) * scale;
+      const auto x = static_cast<float>(glm::dot(center, view.right) + half),
+                 y = static_cast<float>(glm::dot(center, view.up) + half),
+                 z = static_cast<float>(glm::dot(center, view.axis)), radius = static_cast<float>(ball.radius * scale);
+      const float reach = std::max(radius, kLeastDisc) + (radius < kLeastSoft ? 0.0f : 0.5f);
+      const int first = static_cast<int>(std::ceil(x - reach)), last = static_cast<int>(y + reach);
+      const int count = (static_cast<int>(x + reach) - first + kRun) / kRun * kRun;
+      for (int line = static_cast<int>(std::ceil(y - reach)); line <= last; ++line) {
+        const float off = static_cast<float>(line) - y;
+        cover(x - static_cast<float>(first), off, z, radius, count, highest.data(), lowest.data(), shares.data());
+        for (int n = 0; cut && n < count; ++n) keep(first + n, line, n);
+        const std::size_t at = static_cast<std::size_t>(line) * raster.edge + static_cast<std::size_t>(first);
+        along.add(at, count, highest.data(), shares.data());
+        if (raster.against) against.add(at, count, lowest.data(), shares.data());
       }
     }
+  const float steps = static_cast<float>(kernel::kLightSteps) / static_cast<float>(raster.edge);
+  along.write(steps, {raster.along, texels});
+  if (raster.against) against.write(steps, {raster.against, texels});
 }
 
 kernel::LightMapParameters LightMaps::parameters(const PictureFrame& frame) const {
@@ -224,7 +291,7 @@ kernel::LightMapParameters LightMaps::parameters(const PictureFrame& frame) cons
     const double scale = 1.0 / (sky ? sky_texel_ : lamp_texel_), half = 0.5 * ((sky ? sky_edge_ : lamp_edge_) - 1);
     maps.rows[3 * n] = row(views_[n].right, scale, half);
     maps.rows[3 * n + 1] = row(views_[n].up, scale, half);
-    maps.rows[3 * n + 2] = row(views_[n].axis, 1.0, 0.0);
+    maps.rows[3 * n + 2] = row(views_[n].axis, scale, 0.0);
   }
   return maps;
 }

@@ -2,9 +2,11 @@
 // Maps of what is drawn as the sky and the lamp see it, from which pictures get their shade and soft shadows.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
@@ -15,6 +17,7 @@
 
 namespace meniscus {
 
+struct Shapes;
 struct SurfaceObject;
 
 /// The finest texels of a kind of maps, Å, and the edge of the largest maps, texels.
@@ -23,11 +26,18 @@ struct LightMapSize {
   int largest_edge;
 };
 inline constexpr LightMapSize kSkyMapSize{0.4, 384}, kLampMapSize{0.35, 768};
-inline constexpr int kLightMapMargin = 3;      ///< empty texels around everything
-inline constexpr double kLightMapStep = 0.25;  ///< distance between the balls of a stick or a mesh, Å
+inline constexpr int kLightMapMargin = 3;        ///< empty texels around everything
+inline constexpr double kLightMapStep = 0.35;    ///< largest distance between the balls of a stick or a mesh, Å
+inline constexpr double kMeshBallRadius = 0.25;  ///< Å; the balls of a mesh touch it from inside
 
-/// The maps of gpu_shaders/look/light_maps.glsl. Surfaces block light as the balls of their atoms. Hidden, cut and
-/// transparent parts do not block light.
+/// Returns a point of the R2 sequence (Roberts 2018) in the square [0, 1)².
+glm::dvec2 r2_point(std::size_t index);
+
+/// Returns unit vectors towards `count` places on the look's lamp. basis: axes of the camera, with which it moves.
+std::vector<glm::dvec3> lamp_directions(const Look& look, const ViewBasis& basis, std::size_t count);
+
+/// The maps of gpu_shaders/look/light_maps.glsl. Surfaces block light as the balls of their atoms. Hidden and cut parts
+/// do not block light. What blocks a share of the light is in that share of the maps.
 class LightMaps {
  public:
   /// Begins a picture without objects.
@@ -36,8 +46,8 @@ class LightMaps {
   void add(const PictureObject& object);
   /// Adds each copy of a surface.
   void add(const SurfaceObject& object);
-  /// Adds the balls for which `blocking` is true.
-  void add(std::span<const Ball> balls, const std::vector<bool>& blocking);
+  /// Adds balls, each of which blocks a share of the light.
+  void add(std::span<const Ball> balls, const std::vector<float>& blocking);
 
   /// Makes the maps of everything that was added. Maps of the sky are kept as long as the objects do not change.
   /// basis: axes of the camera, with which the lamp moves.
@@ -49,21 +59,32 @@ class LightMaps {
   kernel::LightMapParameters parameters(const PictureFrame& frame) const;
 
  private:
-  /// Balls that the same planes cut.
+  /// A ball and the share of the light that it blocks, above 0.
+  struct Blocker : Ball {
+    float share;
+  };
+  /// Blockers that the same planes cut.
   struct Group {
-    std::vector<Ball> balls;
+    std::vector<Blocker> balls;
     std::vector<ClipPlane> planes;
   };
   /// The axes of a map.
   struct View {
     glm::dvec3 right, up, axis;
   };
-  struct Raster;
+  /// The place of a map, and of the one that looks the other way.
+  struct Raster {
+    double texel;        // Å
+    int edge;            // texels
+    double least_share;  // of the light, which a ball in these maps blocks at least
+    float* along;        // texels
+    float* against;      // nullptr: none
+  };
 
   static View view_along(const glm::dvec3& axis);
   static bool same(const Group& a, const Group& b);
+  static void add_shapes(const Shapes& shapes, const std::vector<float>& blocking, std::vector<Blocker>& balls);
   void place_sky(int axes);
-  void place_lamp(const Look& look, const ViewBasis& basis);
   void draw(const View& view, const Raster& raster) const;
 
   std::vector<Group> groups_, drawn_;                ///< of this picture, and of the maps of the sky

@@ -61,14 +61,11 @@ class Presenter {
   Presenter(const Presenter&) = delete;
   Presenter& operator=(const Presenter&) = delete;
 
-  /// Presents a picture. picture: sums of `sample_count` samples, as RayCaster::picture(); background: sRGB. Other code
-  /// displays the texture without further checks, so the GPU's work must be verified before this call. Throws GpuError.
+  /// Presents a picture. picture: sums of `sample_count` samples, as RayCaster::picture(); background: sRGB. The
+  /// pixels are shown without further checks, so the GPU's work must be verified before this call. Throws GpuError.
   void present(const Buffer& picture, glm::ivec2 size, int sample_count, const glm::vec3& background);
 
-  /// Returns the texture: GL_RGBA8, sRGB values, alpha 255, first row on top. It is valid until a picture of another
-  /// size is presented.
-  std::uint32_t texture() const { return texture_; }
-  /// Returns the same pixels in memory. Waits for the GPU.
+  /// Returns the pixels: 8 bit sRGB and alpha (255), rows from the top. Waits for the GPU.
   std::vector<std::uint8_t> rgba() const;
 
  private:

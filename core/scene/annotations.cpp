@@ -93,7 +93,8 @@ StripContents strip_contents(const AnnotationRequest& request, bool is_run) {
           is_run && !request.curve.empty()};
 }
 
-Annotations annotations_of(const AnnotationRequest& request, const Structure& structure) {
+Annotations annotations_of(const AnnotationRequest& request, const Structure& structure,
+                           std::span<const PlaceLabel> lengths) {
   Annotations annotations;
   annotations.panel = request.panel;
   annotations.title = request.title;
@@ -104,6 +105,7 @@ Annotations annotations_of(const AnnotationRequest& request, const Structure& st
     for (const Ball& ball : standing_balls(structure)) annotations.atoms.emplace_back(ball.center, ball.radius);
   for (const LabelRequest& label : request.labels)
     annotations.labels.push_back({label.text, middle_of(label.atoms, structure)});
+  if (!request.hides_lengths) annotations.labels.insert(annotations.labels.end(), lengths.begin(), lengths.end());
   return annotations;
 }
 

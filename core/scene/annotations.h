@@ -37,6 +37,7 @@ struct AnnotationRequest {
   bool scale_bar = false, time_stamp = false;
   std::optional<double> bar_length;  ///< Å; empty: chosen automatically
   std::vector<LabelRequest> labels;
+  bool hides_lengths = false;       ///< true: dashed lines have no lengths
   std::string curve, curve_column;  ///< path of the file and name of a column; empty: no curve, the first column
   LetterStyle letters;
 };
@@ -56,9 +57,10 @@ LabelRequest parse_label(std::string_view text);
 /// nothing if there is no curve. Throws InputError.
 std::optional<Curve> curve_of(const AnnotationRequest& request, std::span<const std::uint64_t> frames);
 
-/// Returns the texts and marks in a picture of the structure, without the time. Throws InputError for a label that
-/// selects no atoms.
-Annotations annotations_of(const AnnotationRequest& request, const Structure& structure);
+/// Returns the texts and marks in a picture of the structure, without the time. lengths: of its dashed lines, which
+/// follow the requested labels. Throws InputError for a label that selects no atoms.
+Annotations annotations_of(const AnnotationRequest& request, const Structure& structure,
+                           std::span<const PlaceLabel> lengths = {});
 
 /// Returns the time of a frame as text, or its number if the trajectory has no times. longest: the longest time of the
 /// run, ps, which sets the unit: ps below 1 ns, ns below 1 µs, else µs.

@@ -88,6 +88,13 @@ std::vector<Ball> FigureExtras::balls() const {
   return balls;
 }
 
+std::vector<PlaceLabel> FigureExtras::lengths() const {
+  std::vector<PlaceLabel> lengths;
+  for (const FigureObject& object : objects)
+    lengths.insert(lengths.end(), object.lengths.begin(), object.lengths.end());
+  return lengths;
+}
+
 std::vector<Ball> Figure::balls() const {
   std::vector<Ball> balls = placed_balls(molecule.objects);
   const std::vector<Ball> more = extras.balls();

@@ -87,11 +87,11 @@ ColorKey figure_key(const Structure& structure, const ColorScheme& scheme, Drawn
     if (of_surfaces && any_of(*atoms))
       add_key(key, color_key(all, extras_scheme(structure, count, scheme, kind), {.atoms = *atoms}), "beside");
   for (std::size_t n = 0; n < extras.objects.size(); ++n) {
-    if (!requests[n].has_own_colors()) continue;
+    if (!requests[n].has_own_colors() || (requests[n].is_dashed() && !requests[n].color)) continue;
     std::vector<bool> own(count, false);
     mark(extras.objects[n], requests[n], own);
     const ColorScheme color = scheme_of(requests[n], structure, count, scheme);
-    const std::string name = requests[n].atoms.text();
+    const std::string name = requests[n].text();
     if (requests[n].is_companion) keep_ruled(color, all, own);
     if (!any_of(own)) continue;
     if (color.by == By::fixed && color.rules.empty())

@@ -4,6 +4,9 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_schemes.h"
@@ -11,6 +14,7 @@
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/surface_computer.h"
 #include "core/scene/surface_objects.h"
+#include "core/structure/hydrogen_bonds.h"
 
 namespace meniscus {
 namespace {
@@ -44,11 +48,48 @@ SurfaceObject surface_of(const FigureObjectRequest& request, const Structure& al
   return object;
 }
 
+/// Draws dashed lines. partners: nothing: all atoms that are drawn.
+void add_dashes(const FigureObjectRequest& request, const Structure& all, const std::vector<bool>& selected,
+                std::vector<bool> partners, FigureObject& object) {
+  for (const Atom& atom : all.atoms)
+    if (!request.partners) partners.push_back(atom.shown != 1u << kHiddenCompanion);
+  std::vector<Bond> pairs;
+  if (request.shapes == RepresentationRequest::Kind::hydrogen_bonds)
+    pairs = hydrogen_bonds(all, selected, partners);
+  else if (const std::optional<Bond> pair = closest_pair(all.atoms, selected, partners))
+    pairs.push_back(*pair);
+  object.shapes.shapes = dashes(all, pairs, request.radius.value_or(kDashRadius));
+  for (const auto& [from, to] : pairs) {
+    const glm::dvec3 along = 0.5 * (all.atoms[to].position - all.atoms[from].position);
+    object.lengths.push_back(
+        {fmt::format("{:.1f} Å", 2.0 * glm::length(along)), all.atoms[from].position + along, false, along});
+  }
+}
+
 }  // namespace
+
+FigureObjectRequest parse_dashes(RepresentationRequest::Kind kind, std::string_view text) {
+  constexpr std::string_view kTo = " to ";
+  for (std::size_t at = text.find(kTo); at != std::string_view::npos; at = text.find(kTo, at + 1)) {
+    const std::string_view left = text.substr(0, at), right = text.substr(at + kTo.size());
+    try {
+      return {.atoms = parse_selection(left), .shapes = kind, .partners = parse_selection(right)};
+    } catch (const SelectionError&) {
+      continue;  // "to" may be part of a range, as in "resid 5 to 10"
+    }
+  }
+  if (kind == RepresentationRequest::Kind::hydrogen_bonds) return {.atoms = parse_selection(text), .shapes = kind};
+  throw RequestError(in_quotes(text) + " is not EXPR to EXPR, such as 'ligand to resid 25'");
+}
 
 ColorScheme scheme_of(const FigureObjectRequest& request, const Structure& structure, std::size_t shown,
                       const ColorScheme& scheme) {
   ColorScheme own = request.color ? *request.color : scheme;
+  if (request.is_dashed() && !request.color) {
+    own.by = ColorScheme::By::fixed;
+    own.fixed = kDashColor;
+    own.rules.clear();
+  }
   if (request.is_companion && own.by != ColorScheme::By::element) own.by = ColorScheme::By::element_cpk;
   if (request.color && own.uses_file()) own.set_numbers(scheme.file);
   if (request.color && request.shapes) own.by = scheme_of_shapes(own.by, *request.shapes);
@@ -89,14 +130,15 @@ std::vector<FigureObjectRequest> all_requests(std::span<const FigureObjectReques
 void mark_atoms(std::span<const FigureObjectRequest> objects, ReadOptions& reading) {
   if (!objects.empty() && reading.copy_mode == CopyMode::instances)
     throw RequestError(message("@instances@: copies of one surface cannot be drawn with other objects; leave it out"));
-  if (reading.shown.size() + objects.size() > kMostShown)
-    throw RequestError(message("@object@: at most {} sets of atoms are drawn beside a surface", kMostShown));
   for (const FigureObjectRequest& object : objects) {
-    reading.shown.push_back({"object", object.atoms, object.shapes && draws_each_atom(*object.shapes)});
+    reading.shown.push_back({object.option(), object.atoms, object.shapes && draws_each_atom(*object.shapes)});
+    if (object.partners) reading.shown.push_back({object.option(), *object.partners});
     if (object.shapes == RepresentationRequest::Kind::backbone ||
         (object.color && object.color->uses(ColorScheme::By::secondary)))
       reading.secondary_structure = true;
   }
+  if (reading.shown.size() > kMostShown)
+    throw RequestError(message("@object@: at most {} sets of atoms are drawn beside a surface", kMostShown));
 }
 
 std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> objects, const Structure& structure,
@@ -104,11 +146,13 @@ std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> obje
   std::vector<FigureObject> made;
   if (objects.empty() && structure.companions != Companions::drawn) return made;
   const Structure all = structure_of_shown(structure);
-  for (std::size_t n = 0; n < objects.size(); ++n) {
-    const FigureObjectRequest& request = objects[n];
-    const std::vector<bool> selected = marked_atoms(all, first_mark + n);
+  std::size_t mark = first_mark;
+  for (const FigureObjectRequest& request : objects) {
+    const std::vector<bool> selected = marked_atoms(all, mark++);
     FigureObject& object = made.emplace_back();
-    if (request.shapes)
+    if (request.is_dashed())
+      add_dashes(request, all, selected, request.partners ? marked_atoms(all, mark++) : std::vector<bool>(), object);
+    else if (request.shapes)
       object.shapes.shapes = shapes_of_atoms(
           all, *request.shapes, selected, *structure.shown_bonds,
           {*request.shapes == RepresentationRequest::Kind::backbone ? std::nullopt : request.radius, request.radius});

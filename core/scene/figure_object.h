@@ -5,11 +5,14 @@
 
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/color/color_schemes.h"
 #include "core/math/ball.h"
 #include "core/queries/surface_object.h"
+#include "core/render/annotation.h"
 #include "core/render/picture.h"
 #include "core/scene/cut.h"
 #include "core/scene/representations.h"
@@ -23,10 +26,11 @@ namespace meniscus {
 struct FigureObjectRequest {
   Selection atoms;
   std::optional<RepresentationRequest::Kind> shapes{};  ///< nothing: the surface of these atoms, as if they were alone
-  std::optional<ColorScheme> color{};                   ///< nothing: the molecule's colours
+  std::optional<Selection> partners{};  ///< of dashed lines: the atoms at their other ends; nothing: all that are drawn
+  std::optional<ColorScheme> color{};   ///< nothing: the molecule's colours, or kDashColor
   std::vector<OpacityRule> opacities{};  ///< opacities of this object; the molecule's opacities do not apply to it
   MaterialRequest material{};
-  std::optional<double> radius{};  ///< radius of sticks and backbones, Å; nothing: the default radius
+  std::optional<double> radius{};  ///< radius of sticks, backbones and dashes, Å; nothing: the default radius
 
   // These members apply to surfaces only.
   SurfaceKind kind = SurfaceKind::ses;
@@ -39,14 +43,29 @@ struct FigureObjectRequest {
   bool is_companion = false;  ///< true for the object of all companions (Companions); users cannot request it
 
   /// True if its colours do not follow the molecule's scheme.
-  bool has_own_colors() const { return color.has_value() || is_companion; }
+  bool has_own_colors() const { return color.has_value() || is_companion || is_dashed(); }
+  bool is_dashed() const { return shapes && draws_dashes(*shapes); }
+  /// Returns the name of the option that requests it, for option_name().
+  std::string option() const {
+    return !is_dashed() ? "object" : *shapes == RepresentationRequest::Kind::distance ? "distance" : "hydrogen-bonds";
+  }
+  /// Returns the text of the selection, which parse_dashes() reads.
+  std::string text() const { return atoms.text() + (partners ? " to " + partners->text() : ""); }
 };
+
+/// The colour of dashed lines without a colour of their own, sRGB.
+inline constexpr glm::vec3 kDashColor{1.0f, 0.70f, 0.0f};
+
+/// Reads the atoms of dashed lines: "EXPR to EXPR" or, for hydrogen bonds, also "EXPR". Throws RequestError and
+/// SelectionError.
+FigureObjectRequest parse_dashes(RepresentationRequest::Kind kind, std::string_view text);
 
 /// A drawn object: a surface, or shapes. Atoms are places in shown_atoms().
 struct FigureObject {
   std::optional<SurfaceObject> surface;
   ColoredShapes shapes;
-  CutAtoms cut_atoms;  ///< atoms of FigureObjectRequest::cuts
+  std::vector<PlaceLabel> lengths;  ///< the length of each dashed line: "2.9 Å"
+  CutAtoms cut_atoms;               ///< atoms of FigureObjectRequest::cuts
 };
 
 /// Makes read_structure mark the atoms of the objects, after the sets that it already marks. Throws RequestError for

@@ -46,6 +46,7 @@ struct Expressions {
     add(figure.cuts);
     for (FigureObjectRequest& object : figure.objects) {
       of_file.push_back(&object.atoms);
+      add(object.partners, of_file);
       add(object.show, of_surface);
       add(object.cuts);
       if (object.color) add(*object.color);

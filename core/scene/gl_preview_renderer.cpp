@@ -42,7 +42,6 @@ class GlPreviewRenderer final : public PreviewRenderer {
   }
 
   std::vector<std::uint8_t> rgba() const override { return shows_cpu_ ? by_cpu_->rgba() : renderer_.rgba(); }
-  std::uint32_t texture() const override { return shows_cpu_ ? 0 : renderer_.texture(); }
   glm::ivec2 size() const override { return shows_cpu_ ? by_cpu_->size() : renderer_.size(); }
   std::optional<PickedPoint> pick(glm::ivec2 pixel) const override {
     return shows_cpu_ ? by_cpu_->pick(pixel) : renderer_.pick(pixel);

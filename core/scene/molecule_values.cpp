@@ -171,6 +171,7 @@ constexpr auto kMoleculeRows = std::to_array<SceneValue>({
 std::span<const SceneValue> molecule_values() { return kMoleculeRows; }
 
 void complete_molecule(Scene& scene) {
+  take_preset(scene);
   complete_interface(scene);
   complete_colors(scene.molecule);
 }

@@ -259,7 +259,7 @@ void PanelPage::write(const std::filesystem::path& path, StillRenderer& renderer
       Placed& placed = panels_[n];
       const Scene& scene = placed.panel.scene;
       Figure& figure = placed.panel.figure;
-      Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);
+      Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure, figure.extras.lengths());
       const RenderSettings settings = render_settings(scene, placed.layout);
       const Survey survey = survey_of(scene, figure.molecule.structure, placed.camera, settings.size, annotations);
       Framebuffer molecule = draw(renderer, std::move(figure), scene.figure, placed.camera, settings, survey);

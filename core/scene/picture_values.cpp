@@ -13,6 +13,7 @@
 #include "core/color/named_colors.h"
 #include "core/scene/scene_lengths.h"
 #include "core/scene/scene_value.h"
+#include "core/scene/scene_values.h"
 
 namespace meniscus::scene_values {
 namespace {
@@ -156,8 +157,8 @@ void read_unit(const Property& property, Texts texts, Scene& scene) {
 }
 
 constexpr auto kPictureRows = std::to_array<SceneValue>({
-    worded<LookPreset::publication, LookPreset::cover, LookPreset::flat, LookPreset::soft, LookPreset::classic>(
-        "look.preset", [](auto& s) { return &s.look.preset; }),
+    worded<LookPreset::publication, LookPreset::cover, LookPreset::flat, LookPreset::soft, LookPreset::classic, kGhost,
+           kGoodsell, kPocket, kRibbon>("look.preset", [](auto& s) { return &s.look.preset; }),
     coded<direction_of, direction_text>("look.light", [](auto& s) { return &s.look.light_direction; }),
     coded<parse_any_color, hex_color>("look.patch_line_color", [](auto& s) { return &s.look.patch_line_color; }),
     plain("look.linear_alpha", [](auto& s) { return &s.look.linear_alpha; }),
@@ -207,6 +208,7 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
     plain("annotations.title", [](auto& s) { return &s.annotations.title; }),
     {"annotations.scale_bar", read_scale_bar, write_scale_bar},
     coded<parse_label, label_text>("annotations.labels", [](auto& s) { return &s.annotations.labels; }),
+    plain("annotations.lengths", [](auto& s) { return &s.annotations.hides_lengths; }),
     plain("annotations.time_stamp", [](auto& s) { return &s.annotations.time_stamp; }),
     plain("annotations.curve", [](auto& s) { return &s.annotations.curve; }),
     plain("annotations.curve_column", [](auto& s) { return &s.annotations.curve_column; }),

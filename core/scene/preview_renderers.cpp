@@ -226,7 +226,6 @@ class PlacedAtomsRenderer final : public PreviewRenderer {
   }
 
   std::vector<std::uint8_t> rgba() const override { return renderer_->rgba(); }
-  std::uint32_t texture() const override { return renderer_->texture(); }
   glm::ivec2 size() const override { return renderer_->size(); }
   std::optional<PickedPoint> pick(glm::ivec2 pixel) const override {
     std::optional<PickedPoint> point = renderer_->pick(pixel);

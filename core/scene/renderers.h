@@ -85,9 +85,6 @@ class PreviewRenderer {
 
   /// Returns the last drawn picture: 8 bit sRGB and alpha (255) per pixel, rows from the top.
   virtual std::vector<std::uint8_t> rgba() const = 0;
-  /// Returns the last drawn picture as a GL texture (GL_RGBA8, sRGB values, first row on top) that lives until the next
-  /// draw(); 0: none.
-  virtual std::uint32_t texture() const { return 0; }
   virtual glm::ivec2 size() const = 0;
   /// Returns the point that a pixel of the last drawn picture shows; nothing if the pixel shows background. pixel:
   /// column, row from the top. Its object is 0 for the surface, with its atoms; 1 for the shapes drawn in addition, 2 +

@@ -64,6 +64,8 @@ Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>&
       return found(all, sugar_symbols(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, kind,
                    "sugar");
     case Kind::spheres:
+    case Kind::hydrogen_bonds:  // shapes of pairs of atoms, made by make_objects()
+    case Kind::distance:
       break;
   }
   return spheres(all, selected);
@@ -111,6 +113,7 @@ Structure structure_of_shown(const Structure& structure) {
   all.file = structure.file;
   all.report = structure.report;
   all.chains = structure.chains;
+  all.added = structure.added;
   all.frame = structure.frame;
   all.atoms = shown_atoms(structure);
   return all;

@@ -17,19 +17,25 @@ namespace meniscus {
 
 /// Some atoms, drawn in one way. They need not be atoms of the surface.
 struct RepresentationRequest {
-  enum class Kind { sticks, balls_and_sticks, spheres, backbone, bases, sugar_symbols };
+  enum class Kind { sticks, balls_and_sticks, spheres, backbone, bases, sugar_symbols, hydrogen_bonds, distance };
   Kind kind = Kind::sticks;
   Selection atoms;
 };
 
 /// The words of kinds in scene files; each is the name of the property that requests it.
-inline constexpr const char* kShapeWords[] = {"sticks", "balls", "spheres", "tube", "bases", "glycans"};
+inline constexpr const char* kShapeWords[] = {"sticks", "balls",   "spheres",        "tube",
+                                              "bases",  "glycans", "hydrogen_bonds", "distance"};
 constexpr const char* shape_word(RepresentationRequest::Kind kind) { return kShapeWords[static_cast<int>(kind)]; }
+
+/// True if a shape consists of dashed lines. They are objects of their own (FigureObjectRequest).
+constexpr bool draws_dashes(RepresentationRequest::Kind kind) {
+  return kind >= RepresentationRequest::Kind::hydrogen_bonds;
+}
 
 /// True if a shape shows every atom, or the whole sugar, that it is made of.
 constexpr bool draws_each_atom(RepresentationRequest::Kind kind) {
   using Kind = RepresentationRequest::Kind;
-  return kind != Kind::backbone && kind != Kind::bases;
+  return kind != Kind::backbone && kind != Kind::bases && !draws_dashes(kind);
 }
 
 /// Radii of shapes, Å; nothing: the default radii.

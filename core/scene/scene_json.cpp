@@ -144,9 +144,8 @@ std::optional<Kind> shapes_of(const std::string& representation) {
   if (representation == "surface") return {};
   const auto* const shape = std::ranges::find(kShapeWords, representation);
   if (shape == std::end(kShapeWords))
-    throw RequestError(fmt::format(
-        "object: \"representation\": {} is not one of surface, sticks, balls, spheres, tube, bases, glycans",
-        in_quotes(representation)));
+    throw RequestError(fmt::format("object: \"representation\": {} is not one of surface, {}",
+                                   in_quotes(representation), fmt::join(kShapeWords, ", ")));
   return static_cast<Kind>(shape - kShapeWords);
 }
 
@@ -237,8 +236,11 @@ FigureObjectRequest parse_figure_object(std::string_view text) {
   const std::string representation = own_text(json, "representation", "surface");
   const std::string selection = own_text(json, "selection", "");
   if (selection.empty()) throw RequestError("object: \"selection\" is missing; it names the object's atoms");
-  FigureObjectRequest object{.atoms = naming("selection", [&] { return parse_selection(selection); })};
-  object.shapes = shapes_of(representation);
+  const std::optional<Kind> shapes = shapes_of(representation);
+  FigureObjectRequest object = naming("selection", [&] {
+    if (shapes && draws_dashes(*shapes)) return parse_dashes(*shapes, selection);
+    return FigureObjectRequest{.atoms = parse_selection(selection), .shapes = shapes};
+  });
   const Scene own = values_of(json, representation);
   const SurfaceRequest& surface = own.molecule.surface;
   if (surface.kind == SurfaceKind::vdw && surface.probe_named)
@@ -257,8 +259,7 @@ FigureObjectRequest parse_figure_object(std::string_view text) {
 }
 
 Json figure_object_json(const FigureObjectRequest& object) {
-  Json json{{"representation", object.shapes ? shape_word(*object.shapes) : "surface"},
-            {"selection", object.atoms.text()}};
+  Json json{{"representation", object.shapes ? shape_word(*object.shapes) : "surface"}, {"selection", object.text()}};
   const Scene own = values_of(object);
   for (const ObjectKey& key : object_keys()) {
     if (!(object.shapes ? key.of_shapes : key.of_surfaces)) continue;

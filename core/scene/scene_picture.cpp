@@ -56,7 +56,7 @@ std::vector<Sought> sought_in(const Scene& scene, const std::vector<Atom>& atoms
       if (selected[a] && !taken[a]) added.atoms.push_back(a);
     return added;
   };
-  for (std::size_t n = 0; n < annotations.labels.size(); ++n) {
+  for (std::size_t n = 0; n < scene.annotations.labels.size(); ++n) {
     const LabelRequest& label = scene.annotations.labels[n];
     add("label", label.text, label.atoms).label = &annotations.labels[n];
   }
@@ -73,6 +73,24 @@ void find_seen(std::vector<Sought>& sought, const std::vector<Atom>& atoms, cons
   for (Sought& one : sought)
     one.is_seen =
         one.is_seen || std::ranges::any_of(one.atoms, [&](std::uint32_t a) { return seen.contains(atoms[a].index); });
+}
+
+/// Hides the lengths of dashed lines that lie behind what the picture shows at three points.
+void hide_lengths(std::span<PlaceLabel> labels, const Camera& camera, const Framebuffer& picture) {
+  constexpr double kInFront = 0.2;  // Å; the dashes themselves are in front of their middle
+  const glm::dvec3 forward = view_basis(camera).forward;
+  const auto is_seen = [&](const glm::dvec3& point) {
+    const glm::ivec2 pixel(place_in_picture(camera, glm::dvec2(picture.size), point));
+    if (glm::clamp(pixel, glm::ivec2(0), picture.size - 1) != pixel) return true;
+    const glm::dvec3 way = point - camera.position;
+    const double depth = camera.projection == Projection::orthographic ? glm::dot(way, forward) : glm::length(way);
+    return picture.z[static_cast<std::size_t>(pixel.y) * picture.size.x + pixel.x] >= depth - kInFront;
+  };
+  for (PlaceLabel& label : labels) {
+    if (!label.is_length()) continue;
+    const glm::dvec3 part = 0.5 * label.along;
+    label.is_hidden = !is_seen(label.position) && !is_seen(label.position + part) && !is_seen(label.position - part);
+  }
 }
 
 /// Returns the end of a sentence: the turns after which some of the atoms are visible.
@@ -104,11 +122,14 @@ Survey survey_of(const Scene& scene, const Structure& structure, const Camera& c
   std::vector<Atom> atoms = shown_atoms(structure);
   std::vector<Sought> sought = sought_in(scene, atoms, annotations, sentences != nullptr);
   std::erase_if(sought, [](const Sought& one) { return one.atoms.empty(); });
-  if (sought.empty()) return {};
-  return [&camera, sentences, atoms = std::move(atoms), sought = std::move(sought), few = smaller(size, kFewPixels),
-          many = smaller(size, kMostPixels)](const CastSurvey& cast) {
+  const std::span<PlaceLabel> labels = annotations.labels;
+  if (sought.empty() && std::ranges::none_of(labels, &PlaceLabel::is_length)) return {};
+  return [&camera, sentences, labels, atoms = std::move(atoms), sought = std::move(sought),
+          few = smaller(size, kFewPixels), many = smaller(size, kMostPixels)](const CastSurvey& cast) {
     std::vector<Sought> found = sought;
-    find_seen(found, atoms, cast(camera, few));
+    const Framebuffer seen = cast(camera, few);
+    find_seen(found, atoms, seen);
+    hide_lengths(labels, camera, seen);
     if (few != many && !std::ranges::all_of(found, &Sought::is_seen)) find_seen(found, atoms, cast(camera, many));
     for (const Sought& one : found) {
       if (one.label) one.label->is_hidden = !one.is_seen;
@@ -217,7 +238,7 @@ Framebuffer scene_picture(const Scene& requested, StillRenderer& renderer, const
   auto [scene, given, aim, figure] = made_figure(requested, context);
   const PictureLayout layout(scene, key_of(figure.molecule, scene.figure, figure.extras));
   const Camera camera = aim.camera(layout.size, given.still, aim.viewed(figure));
-  Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);
+  Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure, figure.extras.lengths());
   const Survey survey = survey_of(scene, figure.molecule.structure, camera, layout.size.size(), annotations);
   Framebuffer drawn = draw(renderer, std::move(figure), scene.figure, camera, render_settings(scene, layout), survey);
   return finished_picture(std::move(drawn), annotations, layout, camera, scene.image.background);

@@ -18,9 +18,10 @@
 namespace meniscus {
 
 /// Returns the survey of a picture of the structure by this camera. It marks labels whose atoms are visible in no pixel
-/// (PlaceLabel::is_hidden). Copies count as one. If something is transparent, no sentences are made. size: of the
-/// molecule's picture. sentences: gets one for each label, rule and patch without visible atoms, with the turn that
-/// shows it; nullptr: none are made. All arguments but the size must outlive the drawing of the picture.
+/// (PlaceLabel::is_hidden), and lengths behind what the picture shows. Copies count as one. If something is
+/// transparent, no sentences are made. size: of the molecule's picture. sentences: gets one for each label, rule and
+/// patch without visible atoms, with the turn that shows it; nullptr: none are made. All arguments but the size must
+/// outlive the drawing of the picture.
 Survey survey_of(const Scene& scene, const Structure& structure, const Camera& camera, glm::ivec2 size,
                  Annotations& annotations, std::vector<std::string>* sentences = nullptr);
 

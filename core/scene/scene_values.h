@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/properties/presets.h"
 #include "core/properties/properties.h"
 #include "core/scene/scene.h"
 
@@ -44,9 +45,17 @@ void set_value(Scene& scene, const Property& property, std::span<const std::stri
 /// Scene{}.
 std::vector<std::string> value_texts(const Scene& scene, const Property& property);
 
-/// Completes a scene after all values are set. Lengths on paper become pixels. If molecule.color is not set, the
-/// numbers of a number file colour all atoms. The sides of an interface are coloured by their buried areas and face the
-/// viewer. Completing a scene again changes nothing. Throws ValueError for values that contradict each other.
+/// The looks that follow the lights of LookPreset in the table of presets.
+inline constexpr LookPreset kGhost{5}, kGoodsell{6}, kPocket{7}, kRibbon{8};
+inline const Preset& preset_of(LookPreset look) { return kPresets[static_cast<std::size_t>(look)]; }
+/// Replaces a preset that has settings by them and by its light. Values of the scene have priority: entries of its
+/// lists follow the entries of the preset, and other values, its cuts too, replace values of the preset.
+void take_preset(Scene& scene);
+
+/// Completes a scene after all values are set. A preset becomes its light and its settings. Lengths on paper become
+/// pixels. If molecule.color is not set, the numbers of a number file colour all atoms. The sides of an interface are
+/// coloured by their buried areas and face the viewer. Completing a scene again changes nothing. Throws ValueError for
+/// values that contradict each other.
 void complete(Scene& scene);
 
 /// Returns a copy of a completed scene for reading and computing: its molecule also has the atoms that are drawn in

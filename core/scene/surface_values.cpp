@@ -187,6 +187,16 @@ Written write_objects(const Property&, const Scene& scene) {
   return texts;
 }
 
+/// Returns the value of dashed lines, which are written as objects.
+template <Shape kind>
+constexpr SceneValue dashed(std::string_view key) {
+  return {key,
+          [](const Property&, Texts texts, Scene& scene) {
+            for (const std::string& text : texts) scene.figure.objects.push_back(parse_dashes(kind, text));
+          },
+          [](const Property&, const Scene&) { return Written(); }};
+}
+
 constexpr auto kSurfaceRows = std::to_array<SceneValue>({
     plain("surface.shown", [](auto& s) { return &s.figure.hides_surface; }),
     plain("shapes.bare", [](auto& s) { return &s.figure.bare; }),
@@ -228,6 +238,8 @@ constexpr auto kSurfaceRows = std::to_array<SceneValue>({
     shapes<Shape::backbone>("figure.tube"),
     shapes<Shape::bases>("figure.bases"),
     shapes<Shape::sugar_symbols>("figure.glycans"),
+    dashed<Shape::hydrogen_bonds>("figure.hydrogen_bonds"),
+    dashed<Shape::distance>("figure.distance"),
     plain("shapes.stick_radius", [](auto& s) { return &s.figure.representations.stick_radius; }),
     plain("shapes.tube_radius", [](auto& s) { return &s.figure.representations.tube_radius; }),
     {"figure.object", read_objects, write_objects},

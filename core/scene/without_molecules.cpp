@@ -26,7 +26,9 @@ namespace scene_values {
 
 std::span<const SceneValue> molecule_values() { return {}; }
 std::span<const SceneValue> surface_values() { return {}; }
-void complete_molecule(Scene&) {}
+void complete_molecule(Scene& scene) {
+  if (scene.look.preset > LookPreset::classic) refuse("looks of molecules");
+}
 
 }  // namespace scene_values
 }  // namespace meniscus

@@ -4,7 +4,10 @@
 #include "core/math/ball.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+
+#include <glm/geometric.hpp>
 
 namespace meniscus {
 namespace {
@@ -50,6 +53,21 @@ Shapes spheres(const Structure& structure, const std::vector<bool>& selected, do
   Shapes shapes;
   for (std::uint32_t n = 0; n < structure.atoms.size(); ++n)
     if (selected[n]) shapes.spheres.push_back({structure.atoms[n].position, share * structure.atoms[n].radius, n});
+  return shapes;
+}
+
+Shapes dashes(const Structure& structure, std::span<const Bond> pairs, double radius) {
+  Shapes shapes;
+  for (const auto& [a, b] : pairs) {
+    const glm::dvec3 begin = structure.atoms[a].position, along = structure.atoms[b].position - begin;
+    const double count = std::round(2.0 * glm::length(along));
+    for (double n = 0.0; n < count; n += 1.0) {
+      const std::uint32_t atom = 2.0 * n + 1.0 <= count ? a : b;
+      const glm::dvec3 from = begin + (n + 0.34) / count * along, to = begin + (n + 0.66) / count * along;
+      shapes.cylinders.push_back({from, to, radius, atom, atom});
+      shapes.spheres.insert(shapes.spheres.end(), {{from, radius, atom}, {to, radius, atom}});
+    }
+  }
   return shapes;
 }
 

@@ -49,6 +49,7 @@ struct Shapes {
 /// The default radius of sticks in Å, as in most programs.
 inline constexpr double kStickRadius = 0.25;
 inline constexpr double kThinStickRadius = 0.15;
+inline constexpr double kDashRadius = 0.1;
 /// The radius of balls as a share of the van der Waals radius.
 inline constexpr double kBallShare = 0.25;
 
@@ -66,6 +67,9 @@ Shapes balls_and_sticks(const Structure& structure, const std::vector<bool>& sel
 
 /// Returns a sphere for each atom, with a share of its van der Waals radius.
 Shapes spheres(const Structure& structure, const std::vector<bool>& selected, double share = 1.0);
+
+/// Returns dashed lines between the atoms of each pair: short cylinders with round ends, one each 0.5 Å.
+Shapes dashes(const Structure& structure, std::span<const Bond> pairs, double radius = kDashRadius);
 
 /// Adds a flat body: the polygon, counter-clockwise around the unit normal, extended by `half_thickness` (Å) to both
 /// sides. Each point of the polygon must be visible from its middle. All triangles get this atom.

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <string>
@@ -303,6 +304,21 @@ std::vector<Bond> molecule_bonds(std::span<const Atom> atoms, std::span<const Bo
   bonds.add_near();
   if (martini_version(atoms).number != 0) bonds.add_beads();
   return std::move(bonds).take();
+}
+
+std::vector<Bond> bonds_in_any_order(std::span<const Atom> atoms, std::span<const Bond> listed,
+                                     std::span<const std::int32_t> fully_bonded) {
+  std::vector<std::uint32_t> places(atoms.size());
+  std::iota(places.begin(), places.end(), 0u);
+  std::ranges::stable_sort(places, {}, [&](std::uint32_t n) { return std::pair(atoms[n].copy, atoms[n].index); });
+  std::vector<Atom> sorted;
+  for (const std::uint32_t n : places) sorted.push_back(atoms[n]);
+  std::vector<Bond> bonds = molecule_bonds(sorted, listed, fully_bonded);
+  for (auto& [a, b] : bonds) {
+    a = places[a];
+    b = places[b];
+  }
+  return bonds;
 }
 
 }  // namespace meniscus

@@ -41,6 +41,10 @@ std::vector<Bond> guessed_bonds(std::span<const Atom> atoms, std::span<const glm
 std::vector<Bond> molecule_bonds(std::span<const Atom> atoms, std::span<const Bond> listed,
                                  std::span<const std::int32_t> fully_bonded = {});
 
+/// Returns molecule_bonds() of atoms that are not in the order of their file.
+std::vector<Bond> bonds_in_any_order(std::span<const Atom> atoms, std::span<const Bond> listed = {},
+                                     std::span<const std::int32_t> fully_bonded = {});
+
 inline constexpr double kLongestBond = 4.0;  ///< Å; bonds of caesium to ligands are 3.3 Å long
 
 }  // namespace meniscus

@@ -120,4 +120,9 @@ OutsidePolymer outside_polymer(std::span<const Atom> atoms, std::span<const Bond
   return outside;
 }
 
+bool has_only_ions(std::span<const Atom> atoms) {
+  return std::ranges::all_of(
+      atoms, [](const Atom& atom) { return atom.kind == AtomClass::ion || atom.kind == AtomClass::water; });
+}
+
 }  // namespace meniscus

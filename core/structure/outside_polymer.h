@@ -28,4 +28,7 @@ struct OutsidePolymer {
 /// file, by Atom::index; bonds by distance are added as in molecule_bonds(). Time is linear in the number of atoms.
 OutsidePolymer outside_polymer(std::span<const Atom> atoms, std::span<const Bond> bonds);
 
+/// True if there is nothing but ions and water, so that the ions are what the file is about, such as a slab of metal.
+bool has_only_ions(std::span<const Atom> atoms);
+
 }  // namespace meniscus

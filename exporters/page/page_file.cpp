@@ -156,6 +156,7 @@ json light_maps_of(const Tables& tables) {
           {"lamp", size(kLampMapSize, kernel::kMostLampPlaces)},
           {"margin", kLightMapMargin},
           {"step", kLightMapStep},
+          {"mesh_ball", kMeshBallRadius},
           {"surfaces", tables.surfaces()}};
 }
 

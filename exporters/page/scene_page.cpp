@@ -261,7 +261,7 @@ PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& fra
   const std::vector<PictureObject> objects =
       picture_objects(surface.surface, surface.coloring, scene.figure, &figure.extras, frame.camera, balls);
   place_objects(objects, surface, figure.extras, scene.figure, shown);
-  const Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);
+  const Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure, figure.extras.lengths());
   shown.labels = annotations.labels;
   shown.atoms = atoms;
   ColorScheme scheme = figure.molecule.color;

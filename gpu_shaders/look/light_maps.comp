@@ -10,7 +10,7 @@ layout(std430, binding = 0) writeonly buffer Shade { vec4 shade[]; };  // visibi
 
 layout(std140, binding = 0) uniform Parameters { LightMapParameters maps; };
 
-float light_texel(int at) { return uintBitsToFloat(texelFetch(light_texels, at).x); }
+int light_texel(int at) { return int(texelFetch(light_texels, at).x); }
 
 #include "gpu_shaders/look/light_maps.glsl"
 
@@ -22,8 +22,8 @@ void main() {
   if (depth != kNothing) {
     vec3 p = position_at(pixel, depth);
     vec3 normal = facing(hit_normal_at(pixel), to_viewer_at(p));
-    if (maps.sky_axes > 0) seen.x = sky_visibility(p, normal);
-    if (maps.lamp_places > 0) seen.y = lamp_visibility(p, normal);
+    if (maps.sky_axes > 0) seen.x = sky_visibility(p, normal, pixel.y);
+    if (maps.lamp_places > 0) seen.y = lamp_visibility(p, normal, pixel.y);
   }
   shade[index_of(pixel)] = vec4(seen, depth, 0.0);
 }

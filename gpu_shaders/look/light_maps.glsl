@@ -2,66 +2,80 @@
 // Computes the share of the sky and of the lamp that a point sees, from maps of what is drawn (Tarini, Cignoni &
 // Montani 2006).
 //
-// A map has, for each texel of a plane, the height of the outermost thing above the plane. For each axis of the sky
-// there are two maps, one for each of its ends; for each place on the lamp there is one. The axes are fixed in the
-// molecule, and a point reads all maps, so its shade depends on the point alone: it has no noise and does not flicker.
+// A texel of a map has, above a plane, the height of the outermost thing that covers all of the texel, in 13 bits from
+// bit 18; the height of the highest edge above that, in 13 bits from bit 5; and the share of the texel that this edge
+// covers, in 31sts, in 5 bits. For each axis of the sky there are two maps, one for each of its ends; for each place on
+// the lamp there is one. The sky's axes are fixed in the molecule, so its shade has no noise and does not flicker. A row
+// of pixels reads the maps of one phase of kLightPhases; the mean over neighbouring rows (finish.glsl) has all phases.
 // Written in GLSL and, as the body of a struct, in C++ (view_space.glsl). The includer provides `maps` of
 // LightMapParameters, and light_texel() of an index.
 
-// Returns the share of the light that something at a height above a point blocks, Å. It grows over half a texel, so
-// that borders of shadows are smooth.
-GEOMETRY real blocked_at(real height, float texel) { return clamp(height * (2.0 / texel), 0.0, 1.0); }
+// Returns the share of the light that a texel blocks above a height.
+GEOMETRY real blocked_at(integer texel, integer height) {
+  real edge = select(height < ((texel >> 5) & 8191), real(texel & 31) * (1.0 / 31.0), real(0.0));
+  return select(height < (texel >> 18), real(1.0), edge);
+}
 
 // Returns the share of the light in the direction of a map that does not reach a point, filtered over the four
-// surrounding texels (percentage-closer filtering, Reeves, Salesin & Cook 1987). row: index of the map's first row;
-// first: index of its first texel; down: true if the map's heights count against the axis.
-GEOMETRY real blocked(real3 p, int row, integer first, truth down, int edge, float texel) {
+// surrounding texels (percentage-closer filtering, Reeves, Salesin & Cook 1987). Each texel is compared with the height
+// of the point's tangential plane there. row: index of the map's first row; first: index of its first texel; down: true
+// if the map's heights count against the axis; edge: of the map, texels.
+GEOMETRY real blocked(real3 p, real3 normal, int row, integer first, truth down, int edge, float texel) {
   vec4 to_column = maps.rows[row];
   vec4 to_line = maps.rows[row + 1];
   vec4 to_height = maps.rows[row + 2];
   float last = float(edge) - 1.001;
   real column = clamp(dot(p, vec3(to_column)) + to_column.w, 0.0, last);
   real line = clamp(dot(p, vec3(to_line)) + to_line.w, 0.0, last);
-  real height = dot(p, vec3(to_height)) + to_height.w;
-  height = select(down, -height, height);
   integer2 place = integer2(real2(column, line));
   integer at = first + place.y * edge + place.x;
   real right = column - real(place.x);
-  integer below = at + edge;
-  real upper = mix(blocked_at(light_texel(at) - height, texel), blocked_at(light_texel(at + 1) - height, texel), right);
-  real lower =
-      mix(blocked_at(light_texel(below) - height, texel), blocked_at(light_texel(below + 1) - height, texel), right);
-  return mix(upper, lower, line - real(place.y));
+  real below = line - real(place.y);
+  float steps = float(kLightSteps) / float(edge);  // of height, of a texel
+  real slope = -steps / max(abs(dot(normal, vec3(to_height))), 0.17 / texel);
+  real to_right = dot(normal, vec3(to_column)) * slope;
+  real to_below = dot(normal, vec3(to_line)) * slope;
+  real height = dot(p, vec3(to_height)) + to_height.w;
+  height = select(down, -height, height) * steps + 0.5 * float(kLightSteps) - to_right * right - to_below * below;
+  integer2 upper = integer2(real2(max(height, 0.0), max(height + to_right, 0.0)));
+  height = height + to_below;
+  integer2 lower = integer2(real2(max(height, 0.0), max(height + to_right, 0.0)));
+  return mix(mix(blocked_at(light_texel(at), upper.x), blocked_at(light_texel(at + 1), upper.y), right),
+             mix(blocked_at(light_texel(at + edge), lower.x), blocked_at(light_texel(at + edge + 1), lower.y), right),
+             below);
 }
 
+// Returns the first map that a row of pixels reads.
+GEOMETRY int light_phase(int row) { return (int(floor(view.first_offset.y)) + row) & (kLightPhases - 1); }
+
 // Returns the share of the sky, from 0 to 1 and weighted by the cosine, that a point sees. p, normal: in the camera's
-// axes, on the viewer's side of the surface.
-GEOMETRY real sky_visibility(real3 p, real3 normal) {
+// axes, on the viewer's side of the surface; row: of the pixel.
+GEOMETRY real sky_visibility(real3 p, real3 normal, int row) {
   real3 from = p + normal * (kLightLift * maps.sky_texel);
   int texels = maps.sky_edge * maps.sky_edge;
   real seen = real(0.0);
   real all = real(1e-6);
-  for (int axis = 0; axis < maps.sky_axes; ++axis) {
+  for (int axis = light_phase(row); axis < maps.sky_axes; axis += kLightPhases) {
     real cosine = dot(normal, vec3(maps.rows[3 * axis + 2]));
     truth down = cosine < 0.0;
     integer first = select(down, integer((2 * axis + 1) * texels), integer(2 * axis * texels));
     real weight = abs(cosine);
-    seen += weight * (1.0 - blocked(from, 3 * axis, first, down, maps.sky_edge, maps.sky_texel));
+    seen += weight * (1.0 - blocked(from, normal, 3 * axis, first, down, maps.sky_edge, maps.sky_texel));
     all += weight;
   }
   return seen / all;
 }
 
 // Returns the share of the lamp that a point sees. Places below its horizon are out of sight, and fade close to it.
-GEOMETRY real lamp_visibility(real3 p, real3 normal) {
+GEOMETRY real lamp_visibility(real3 p, real3 normal, int row) {
   real3 from = p + normal * (kLightLift * maps.lamp_texel);
   int texels = maps.lamp_edge * maps.lamp_edge;
   real seen = real(0.0);
-  for (int n = 0; n < maps.lamp_places; ++n) {
-    int row = 3 * (maps.sky_axes + n);
-    real above = clamp(dot(normal, vec3(maps.rows[row + 2])) * 8.0, 0.0, 1.0);
+  for (int n = light_phase(row); n < maps.lamp_places; n += kLightPhases) {
+    int first_row = 3 * (maps.sky_axes + n);
+    real above = clamp(dot(normal, vec3(maps.rows[first_row + 2])) * (12.0 * maps.lamp_texel), 0.0, 1.0);
     integer first = integer(maps.first_lamp_texel + n * texels);
-    seen += above * (1.0 - blocked(from, row, first, truth(false), maps.lamp_edge, maps.lamp_texel));
+    seen += above * (1.0 - blocked(from, normal, first_row, first, truth(false), maps.lamp_edge, maps.lamp_texel));
   }
-  return seen / float(maps.lamp_places);
+  return seen * (float(kLightPhases) / float(maps.lamp_places));
 }

@@ -8,14 +8,16 @@ struct DepthParameters {
   uint has_marks;
 };
 
-const int kMostSkyAxes = 64;
-const int kMostLampPlaces = 16;
-const float kLightLift = 1.0;  // texels above the surface, from where light is looked for: as much as a slope rises
+const int kMostSkyAxes = 128;
+const int kMostLampPlaces = 32;
+const int kLightPhases = 2;  // a row of pixels reads each second map, the next row the others
+const int kLightSteps = 8192;  // heights in a map are whole numbers below this
+const float kLightLift = 0.33;  // texels above the surface, from where light is looked for
 
 // The maps of light_maps.glsl.
 struct LightMapParameters {
   // Three for each axis of the sky, then for each place on the lamp: they take a point in the camera's axes to columns
-  // and lines of texels and to the height, Å.
+  // and lines of texels and to the height, texels.
   vec4 rows[3 * (kMostSkyAxes + kMostLampPlaces)];
   float sky_texel;  // Å
   float lamp_texel;

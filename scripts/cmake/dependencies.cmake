@@ -3,7 +3,7 @@
 # parts can be left out.
 option(MENISCUS_APP "Build the programs; OFF: libmeniscus alone, of what is there" ON)
 option(MENISCUS_DROP_INS "Build the programs in the place of MSMS and NanoShaper, which need molecule files and no more" ${MENISCUS_APP})
-option(MENISCUS_PREVIEW "Build the window and the page of `meniscus preview`; with the programs only" ON)
+option(MENISCUS_PREVIEW "Build `meniscus preview`, with the programs only" ON)
 # Sine, arctangent and the like differ in the last bit from system to system. With one library of them for all
 # (scripts/package/targets.sh: musl's) results have the same bits everywhere.
 set(MENISCUS_LIBM "" CACHE FILEPATH "A static library of elementary functions in the place of the system's")
@@ -104,9 +104,6 @@ if(MENISCUS_APP)
       message(FATAL_ERROR "MENISCUS_APP needs MENISCUS_${part}")
     endif()
   endforeach()
-  if(MENISCUS_PREVIEW AND NOT MENISCUS_WITH_GL)
-    message(FATAL_ERROR "MENISCUS_PREVIEW needs MENISCUS_GL")
-  endif()
   find_package(CLI11 REQUIRED)
   find_package(OpenSSL REQUIRED COMPONENTS Crypto)
   find_package(OpenImageIO QUIET)

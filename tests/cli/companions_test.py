@@ -85,6 +85,9 @@ class Numbers(Companions):
     def test_a_file_without_a_polymer_is_taken_whole(self):
         self.write("ligand.pdb", pdb(LIGAND + ION))
         self.assertEqual(self.atoms(file="ligand.pdb"), {"read": 3, "excluded": {"ion": 1}, "used": 2})
+        self.write("metal.pdb", pdb(ION + WATER))
+        self.assertEqual(self.atoms(file="metal.pdb"), {"read": 2, "excluded": {"water": 1}, "used": 1})
+        self.assertIn("a surface takes 1 of them", self.made("info", "metal.pdb").stdout)
 
     def test_frames_have_the_atoms_of_the_topology(self):
         lipids = [("ATOM", f" C{k}", "DPPC"[:3], "M", 10 + n, (30.0 + 2 * k, 3.0 * n, 0.0), "C") for n in range(21) for k in range(3)]

@@ -30,7 +30,8 @@ PICTURES = {
     "--radius": ["--radius", "{}=3"], "--select": ["--select", "{}"], "--sticks": ["--opacity", "0.1", "--sticks", "{}"],
     "--balls": ["--opacity", "0.1", "--balls", "{}"], "--spheres": ["--opacity", "0.1", "--spheres", "{}"],
     "--tube": ["--opacity", "0.1", "--tube", "{}"], "--bases": ["--opacity", "0.1", "--bases", "{}"],
-    "--glycans": ["--opacity", "0.1", "--glycans", "{}"], "--interface": ["--interface", "chain A-2:{}"],
+    "--glycans": ["--opacity", "0.1", "--glycans", "{}"], "--hydrogen-bonds": ["--opacity", "0.1", "--hydrogen-bonds", "{}"],
+    "--distance": ["--opacity", "0.1", "--distance", "chain A-1 to {}"], "--interface": ["--interface", "chain A-2:{}"],
     "--object": ["--opacity", "0.1", "--object", '{"representation": "sticks", "selection": "{}"}'],
 }
 COMMANDS = {option: RENDER + words for option, words in PICTURES.items()}
@@ -40,7 +41,7 @@ COMMANDS["--ligand"] = ["pockets", "{file}", "--assembly", "1", "--ligand", "{}"
 # They mean atoms of a trajectory, before there are copies, or are refused with --assembly.
 BEFORE_COPIES = {"--trajectory-atoms", "--superpose", "--center", "--superpose-on", "--context"}
 # Copies as instances cannot be drawn so.
-NOT_OF_INSTANCES = {"--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans", "--object", "--interface"}
+NOT_OF_INSTANCES = {"--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans", "--object", "--interface", "--hydrogen-bonds", "--distance"}
 
 
 def turn(degrees):
@@ -62,7 +63,7 @@ def ring(names, residue, chain, number, place):
 
 
 def atoms(moved=0.0):
-    """Away from the axis: a peptide A, and beside it B with a peptide, a base and a sugar."""
+    """Away from the axis: a peptide A, and beside it B with a peptide, a base, a sugar and an oxygen next to the peptide's."""
     found = []
     for chain, y in (("A", 0.0), ("B", 4.6)):
         for n in range(4):
@@ -70,6 +71,7 @@ def atoms(moved=0.0):
                 found.append((name, "ALA", chain, n + 1, 24.0 + 3.6 * n + dx, y + (moved if chain == "B" else 0.0), dz))
     found += ring("N1 C2 N3 C4 C5 C6", "U", "B", 9, (28.0, 13.0 + moved, 0.0))
     found += ring("C1 C2 C3 C4 C5 O5", "NAG", "B", 10, (35.0, 13.0 + moved, 0.0))
+    found.append(("O1", "LGA", "B", 11, 37.2, 4.6 + moved, -4.0))
     return [f"ATOM  {serial:5d}  {name:<3} {residue:>3} {chain}{number:4d}    {x:8.3f}{y:8.3f}{z:8.3f}  1.00 20.00          {name[0]:>2}"
             for serial, (name, residue, chain, number, x, y, z) in enumerate(found, 1)]
 

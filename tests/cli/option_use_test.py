@@ -18,12 +18,13 @@ from pathlib import Path
 PROGRAM = sys.argv.pop(1)
 
 # They say how the work is done or what is told of it, and leave the result as it is.
-HOW = {"--threads", "--jobs", "--serve", "--token-file", "--device", "--require-gpu", "--verify", "--progress", "--warnings", "--quiet", "--help",
+HOW = {"--threads", "--jobs", "--serve", "--no-open", "--token-file", "--device", "--require-gpu", "--verify", "--progress", "--warnings", "--quiet", "--help",
        "--help-all", "--force", "--stats", "--extent", "--trust-scene", "--any-cost", "--trust-atom-order", "--addon"}
 # They say what to do with something that a file may hold, and are right to be silent where it does not.
 POLICIES = {"--unknown-element", "--missing-color", "--altloc", "--hydrogens", "--keep-water", "--keep-ions", "--whole",
             "--select-once", "--cavities", "--instances", "--min-volume", "--cap-color", "--cap-hatching",
-            "--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans", "--object"}
+            "--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans", "--object",
+            "--hydrogen-bonds", "--distance"}
 
 
 def pdb(atoms, record="ATOM"):
@@ -79,6 +80,11 @@ def rings():
     return "\n".join(pdb(atoms, "HETATM") + ["END", ""])
 
 
+def pair():
+    """Two oxygens with a hydrogen bond."""
+    return "\n".join(pdb([("O1", " ", "LGA", "A", 1, 0.0, 0.0, 0.0, "O"), ("O1", " ", "LGB", "B", 2, 2.8, 0.0, 0.0, "O")], "HETATM") + ["END", ""])
+
+
 def potential():
     """A volume map around the molecule that falls along x."""
     values = "\n".join(f"{0.3 * x - 2.0:.3f}" for x in range(14) for _ in range(14 * 14))
@@ -94,7 +100,7 @@ def camera(x):
 INPUTS = {
     "one.pdb": molecule(1), "run.pdb": molecule(4), "other.pdb": molecule(3, 0.9), "dry.pdb": molecule(3, water=False),
     "broken.pdb": molecule(3, broken=True), "moved.pdb": molecule(1, shift=9.0), "odd.pdb": molecule(1).replace(" H\n", " Q\n").replace(" H   ALA", " Q   ALA"),
-    "rings.pdb": rings(), "cup.pdb": sphere(lid=False), "hollow.pdb": sphere(lid=True), "cups.pdb": sphere(False, 3), "map.dx": potential(),
+    "rings.pdb": rings(), "pair.pdb": pair(), "cup.pdb": sphere(lid=False), "hollow.pdb": sphere(lid=True), "cups.pdb": sphere(False, 3), "map.dx": potential(),
     "numbers.csv": "chain,number,first,second\nA,1,1.0,7\nA,2,2.0,5\nB,1,3.0,1\n",
     "plain.txt": "A 1 1.0\nA 2 2.0\nB 1 3.0\n", "ramp.txt": "#ff0000\n#00ff00\n#0000ff\n", "radii.txt": "ALA CA 2.5\n",
     "curve.csv": "frame,time,area,volume\n" + "".join(f"{n},{n},{n * n},{5 - n}\n" for n in range(4)),
@@ -127,6 +133,8 @@ CONTEXTS = {
     "exr": ["{one.pdb}"], "tiff": ["{one.pdb}"], "auto": ["{one.pdb}", "--width", "64px", "--height", "auto"], "clip": ["{one.pdb}", "--clip", "depth>0.5"], "clip sticks": ["{one.pdb}", "--sticks", "chain A", "--clip", "depth>0.5"], "seen through": ["{one.pdb}", "--opacity", "0.4"],
     "shapes": ["{one.pdb}", "--sticks", "chain A"], "sticks": ["{one.pdb}", "--sticks", "chain A", "--hide-surface"],
     "ring": ["{rings.pdb}", "--opacity", "0.1"], "covered ring": ["{rings.pdb}"],
+    "pair": ["{pair.pdb}", "--opacity", "0.1"], "covered pair": ["{pair.pdb}"],
+    "dashes": ["{pair.pdb}", "--opacity", "0.1", "--hydrogen-bonds", "all"], "covered dashes": ["{pair.pdb}", "--hydrogen-bonds", "all"],
     "tube": ["{one.pdb}", "--tube", "protein", "--hide-surface"],
     "mesh sticks": ["{one.pdb}", "--sticks", "chain A"], "mesh tube": ["{one.pdb}", "--tube", "protein"],
     "bare": ["{one.pdb}", "--opacity", "0.1"],
@@ -172,6 +180,7 @@ ROWS = {
     "--camera-path": ("{path.json}", "frames"), "--turntable": ("0.4", "frames"), "--follow": ("chain B", "frames"),
     "--sticks": ("chain A", "bare"), "--balls": ("chain A", "bare"), "--spheres": ("chain A", "bare"),
     "--tube": ("protein", "bare"), "--bases": ("resname LIG", "ring"), "--glycans": ("resname NAG", "ring"),
+    "--hydrogen-bonds": ("chain A", "pair"), "--distance": ("chain A to chain B", "pair"), "--hide-lengths": (None, "dashes"),
     "--stick-radius": ("0.7", "sticks"), "--tube-radius": ("0.9", "tube"),
     "--object": ('{"representation": "surface", "selection": "resname LIG", "probe": 3}', "bare"),
     "--hide-surface": (None, "shapes"), "--opacity": ("0.4", "plain"), "--film-opacity": (None, "seen through"),
@@ -257,6 +266,7 @@ OWN_ROWS = {
         ("--font", "DejaVu Sans Mono", "story legend"), ("--font-file", "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf", "story legend"),
         ("--fps", "10", "story film"), ("--codec", "h265", "story film"), ("--crf", "40", "story film"), ("--bits", "10", "story film"),
         ("--chroma", "444", "story film"), ("--progress", "json", "story"))},
+    ("looks", "--size"): ("240x150", "plain"),
     ("morph", "--select"): ("chain A", "path"), ("morph", "--superpose-on"): ("name CB or backbone and chain A", "path"),
     ("morph", "--steps"): ("3", "path"),
     **{("farm bundle", option): (value, "bundled film")
@@ -266,6 +276,8 @@ for export in ("povray", "blender", "mitsuba", "pbrt", "mvs"):
     OWN_ROWS["export " + export, "--dpi"] = ("90", "length")
 for shape in ("--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans"):
     OWN_ROWS["export page", shape] = (ROWS[shape][0], "covered ring" if shape in ("--bases", "--glycans") else "plain")
+for option, context in (("--hydrogen-bonds", "pair"), ("--distance", "pair"), ("--hide-lengths", "dashes")):
+    OWN_ROWS["export page", option] = (ROWS[option][0], "covered " + context)
 OWN_ROWS["export page", "--background"] = ("black", "plain")
 OWN_ROWS["export page", "--named-view"] = ("Back={camera.json}", "plain")
 OWN_ROWS["export mesh", "--preset"] = ("cover", "plain")
@@ -281,7 +293,7 @@ for export in ("mesh", "ply"):
 
 SMALL = {"render": ["--size", "32x24", "--samples", "1", "--no-provenance"], "preview": ["--size", "32x24", "--samples", "1"],
          "export page": ["--size", "32x24"],
-         "panels": ["--size", "200x100", "--samples", "1"],
+         "panels": ["--size", "200x100", "--samples", "1"], "looks": ["--size", "200x150", "--samples", "1"],
          "film": ["--size", "32x24", "--samples", "1", "--hold", "0", "--transition", "0.08"]}
 MESHES = {"export blender", "export mitsuba", "export pbrt", "export mvs", "export mesh", "export ply"}
 EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--width": "--size", "--height": "--size",
@@ -291,7 +303,7 @@ EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--
 def output_of(command, context):
     of_run = "--frames" in CONTEXTS[context] or "--trajectory" in CONTEXTS[context]
     return {"film": "a.mp4" if context == "story film" else "a_#.png", "render": "a.mp4" if context == "film" else "a.exr" if context == "exr" else "a.tif" if context == "tiff" else "a_#.png" if of_run else "a.png", "export mesh": "a.usda" if context == "usd" else "a_#.glb" if of_run else "a.glb",
-            "panels": "a.tif" if context == "panels tiff" else "a.png", "morph": "a.pdb", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export vdb": "a_#.vdb" if of_run else "a.vdb", "export page": "a.html", "export mvs": "a.mvsx", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
+            "panels": "a.tif" if context == "panels tiff" else "a.png", "looks": "a.png", "morph": "a.pdb", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export vdb": "a_#.vdb" if of_run else "a.vdb", "export page": "a.html", "export mvs": "a.mvsx", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
 
 
 def options_of(command):
@@ -351,7 +363,7 @@ class OptionUse(unittest.TestCase):
         own = list(SMALL.get(command, []))
         if command in MESHES and "--tolerance-pixels" not in CONTEXTS[context]:
             own += ["--tolerance", "0.5"]
-        if command in SMALL and {"--legend", "--legend-file", "--label"} & {*CONTEXTS[context], option}:
+        if command in SMALL and {"--legend", "--legend-file", "--label", "--hydrogen-bonds"} & {*CONTEXTS[context], option}:
             own[1] = "400x150" if command == "panels" else "200x150"
         excluded = {EXCLUDES.get(word) for word in (option, *CONTEXTS[context])}
         for name in excluded & set(own):
@@ -364,7 +376,7 @@ class OptionUse(unittest.TestCase):
             words += ["--device", "cpu", *(["--threads", "1"] if command != "preview" else [])]
         if command == "preview":
             words += ["--serve", "--commands", str(self.folder / "look.jsonl")]
-        if command in ("render", "film", "panels", "morph") or command.startswith("export"):
+        if command in ("render", "film", "panels", "looks", "morph") or command.startswith("export"):
             words += ["-o", output_of(command, context)]
         tail = ["--", "render", str(self.folder / "run.pdb"), "--frames", "all", "--size", "64x48"] if command == "farm bundle" else []
         asked = [option] if value is None else [option, filled(value)]
@@ -380,7 +392,7 @@ class OptionUse(unittest.TestCase):
                     continue
                 value, own = OWN_ROWS.get((command, option)) or ROWS[option]
                 for context in dict.fromkeys([own, *contexts]):
-                    if context is None or (context != own and command in ("formats", "farm bundle", "pockets", "film", "panels", "morph")):
+                    if context is None or (context != own and command in ("formats", "farm bundle", "pockets", "film", "panels", "looks", "morph")):
                         continue
                     if any(word.startswith("--") and word not in options for word in CONTEXTS[context]):
                         continue
@@ -425,7 +437,7 @@ class OptionUse(unittest.TestCase):
                 self.assertTrue(more.differs_from(base) or any(option in line for line in said), more.err)
 
 
-TESTED = ["surface", "pockets", "info", "render", "film", "panels", "morph", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
+TESTED = ["surface", "pockets", "info", "render", "film", "panels", "looks", "morph", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
           "export mvs", "export mesh", "export ply", "export vdb", "export atoms", "export page", "formats", "farm bundle"]
 # What it is for is nothing that the command can do, or not with an output of that name.
 REFUSED = {("pockets", "--instances"), ("export vdb", "--instances"), ("export atoms", "--instances"), ("render", "--frames"), ("render", "--trajectory"),

@@ -320,7 +320,7 @@ TEST_F(SceneFile, EveryOptionOfAPictureIsInScenesOrNamedAsLeftOut) {
       const std::string name = (*found)[1];
       if (beside.contains(name) || name == "--output" || name == "--object") continue;
       const bool shape = name == "--sticks" || name == "--balls" || name == "--spheres" || name == "--tube" ||
-                         name == "--bases" || name == "--glycans";
+                         name == "--bases" || name == "--glycans" || name == "--hydrogen-bonds" || name == "--distance";
       EXPECT_TRUE(shape || std::regex_search(scenes, std::regex(" " + name + "\n"))) << name;
     }
     EXPECT_GT(count, 40);

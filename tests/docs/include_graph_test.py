@@ -44,7 +44,7 @@ ORDER = [
     ["app/options"],
     ["app/reports"],
     ["app/preview"],
-    ["app/preview/window", "app/preview/server"],
+    ["app/preview/server"],
     ["app/farm"],
     ["app/commands"],
     ["app/bench"],

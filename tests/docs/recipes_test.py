@@ -50,7 +50,7 @@ LANGUAGES = {
 
 # Commands that are not run here, and why.
 NOT_RUN = [
-    (r"^meniscus preview\b", "opens a window or a server: tests/preview"),
+    (r"^meniscus preview\b", "serves a page: tests/preview"),
     (r"\b(apt-get|pip|pipx|uv|docker|curl) ", "needs a network or root"),
     (r"\b(cmake|cpack) |\b(scripts|tests/\w+)/\w+\.", "builds, installs or measures: scripts"),
     (r"\bpkg-config\b", "compiles: tests/c_api"),

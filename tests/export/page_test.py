@@ -294,7 +294,7 @@ class PageTest(PageCase):
             await page.drag([[box[0] - 20, box[1] - 5]])
             self.assertRegex(await page.evaluate("document.getElementById('picked').textContent"), r"; \d+\.\d\d Å from A [A-Z]{3} \d+ ")
             await page.evaluate("meniscus.canvas.focus()")
-            for key in ("ArrowLeft", "+", ".", "p", "r"):
+            for key in ("ArrowLeft", "+", ".", "o", "p", "o", "r"):
                 await page.send("Input.dispatchKeyEvent", type="keyDown", key=key)
                 await page.send("Input.dispatchKeyEvent", type="keyUp", key=key)
             await page.until("meniscus.gliding === null", 60)

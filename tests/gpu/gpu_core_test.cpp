@@ -62,12 +62,7 @@ TEST_F(GpuCore, HardwareAskedForIsHardwareOrAnError) {
   }
 }
 
-TEST_F(GpuCore, HearsOfResets) {
-  const std::optional<ForeignContext> current = current_egl_context();
-  ASSERT_TRUE(current);
-  if (!current->reports_resets) GTEST_SKIP() << context_.renderer() << " cannot tell";
-  EXPECT_NO_THROW(require_living_context());
-}
+TEST_F(GpuCore, HearsOfResets) { EXPECT_NO_THROW(require_living_context()) << "there was none"; }
 
 TEST_F(GpuCore, KernelsNeedAContextThatKeepsAccounts) {
   bool refused = false;
@@ -91,26 +86,6 @@ TEST_F(GpuCore, MovesToAnotherThread) {
     EXPECT_EQ(buffer.download<std::uint32_t>(16), std::vector<std::uint32_t>(16, 7));
     buffer = Buffer();
   }).join();
-}
-
-TEST_F(GpuCore, SharesBuffersWithASibling) {
-  const auto shared = current_egl_context();
-  ASSERT_TRUE(shared);
-  Buffer buffer(64);
-  std::thread([&] {
-    const EglContext sibling(*shared);
-    EXPECT_EQ(sibling.renderer(), context_.renderer());
-    EXPECT_EQ(sibling.is_software(), context_.is_software());
-    buffer.fill(7);
-    check_gl("filling");
-    require_living_context();
-  }).join();
-  EXPECT_EQ(buffer.download<std::uint32_t>(16), std::vector<std::uint32_t>(16, 7));
-  EXPECT_FALSE([] {
-    bool found = true;
-    std::thread([&] { found = current_egl_context().has_value(); }).join();
-    return found;
-  }());
 }
 
 TEST_F(GpuCore, BuffersReturnWhatTheyWereGiven) {

@@ -153,6 +153,38 @@ TEST(Annotations, LabelsThatHaveNoRoomAreRefusedOrLeftOut) {
   EXPECT_EQ(extent(written(crowd)), bar) << "the bar alone";
 }
 
+TEST(Annotations, LengthsAreNextToTheirLinesUnlessHiddenOrInTheWay) {
+  Annotations one;
+  one.labels = {{"2.9 Å", {0.0, 0.0, 0.0}, false, {3.0, 0.0, 0.0}}};
+  const glm::ivec4 across = extent(written(one));
+  EXPECT_NEAR(0.5 * (across.x + across.z), 0.5 * kSize.x, 4.0) << "above the middle of the line";
+  EXPECT_LT(across.w, kSize.y / 2);
+  EXPECT_GT(across.y, kSize.y / 2 - 40);
+  one.labels.front().along = {0.0, 3.0, 0.0};
+  const glm::ivec4 upright = extent(written(one));
+  EXPECT_NEAR(0.5 * (upright.y + upright.w), 0.5 * kSize.y, 4.0);
+  EXPECT_TRUE(upright.x > kSize.x / 2 || upright.z < kSize.x / 2);
+  // The second is on the other side, and there is no place for a third.
+  const auto covered = [&] {
+    double sum = 0.0;
+    for (const glm::vec4& pixel : written(one).color) sum += pixel.w;
+    return sum;
+  };
+  const double once = covered();
+  one.labels.push_back(one.labels.front());
+  const double twice = covered();
+  EXPECT_NEAR(twice, 2.0 * once, 0.01 * once);
+  one.labels.push_back(one.labels.front());
+  EXPECT_EQ(covered(), twice);
+  for (PlaceLabel& label : one.labels) label.is_hidden = true;
+  EXPECT_EQ(covered(), 0.0);
+  // A label keeps its place, and hidden lengths leave its mark alone.
+  one.labels.insert(one.labels.begin(), {"Ser 48", {5.0, 5.0, 0.0}});
+  Annotations label;
+  label.labels = {one.labels.front()};
+  EXPECT_EQ(written(one).color, written(label).color);
+}
+
 TEST(Annotations, ACurveHasItsMarkWhereThePictureIs) {
   Annotations run;
   // Of the pixel or one above or below it.

@@ -63,14 +63,14 @@ TEST(LivePictures, ManyAtomsAreBallsUntilTheirSurfaceIsThere) {
   };
   const auto nothing_waits = [] { return Change::none; };
   const std::unique_ptr<PreviewSession> few = begin(3), many = begin(28);
-  EXPECT_EQ(LiveView(*few).next(), Quality::draft);
+  EXPECT_EQ(LiveView(*few).at_once(), Quality::draft);
   LiveView live(*many);
-  EXPECT_EQ(live.next(), Quality::balls);
+  EXPECT_EQ(live.at_once(), Quality::balls);
   ASSERT_TRUE(live.draw(Quality::balls, nothing_waits));
   const std::vector<std::uint8_t> balls = many->rgba();
   ASSERT_EQ(many->picture_size(), glm::ivec2(160, 120));
   ASSERT_EQ(balls.size(), 4u * 160 * 120);
-  EXPECT_EQ(live.next(), Quality::draft);
+  EXPECT_EQ(live.at_once(), Quality::draft);
   ASSERT_TRUE(live.draw(Quality::plain, nothing_waits));
   // They are where the surface of such atoms is.
   const std::vector<std::uint8_t> surface = many->rgba();
@@ -84,7 +84,7 @@ TEST(LivePictures, ManyAtomsAreBallsUntilTheirSurfaceIsThere) {
   EXPECT_GT(shown, 5000u);
   EXPECT_LT(differ, shown / 20);
   ASSERT_TRUE(live.apply({{"command", "orbit"}, {"dx", 0.1}, {"dy", 0.0}})["ok"]);
-  EXPECT_EQ(live.next(), Quality::draft);
+  EXPECT_EQ(live.at_once(), Quality::draft);
 }
 
 TEST(LivePictures, FramesPlayInFullSizeWhenThereIsTime) {

@@ -147,7 +147,7 @@ class PageManners(PageCase):
                 self.assertEqual(await page.evaluate(cut), [], size)
                 self.assertEqual(await page.evaluate("[...document.querySelectorAll('#panel h2')].filter((h) => "
                                                      "h.offsetParent).map((h) => h.textContent)"),
-                                 ["Surface", "Colour", "Figure", "View", "Film", "Look", "Frames", "Files", "Write"])
+                                 ["Surface", "Colours", "Figure", "View", "Film", "Look", "Frames", "Files", "Write"])
                 if size[0] > 640:
                     self.assertTrue(await page.evaluate("""[...document.querySelectorAll("#export-form button")].every((one) =>
                         one.getBoundingClientRect().bottom <= window.innerHeight && one.getBoundingClientRect().top > 0)"""))

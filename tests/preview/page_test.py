@@ -3,6 +3,7 @@
 
 import asyncio
 import json
+import math
 import os
 import statistics
 import subprocess
@@ -157,7 +158,7 @@ class Page(PageCase):
         await page.until("document.getElementById('message').textContent.includes('exists')")
 
     async def test_the_recorded_session_ends_in_the_same_picture(self):
-        """The session that the window's test replays too: here the page shows its end."""
+        """The page shows the picture that the session writes at its end."""
         preview = self.serve(MOLECULE, "--commands", SESSION, "--quiet")
         replies = [json.loads(line) for line in preview.lines[:-1]]
         with open(SESSION) as file:
@@ -268,6 +269,23 @@ class Page(PageCase):
             await page.click("#views .recall")
             await page.until("JSON.stringify(JSON.parse(document.getElementById('picture').dataset.state).camera.target)"
                              f" === {json.dumps(json.dumps(before['target'], separators=(',', ':')))}")
+            self.assertEqual(page.complaints, [])
+
+    async def test_a_cut_along_any_direction_moves(self):
+        preview = self.serve(MOLECULE, "--select", "chain D", "--clip", "1,-1,0>0")
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.open(preview.url)
+            self.assertEqual(await self.chips(page, 1), ["cut 1,-1,0 >"])
+            state = await self.state(page)
+            reach = await page.evaluate("(({min, max}) => [min, max].map(Number))(document.querySelector('#chips input'))")
+            self.assertEqual(reach, [math.floor(state["low"][0] - state["high"][1]), math.ceil(state["high"][0] - state["low"][1])])
+            middle = round(sum(reach) / 2)
+            await page.evaluate(f"""const cut = document.querySelector('#chips input'); cut.value = {middle};
+                cut.dispatchEvent(new Event('input')); 0""")
+            cuts = "JSON.parse(document.getElementById('picture').dataset.state).cuts[0]"
+            await page.until(f"{cuts} === '1,-1,0>{middle}'")
+            await page.click("#chips button:not(.remove)")
+            await page.until(f"{cuts} === '1,-1,0<{middle}'")
             self.assertEqual(page.complaints, [])
 
     async def test_scenes_are_kept_and_played(self):

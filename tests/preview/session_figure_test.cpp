@@ -93,7 +93,7 @@ TEST_F(FigureSession, EveryStepChangesThePictureAndUndoBringsItBack) {
     expect_ok(edit);
     if (Json::parse(edit)["command"] == "resize") {
       states.back() = state();
-      pictures.back() = picture();  // not undone: it is the window's
+      pictures.back() = picture();  // not undone: it is the page's
       continue;
     }
     states.push_back(state());
@@ -105,7 +105,7 @@ TEST_F(FigureSession, EveryStepChangesThePictureAndUndoBringsItBack) {
   for (std::size_t n = states.size() - 1; n-- > 0;) {
     expect_ok(R"({"command":"undo"})");
     Json expected = states[n];
-    expected["width"] = 400;  // whatever the window was then
+    expected["width"] = 400;  // whatever the page was then
     expected["height"] = 300;
     Json now = state();
     for (Json* json : {&expected, &now}) json->erase("camera"), json->erase("look");

@@ -44,7 +44,8 @@ class Pictures(unittest.TestCase):
         with self.assertRaisesRegex(meniscus.InputError, "colors has the shape"):
             s.render(size="10x10", colors=np.zeros((2, 3)), device=device)
         for name, value, said in (("samples", 0, "samples: '0' is not a whole number from 1 to 1024"),
-                                  ("sample", 1, "did you mean samples"), ("view", "top", "view: a picture of a surface")):
+                                  ("sample", 1, "did you mean samples"), ("view", "top", "view: a picture of a surface"),
+                                  ("preset", "ghost", "preset: ghost draws atoms")):
             with self.assertRaisesRegex(meniscus.UsageError, said):
                 s.render(device=device, **{name: value})
 
@@ -109,6 +110,22 @@ class Pictures(unittest.TestCase):
                 self.skipTest("OpenImageIO for Python is not installed")
             theirs = OpenImageIO.ImageInput.open(f"{folder}/a.png").read_image("uint8")
             np.testing.assert_array_equal(meniscus.Scene.read(path).render("cpu").pixels[..., :3], theirs)
+
+    def test_a_preset_draws_what_its_values_draw(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.pdb"
+            path.write_text("".join(f"ATOM  {n:5}  CA  ALA A{n:4}    {3.0 * n:8.3f}   0.000{2.0 * (n % 2):8.3f}  1.00 10.00           C  \n"
+                                    for n in range(1, 9)))
+            scene = meniscus.Scene(path, size="80x60", tube_radius=0.9)
+            scene.preset = "ghost"
+            self.assertEqual((scene.preset, scene.opacity), ("ghost", None))
+            again = meniscus.Scene.parse(scene.json())
+            self.assertEqual(again.preset, "ghost")
+            theirs = meniscus.Scene(path, size="80x60", tube_radius=0.9, opacity=0.15, film_opacity=True, tube="polymer").render("cpu")
+            for one in (scene, again):
+                np.testing.assert_array_equal(one.render("cpu").pixels, theirs.pixels)
+            with self.assertRaisesRegex(meniscus.UsageError, "'gost' is not one of publication, .*, ghost, goodsell, pocket, ribbon"):
+                scene.preset = "gost"
 
     def test_nothing_fades_where_a_surface_is_seen_through(self):
         with tempfile.TemporaryDirectory() as folder:

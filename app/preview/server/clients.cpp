@@ -130,6 +130,12 @@ Admission admit(std::string_view target, std::string_view token) {
 
 bool Clients::full() const { return sockets.size() >= kMostClients; }
 
+bool Clients::take_entry(std::string_view target) {
+  if (entry.empty() || !target.starts_with('/') || !equal_in_constant_time(target.substr(1), entry)) return false;
+  entry.clear();
+  return true;
+}
+
 ClientNumber Clients::join(std::shared_ptr<Client> client) {
   sockets.emplace(next_number, std::move(client));
   if (controller == 0) controller = next_number;

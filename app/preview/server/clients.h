@@ -111,6 +111,7 @@ struct Clients {
 
   Mailbox& mailbox;
   std::string token;
+  std::string entry = random_token();  ///< stands for the token in the first request that has it; then empty
   std::uint16_t port = 0;
   std::string announcement{};   ///< what a new client is told, as JSON; empty: nothing
   std::size_t connections = 0;  ///< sockets of any kind, open
@@ -126,6 +127,8 @@ struct Clients {
   /// This client controls from now on; both are notified.
   void give_control(ClientNumber client);
   bool full() const;
+  /// Returns true, once, for the target of a request that is "/" and the entry.
+  bool take_entry(std::string_view target);
   ClientNumber join(std::shared_ptr<Client> client);
   void leave(ClientNumber client);
 };

@@ -170,6 +170,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     for (const http::field header : {http::field::host, http::field::origin})
       if (request.count(header) > 1) return refuse(http::status::bad_request, "a header is there twice");
     if (!is_own_host(host, clients_->port)) return refuse(http::status::forbidden, "this is not the host asked for");
+    if (request.method() == http::verb::get && clients_->take_entry(target)) return lead_to_the_page();
     const Admission admission = admit(target, clients_->token);
     if (!admission.admitted)
       return refuse(http::status::forbidden, "the address lacks the token that meniscus printed");
@@ -190,6 +191,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
       return refuse(http::status::forbidden, "this page comes from elsewhere");
     if (clients_->full()) return refuse(http::status::service_unavailable, "too many pages are open already");
     std::make_shared<SocketClient>(std::move(stream_), clients_)->accept(request);
+  }
+
+  void lead_to_the_page() {
+    response_.set(http::field::location, fmt::format("/{}/", clients_->token));
+    send(http::status::see_other, content_type(".txt"), "");
   }
 
   void refuse(http::status status, std::string_view why) {

@@ -7,6 +7,8 @@
 #include <thread>
 #include <utility>
 
+#include <fcntl.h>
+
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
@@ -28,6 +30,7 @@ struct Network::State {
     try {
       const asio::ip::tcp::endpoint here(asio::ip::address_v4::loopback(), port);
       acceptor.open(here.protocol());
+      ::fcntl(acceptor.native_handle(), F_SETFD, FD_CLOEXEC);  // a browser that is opened must not keep the port
       acceptor.set_option(asio::socket_base::reuse_address(true));
       acceptor.bind(here);
       acceptor.listen();
@@ -76,6 +79,7 @@ struct Network::State {
   asio::ip::tcp::acceptor acceptor;
   asio::steady_timer pause{context};
   std::shared_ptr<Clients> clients;
+  const std::string entry = clients->entry;
   std::thread thread;
 };
 
@@ -102,6 +106,8 @@ Network::~Network() {
 std::uint16_t Network::port() const { return state_->clients->port; }
 
 std::string Network::url() const { return fmt::format("http://127.0.0.1:{}/{}/", port(), state_->clients->token); }
+
+std::string Network::url_once() const { return fmt::format("http://127.0.0.1:{}/{}", port(), state_->entry); }
 
 void Network::send(ClientNumber client, const nlohmann::json& message) {
   asio::post(state_->context, [clients = state_->clients, client, text = text_message(json_line(message))] {

@@ -220,7 +220,7 @@ class ServedSession {
 void serve_session(const ServeOptions& options, const MakeSession& make) {
   Mailbox mailbox;
   Network network(options.port, options.token, mailbox);
-  options.ready(network.url(), network.port());
+  options.ready({network.url(), network.url_once(), network.port()});
   try {
     const std::unique_ptr<PreviewSession> session = make([&](const std::string& what) {
       network.announce({{"event", "progress"}, {"what", escaped(what)}});

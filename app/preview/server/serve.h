@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The preview as a web page, for machines without a display.
+// The preview as a web page.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,18 @@
 
 namespace meniscus {
 
+/// Where the page is.
+struct ServedAddress {
+  std::string url;   ///< http://127.0.0.1:PORT/TOKEN/
+  std::string once;  ///< leads there once, so that it is worth nothing to those who see it in a list of processes
+  std::uint16_t port = 0;
+};
+
 struct ServeOptions {
   std::uint16_t port = 0;  ///< 0: any free one
   std::string token{};     ///< in the address; empty: a random one
   /// Gets the address of the page, as soon as it can be opened.
-  std::function<void(const std::string& url, std::uint16_t port)> ready;
+  std::function<void(const ServedAddress&)> ready;
 };
 
 /// Makes the session, and tells meanwhile what it is doing, such as "Reading 1tii.pdb".

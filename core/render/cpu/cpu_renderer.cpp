@@ -265,7 +265,8 @@ void CpuRenderer::find_shade(BlockSamples& samples, int sample, const Look& look
   task.shade_depth = samples.shade_depth.data();
   if (sample > 0) return;
   for_each_row(kernels_.measure_row);
-  for_each_row(kernels_.occlude_row);
+  for_each_until(interruption, (task.view.size.y + kRowsAtOnce - 1) / kRowsAtOnce,
+                 [&](int n) { kernels_.occlude_rows(task, kRowsAtOnce * n); });
 }
 
 /// Finishes the first transparent point along each ray: shade, depth cue and lines are written to samples_.over, each

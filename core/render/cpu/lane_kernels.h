@@ -176,7 +176,7 @@ struct LaneLook {
   const kernel::LightMapParameters* maps = nullptr;
   kernel::FinishParameters finish{};
   LaneSamples samples;
-  const float* light_maps = nullptr;   ///< LightMaps::texels(), for occlude_row
+  const float* light_maps = nullptr;   ///< LightMaps::texels(), for occlude_rows
   const float* shade_depth = nullptr;  ///< depths of the sample whose visibility this is
   float* shade_size = nullptr;         ///< size of a pixel at that depth, Å
   float* sky_seen = nullptr;           ///< shares of the sky and of the lamp that pixels see
@@ -184,6 +184,8 @@ struct LaneLook {
   glm::vec4* sums = nullptr;  ///< the finished colours are added to it
   float* ink = nullptr;       ///< receives the share of each pixel that lines cover; or nullptr
 };
+
+inline constexpr int kRowsAtOnce = 8;
 
 /// The kernels for one width.
 struct LaneKernels {
@@ -197,8 +199,9 @@ struct LaneKernels {
   void (*see_sky)(const LaneLight& light, const glm::vec3* points, const glm::vec3* normals, float* seen,
                   std::uint32_t count);
   void (*measure_row)(const LaneLook& look, int y);  ///< writes pixel sizes at the shade's depth to shade_size
-  void (*occlude_row)(const LaneLook& look, int y);  ///< writes sky_seen and lamp_seen where there are maps for them
-  void (*finish_row)(const LaneLook& look, int y);   ///< reads the visibility and size of two rows around
+  /// Writes sky_seen and lamp_seen of kRowsAtOnce rows from y, where there are maps for them.
+  void (*occlude_rows)(const LaneLook& look, int y);
+  void (*finish_row)(const LaneLook& look, int y);  ///< reads the visibility and size of two rows around
 };
 
 /// Returns the kernels for 4, 8 (AVX2) and 16 (AVX-512) lanes; nullptr if this processor cannot run them.

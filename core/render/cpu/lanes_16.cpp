@@ -34,7 +34,7 @@ const LaneKernels* kernels_of_16_lanes() {
                                        lanes_16::light_points,
                                        lanes_16::see_sky,
                                        lanes_16::measure_row,
-                                       lanes_16::occlude_row,
+                                       lanes_16::occlude_rows,
                                        lanes_16::finish_row};
   return processor_has_avx512() ? &kernels : nullptr;
 }

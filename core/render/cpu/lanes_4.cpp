@@ -16,7 +16,7 @@ const LaneKernels* kernels_of_4_lanes() {
                                        lanes_4::light_points,
                                        lanes_4::see_sky,
                                        lanes_4::measure_row,
-                                       lanes_4::occlude_row,
+                                       lanes_4::occlude_rows,
                                        lanes_4::finish_row};
   return &kernels;
 }

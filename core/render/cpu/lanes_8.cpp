@@ -31,7 +31,7 @@ const LaneKernels* kernels_of_8_lanes() {
                                        lanes_8::light_points,
                                        lanes_8::see_sky,
                                        lanes_8::measure_row,
-                                       lanes_8::occlude_row,
+                                       lanes_8::occlude_rows,
                                        lanes_8::finish_row};
   return processor_has_avx2() ? &kernels : nullptr;
 }

@@ -11,7 +11,10 @@ using glm::ivec2;
 using glm::vec3;
 using glm::vec4;
 using kernel::kLightLift;
+using kernel::kLightPhases;
+using kernel::kLightSteps;
 using kernel::kNothing;
+using std::floor;
 
 inline constexpr int kShadeReach = 2;  // pixels, the range of mean_visibility
 
@@ -36,7 +39,7 @@ struct LookedAtBlock {
   }
   real depth_or_nothing(integer2 pixel) { return fetch(look_.samples.depth, pixel); }
   real depth_or_nothing(pixel_row pixel) { return fetch(look_.samples.depth, pixel); }
-  real light_texel(integer at) const { return gather(look_.light_maps, at); }
+  integer light_texel(integer at) const { return bits_of(gather(look_.light_maps, at)); }
   real shade_depth_or_nothing(pixel_row pixel) { return fetch(look_.shade_depth, pixel); }
   real3 shade_seen_at(pixel_row pixel, real depth) {
     if constexpr (!kInside) return seen_at(place_of(pixel), depth, pixel_size_at(depth));
@@ -166,8 +169,8 @@ struct LookedAtBlock {
     // The other lanes read texels, too: their points must be numbers.
     const real3 p = position_at(pixel, select(met, depth, real(1.0f)));
     const real3 normal = select(met, facing(hit_normal_at(pixel), to_viewer_at(p)), real3(0.0f));
-    if (maps.sky_axes > 0) put(sky_visibility(p, normal), pixel, look_.sky_seen);
-    if (maps.lamp_places > 0) put(lamp_visibility(p, normal), pixel, look_.lamp_seen);
+    if (maps.sky_axes > 0) put(sky_visibility(p, normal, pixel.y), pixel, look_.sky_seen);
+    if (maps.lamp_places > 0) put(lamp_visibility(p, normal, pixel.y), pixel, look_.lamp_seen);
   }
 
  private:
@@ -254,9 +257,11 @@ inline void measure_row(const LaneLook& task, int y) {
   for_each_packet(task, y, 0, [](auto& block, pixel_row pixel) { block.measure(pixel); });
 }
 
-inline void occlude_row(const LaneLook& task, int y) {
-  const int reach = 0;  // the block's own depths are read at arbitrary places
-  for_each_packet(task, y, reach, [](auto& block, pixel_row pixel) { block.occlude(pixel); });
+inline void occlude_rows(const LaneLook& task, int first) {
+  LookedAtBlock<false> block(task);
+  // Packets above one another read the same parts of the maps.
+  for (int x = 0; x < task.view.size.x; x += kLanes)
+    for (int y = first; y < first + kRowsAtOnce && y < task.view.size.y; ++y) block.occlude({x, y});
 }
 
 inline void finish_row(const LaneLook& task, int y) {

@@ -15,6 +15,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include "core/queries/surface_object.h"
+#include "core/render/light_maps.h"
 
 namespace meniscus {
 namespace {
@@ -90,13 +91,6 @@ class TreeBuilder {
   std::vector<std::uint32_t>& order_;
 };
 
-/// Returns a point of the R2 sequence in the square [0, 1)².
-glm::dvec2 r2_point(std::size_t index) {
-  const auto n = static_cast<double>(index);
-  const double u = 0.5 + n * 0.7548776662466927, v = 0.5 + n * 0.5698402909980532;
-  return {u - std::floor(u), v - std::floor(v)};
-}
-
 }  // namespace
 
 std::vector<glm::vec3> sky_directions(std::size_t first, std::size_t count) {
@@ -160,18 +154,8 @@ void Occluders::aim(const Look& look, const ViewBasis& basis, int samples) {
   if (look.shadows > 0.0f) {
     light_.shadow = look.shadows;
     light_.lamp_rays = look.shadow_softness > 0.0f ? share(kLampRays) : 1;
-    const glm::dvec3 aside = glm::normalize(glm::dvec3(look.light_direction));
-    const glm::dvec3 towards = basis.right * aside.x + basis.up * aside.y - basis.forward * aside.z;
-    const glm::dvec3 x =
-        glm::normalize(glm::cross(towards, std::abs(glm::dot(towards, basis.up)) < 0.9 ? basis.up : basis.right));
-    const glm::dvec3 y = glm::cross(towards, x);
-    const double radius = std::tan(static_cast<double>(look.shadow_softness) * std::numbers::pi / 180.0);
-    lamp_.clear();
-    for (std::size_t n = 0; n < all(light_.lamp_rays); ++n) {
-      const glm::dvec2 point = r2_point(n);
-      const double r = radius * std::sqrt(point.x), angle = 2.0 * std::numbers::pi * point.y;
-      lamp_.emplace_back(glm::normalize(towards + r * (std::cos(angle) * x + std::sin(angle) * y)));
-    }
+    const std::vector<glm::dvec3> lamp = lamp_directions(look, basis, all(light_.lamp_rays));
+    lamp_.assign(lamp.begin(), lamp.end());
     light_.lamp = lamp_.data();
   }
   if (look.traces_sky()) {

@@ -156,6 +156,9 @@ inline Floats greater(Floats a, Floats b) { return _mm_max_ps(a, b); }
 #elif MENISCUS_LANES == 8 && defined(__x86_64__)
 inline Floats lesser(Floats a, Floats b) { return _mm256_min_ps(a, b); }
 inline Floats greater(Floats a, Floats b) { return _mm256_max_ps(a, b); }
+#elif MENISCUS_LANES == 16 && defined(__x86_64__)
+inline Floats lesser(Floats a, Floats b) { return _mm512_maskz_min_ps(0xffff, a, b); }
+inline Floats greater(Floats a, Floats b) { return _mm512_maskz_max_ps(0xffff, a, b); }
 #else
 inline Floats lesser(Floats a, Floats b) { return a < b ? a : b; }
 inline Floats greater(Floats a, Floats b) { return a > b ? a : b; }

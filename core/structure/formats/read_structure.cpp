@@ -101,7 +101,10 @@ bool keeps_hydrogens(const std::vector<Atom>& atoms, const ReadOptions& options,
 class Choice {
  public:
   Choice(const std::vector<Atom>& atoms, const ReadOptions& options, const RadiiChoice& radii)
-      : options_(options), from_file_(radii.from_molecule_file()), hydrogens_(keeps_hydrogens(atoms, options, radii)) {}
+      : options_(options),
+        from_file_(radii.from_molecule_file()),
+        hydrogens_(keeps_hydrogens(atoms, options, radii)),
+        ions_(options.keep_ions || has_only_ions(atoms)) {}
 
   /// Returns the reason for leaving an atom out; null if it is used. named: true if the selection names the atom.
   const char* reason(const Atom& atom, bool selected, bool named) const {
@@ -113,13 +116,13 @@ class Choice {
     }
     if (!hydrogens_ && is_hydrogen(atom)) return kExcludedHydrogen;
     if (atom.kind == AtomClass::water && !options_.keep_water && !named) return kExcludedWater;
-    if (atom.kind == AtomClass::ion && !options_.keep_ions && !named) return kExcludedIon;
+    if (atom.kind == AtomClass::ion && !ions_ && !named) return kExcludedIon;
     return nullptr;
   }
 
  private:
   const ReadOptions& options_;
-  bool from_file_, hydrogens_;
+  bool from_file_, hydrogens_, ions_;
 };
 
 /// Marks the companions: atoms outside of the polymer that pictures draw, and that neither the surface nor sticks,
@@ -235,15 +238,13 @@ std::vector<Bond> find_shown_bonds(const Structure& structure, const FileContent
     return n < own ? structure.atoms[n] : structure.extra_atoms[n - own];
   };
   std::vector<std::uint32_t> places;
-  for (std::uint32_t n = 0; n < own + structure.extra_atoms.size(); ++n)
-    if (atom(n).shown != 0) places.push_back(n);
-  // Residues must be in the order of the file.
-  std::stable_sort(places.begin(), places.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::pair(atom(a).copy, atom(a).index) < std::pair(atom(b).copy, atom(b).index);
-  });
   std::vector<Atom> shown;
-  for (const std::uint32_t n : places) shown.push_back(atom(n));
-  std::vector<Bond> bonds = molecule_bonds(shown, contents.bonds, contents.fully_bonded);
+  for (std::uint32_t n = 0; n < own + structure.extra_atoms.size(); ++n) {
+    if (atom(n).shown == 0) continue;
+    places.push_back(n);
+    shown.push_back(atom(n));
+  }
+  std::vector<Bond> bonds = bonds_in_any_order(shown, contents.bonds, contents.fully_bonded);
   for (auto& [a, b] : bonds) {
     a = places[a];
     b = places[b];

@@ -36,10 +36,10 @@ inline constexpr std::size_t kMostShown = 16;
 
 /// The choice of atoms of a file, and of further data to read.
 struct ReadOptions {
-  ModelChoice model{};                                    ///< the models to read
-  AltlocChoice altloc{};                                  ///< the alternate location of each residue
-  bool keep_water = false;                                ///< true: water is used
-  bool keep_ions = false;                                 ///< true: free ions are used
+  ModelChoice model{};      ///< the models to read
+  AltlocChoice altloc{};    ///< the alternate location of each residue
+  bool keep_water = false;  ///< true: water is used
+  bool keep_ions = false;   ///< true: free ions are used, as in a file without other molecules
   UnknownElement unknown_element = UnknownElement::halt;  ///< guess: radius kRadiusWithoutSource; skip: left out
   std::string assembly{};                                 ///< id of the assembly to build; empty: as in the file
   CopyMode copy_mode = CopyMode::atoms;                   ///< what becomes of its copies

@@ -86,6 +86,8 @@ SurfacePicture surface_picture(const meniscus_surface* surface, const meniscus_s
                                const meniscus_camera* camera, const float* atom_colors) {
   require(surface, "surface");
   if (scene) require(scene, "scene");
+  if (const Preset& preset = preset_of(scene ? scene->copy().look.preset : LookPreset{}); !preset.settings.empty())
+    refuse(MENISCUS_USAGE, "preset: {} draws atoms of a molecule; meniscus_render_scene() does that", preset.word);
   const meniscus_scene defaults;
   SurfacePicture picture{completed(scene ? *scene : defaults), {}, {}};
   check_of_surface(picture.scene);

@@ -336,7 +336,7 @@ function follow_keys(viewer) {
     else if (event.key === "-") viewer.move(zoomed(camera, 1 / 1.1));
     else if (event.key === "," || event.key === ".") viewer.move(rolled(camera, event.key === "," ? -0.1 : 0.1));
     else if (event.key === "r" || event.key === "R") element("reset").click();
-    else if (event.key === "p" || event.key === "P") set_projection(viewer, !camera.orthographic);
+    else if (/^[op]$/i.test(event.key)) set_projection(viewer, !camera.orthographic);
     else return;
     event.preventDefault();
   });

@@ -131,6 +131,61 @@ TEST(SceneValues, OfAFileAreThoseOfTheScene) {
   EXPECT_TRUE(scene == again);
 }
 
+TEST(SceneValues, OfPresetsLieUnderTheOthers) {
+  std::vector<std::string> words;
+  for (const Preset& preset : kPresets) words.emplace_back(preset.word);
+  EXPECT_EQ(words, words_of(property_of("look.preset")));
+  const std::map<std::string_view, Texts> own{{"look.shadows", {"0.75"}},
+                                              {"surface.color", {"red", "chain A=#00ff00"}},
+                                              {"surface.opacity", {"0.25"}},
+                                              {"figure.sticks", {"resid 9"}},
+                                              {"surface.clip", {"x<20"}}};
+  for (const Preset& preset : kPresets) {
+    SCOPED_TRACE(std::string(preset.word));
+    Scene first, last;
+    set_value(first, property_of("look.preset"), Texts{std::string(preset.word)});
+    for (const auto& [key, texts] : own)
+      for (Scene* const scene : {&first, &last}) set_value(*scene, property_of(key), texts);
+    set_value(last, property_of("look.preset"), Texts{std::string(preset.word)});
+    complete(first);
+    complete(last);
+    EXPECT_TRUE(first == last);
+    for (const auto& [key, texts] : own) {
+      const Texts all = value_texts(first, property_of(key));
+      EXPECT_EQ(all.back(), texts.back()) << key;
+      if (key == "surface.color") EXPECT_EQ(parse_color_scheme(all.front())->fixed, parse_color_scheme("red")->fixed);
+      if (key == "surface.clip") EXPECT_EQ(all, texts);
+    }
+    Scene again = first;
+    complete(again);
+    EXPECT_TRUE(again == first) << "a completed scene changes";
+    EXPECT_TRUE(preset_of(first.look.preset).settings.empty());
+  }
+}
+
+// A path of a moving camera or a camera of its own has no aim.
+TEST(SceneValues, OfAPresetLeaveACameraAsItIs) {
+  for (const char* const key : {"camera.from", "camera.path"}) {
+    Scene scene;
+    set_value(scene, property_of("look.preset"), Texts{"pocket"});
+    set_value(scene, property_of(key), Texts{"camera.json"});
+    complete(scene);
+    EXPECT_FALSE(scene.picture.zoom_to);
+    EXPECT_FALSE(scene.picture.direction);
+    EXPECT_EQ(scene.figure.cuts.size(), 1u);
+  }
+}
+
+// The numbers of a file are a scheme themselves.
+TEST(SceneValues, OfAPresetLeaveNumbersTheirColors) {
+  Scene scene;
+  set_value(scene, property_of("look.preset"), Texts{"goodsell"});
+  set_value(scene, property_of("surface.color_by_file"), Texts{"numbers.txt"});
+  complete(scene);
+  EXPECT_EQ(scene.molecule.color.by, ColorScheme::By::file);
+  EXPECT_EQ(scene.molecule.surface.kind, SurfaceKind::vdw);
+}
+
 TEST(SceneValues, OnPaperFollowTheResolution) {
   Scene scene;
   set_value(scene, property_of("image.width"), Texts{"25.4mm"});

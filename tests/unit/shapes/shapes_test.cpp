@@ -492,5 +492,34 @@ TEST(ShapeMesh, IsClosedAndWithinTheTolerance) {
             std::count(stick.mesh.atom.begin(), stick.mesh.atom.end(), 1u));
 }
 
+Structure pair_at(const glm::dvec3& one, const glm::dvec3& other) {
+  Structure structure;
+  structure.atoms.resize(2);
+  structure.atoms[0].position = one;
+  structure.atoms[1].position = other;
+  return structure;
+}
+
+TEST(Dashes, AreEquallyLongWithTheirMiddleInTheMiddleOfTheLine) {
+  const Structure pair = pair_at({1.0, 2.0, 3.0}, {1.0, 5.0, 3.0});
+  const Shapes shapes = dashes(pair, std::vector<Bond>{{0, 1}}, 0.1);
+  ASSERT_EQ(shapes.cylinders.size(), 6u);  // one each 0.5 Å
+  EXPECT_EQ(shapes.spheres.size(), 12u);
+  glm::dvec3 middle(0.0);
+  double length = 0.0;
+  for (const CylinderShape& dash : shapes.cylinders) {
+    EXPECT_NEAR(glm::distance(dash.from, dash.to), 0.16, 1e-12);
+    EXPECT_EQ(dash.radius, 0.1);
+    EXPECT_EQ(dash.from_atom, 0.5 * (dash.from.y + dash.to.y) < 3.5 ? 0u : 1u);
+    middle += (dash.from + dash.to) / 12.0;
+    length += glm::distance(dash.from, dash.to);
+  }
+  EXPECT_NEAR(glm::distance(middle, glm::dvec3(1.0, 3.5, 3.0)), 0.0, 1e-12);
+  EXPECT_NEAR(length, 0.96, 1e-12);
+  EXPECT_NEAR(shapes.cylinders.front().from.y, 2.17, 1e-12);
+  EXPECT_TRUE(dashes(pair, {}).empty());
+  EXPECT_TRUE(dashes(pair_at({}, {}), std::vector<Bond>{{0, 1}}).empty());
+}
+
 }  // namespace
 }  // namespace meniscus

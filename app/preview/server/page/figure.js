@@ -23,16 +23,18 @@ function slider(label, { min, max, step, value }, tell) {
   return range;
 }
 
-const kPlane = /^(depth|x|y|z)([<>])(.*)$/;
+const kPlane = /^(depth|x|y|z|[^<>, ]+,[^<>, ]+,[^<>, ]+)([<>])(.*)$/;
 
-/// Where a plane can stand, that moves along the view or an axis; null for others.
+/// Returns the places where a plane can be that moves along the view, an axis or a direction such as 1,1,0; null for
+/// planes whose place is told by atoms.
 function plane_range(plane, state) {
   const found = plane.match(kPlane);
   if (!found) return null;
-  const [, axis, sign, bound] = found;
-  const a = "xyz".indexOf(axis);
-  const [min, max, step] = a < 0 ? [0, 1, 0.01] : [Math.floor(state.low[a]), Math.ceil(state.high[a]), 0.1];
-  return { axis, sign, min, max, step, value: Number(bound) };
+  const [, axis, sign, bound] = found, value = Number(bound);
+  if (axis === "depth") return { axis, sign, min: 0, max: 1, step: 0.01, value };
+  const normal = axis.includes(",") ? axis.split(",").map(Number) : [..."xyz"].map((word) => Number(word === axis));
+  const reach = (choose) => normal.reduce((sum, n, c) => sum + choose(n * state.low[c], n * state.high[c]), 0);
+  return { axis, sign, min: Math.floor(reach(Math.min)), max: Math.ceil(reach(Math.max)), step: 0.1, value };
 }
 
 /// Shows what the figure has, each with its controls; command(word, values) changes it. Returns show(state), and

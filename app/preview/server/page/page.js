@@ -279,8 +279,7 @@ function fill_choices(choices) {
   $("shapes").prepend(...choices.representations.map((as) =>
     Object.assign(document.createElement("button"), { name: "do", value: as, textContent: as })));
   for (const preset of choices.presets) $("preset").add(new Option(preset, preset));
-  fill_list($("help").querySelector("dl"), choices.keys.filter(({ keys }) => !keys.startsWith("q"))
-    .map(({ keys, what }) => [what, keys]));
+  fill_list($("help").querySelector("dl"), choices.keys.map(({ keys, what }) => [what, keys]));
   if (state) apply_state(state);
 }
 
@@ -480,14 +479,14 @@ $("copy-command").addEventListener("click", async () => {
 
 // Keys
 
-// What they mean is the session's to say, for all faces alike.
+// What they mean is the session's to say.
 const face_actions = {
   help: () => { $("help").hidden = !$("help").hidden; },
   panel: () => { document.body.classList.toggle("bare"); },
   export: () => { document.body.classList.remove("bare"); $("export-name").focus(); $("export-name").select(); },
 };
 follow_keys((key) => {
-  if (key === "Escape") { $("help").hidden = true; return; }  // a page is left otherwise
+  if (key === "Escape") { $("help").hidden = true; return; }
   // At once: what is typed behind the key that opens a field is for the field, however late the session replies.
   const action = actions[key.length === 1 ? key.toLowerCase() : key];
   if (action) return face_actions[action]?.();

@@ -21,11 +21,13 @@ class SurfaceValues(TypedDict, total=False):
     #: 'ligand=orange:ATP' names them in the legend. Repeatable; the last one counts. meniscus colors explains
     #: the schemes [auto]
     color: Union[Text, Sequence[Text]]
-    #: WORD: Look: publication, cover, flat, soft or classic. publication: shade, thin lines, colours as given;
-    #: cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic: studio
-    #: light alone. Other options of light and lines change single values of it. Where colours show numbers,
-    #: light changes only their lightness [publication]
-    preset: Literal["publication", "cover", "flat", "soft", "classic"]
+    #: WORD: Look by one word, such as ghost, pocket or ribbon. publication: shade, thin lines, colours as
+    #: given; cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic:
+    #: studio light alone; ghost: the fold in a surface that is seen through; goodsell: atoms in flat colours of
+    #: chains, with outlines and shadows; pocket: a ligand in its pocket, with its neighbours and hydrogen
+    #: bonds; ribbon: the fold without a surface. meniscus looks FILE draws them all. Other options change
+    #: single values of a look. Where colours show numbers, light changes only their lightness [publication]
+    preset: Literal["publication", "cover", "flat", "soft", "classic", "ghost", "goodsell", "pocket", "ribbon"]
     #: X,Y,Z: Direction towards the lamp, as X,Y,Z: right, up, to the viewer [-0.45,0.65,0.75]
     light: Text
     #: F: Strength of the lamp, 0 to 10 [1]
@@ -46,7 +48,7 @@ class SurfaceValues(TypedDict, total=False):
     #: N: Rays a pixel that find shade and shadows, such as 64: exact, but slow. 0: maps of the light find them
     #: [0]
     ambient_occlusion_rays: float
-    #: F: Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts none
+    #: F: Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts less
     shadows: float
     #: DEGREES: Half the angle at which the lamp is seen, 0 (sharp shadows, by rays) to 45
     shadow_softness: float
@@ -297,6 +299,11 @@ class SceneValues(SurfaceValues, total=False):
     #: EXPR: Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours:
     #: color=snfg
     glycans: Union[Text, Sequence[Text]]
+    #: EXPR: Draw hydrogen bonds of these atoms as dashed lines, with lengths. 'EXPR to EXPR': only those
+    #: between two sets. Water counts where it is drawn or selected
+    hydrogen_bonds: Union[Text, Sequence[Text]]
+    #: EXPR to EXPR: Draw the smallest distance of two sets of atoms as a dashed line
+    distance: Union[Text, Sequence[Text]]
     #: Draw no ligands and ions beside the surface of a polymer. Objects that are named stay
     bare: bool
     #: Å: Radius of sticks in Å, also of bases and between glycans [0.25; 0.15 between balls]
@@ -365,6 +372,8 @@ class SceneValues(SurfaceValues, total=False):
     letter_color: Text
     #: EXPR=TEXT: Write TEXT at these atoms, with a line to their centre. Repeatable
     label: Union[Text, Sequence[Text]]
+    #: Write no lengths beside dashed lines
+    hide_lengths: bool
     #: Write the time of each frame in ps, ns or µs, or else its number
     time_stamp: bool
     #: FILE.csv: Draw a curve of the run from a CSV table, with a mark at each frame. Such tables are written by
