@@ -115,14 +115,6 @@ std::shared_ptr<const FontProgram> program_of(FT_Face face, const std::string& f
 
 }  // namespace
 
-std::optional<std::string> find_font_file() {
-  try {
-    return fonts_for({}).front().regular;
-  } catch (const RequestError&) {
-    return {};
-  }
-}
-
 /// The fonts in which letters are looked up. The first one is open; others are opened when a letter needs them.
 class Font::Faces {
  public:

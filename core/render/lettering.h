@@ -35,9 +35,6 @@ struct FontChoice {
   auto operator<=>(const FontChoice&) const = default;
 };
 
-/// Returns the path of the default font; nothing if no font is installed.
-std::optional<std::string> find_font_file();
-
 /// A font file with what pages say of it. Lengths are in thousandths of the height of its letters.
 struct FontProgram {
   std::string file, family, postscript_name;
