@@ -70,6 +70,8 @@ bool reaches_into(const InkStroke& stroke, int first_row, int end_row) {
 std::vector<PageShape> shapes_of(const AnnotationLayer& annotations, int first_row, int end_row) {
   std::vector<PageShape> shapes;
   const auto add = [&](const InkStroke& stroke, double around, std::string_view group, const glm::vec3& color) {
+    const auto* const text = std::get_if<InkText>(&stroke);
+    if (text && text->text.empty()) return;  // the length of a hidden line
     PageShape& shape = shapes.emplace_back(shape_of(stroke, around, annotations));
     shape.group = group;
     shape.color = color;

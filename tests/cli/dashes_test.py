@@ -81,6 +81,13 @@ class Dashes(unittest.TestCase):
         numpy.testing.assert_array_equal(written, self.picture("--hide-surface", "--object", json.dumps(
             {"representation": "hydrogen_bonds", "selection": "resname LGA to all"}), "--device", "cpu"))
 
+    def test_lengths_are_text_in_vectors_where_lines_are_seen(self):
+        for more, count in (([], 2), (["--spheres", "all"], 0)):  # with its rim
+            self.made("render", "pair.pdb", "-o", "a.svg", *SMALL, *BONDS, *more)
+            text = (self.folder / "a.svg").read_text()
+            self.assertEqual(text.count("<text"), count)
+            self.assertEqual(text.count("2.8 Å"), count)
+
     def test_both_renderers_show_the_same(self):
         cpu, gl = (self.picture(*BONDS, "--device", device) for device in ("cpu", "software"))
         self.assertEqual(self.dashes(gl), DASHES)
