@@ -89,9 +89,10 @@ bool merge_commands(nlohmann::json& first, const nlohmann::json& second) {
     first["factor"] = std::clamp(before * after, 1.0 / kMostZoom, kMostZoom);
     return true;
   }
-  // A slider that belongs to one entry of a list.
+  // A slider that belongs to one entry of a list, or to one property.
   constexpr std::array<std::string_view, 3> kEntries{"object", "cut", "opacity"};
-  const bool same_entry = is_one_of(kEntries, word) && first.contains("index") && same("index");
+  const bool same_entry =
+      (is_one_of(kEntries, word) && first.contains("index") && same("index")) || (word == "set" && same("key"));
   // A pick that is waited for is a click, and each click counts.
   const auto waits = [](const nlohmann::json& pick) { return !pick.contains("wait") || pick["wait"] != false; };
   if (!(is_one_of(kLatest, word) || same_entry) || (word == "pick" && (waits(first) || waits(second)))) return false;

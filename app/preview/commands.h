@@ -88,12 +88,11 @@ Service get_state;
 
 // What the rows name, by file.
 Reducer orbit, pan, zoom, roll, zoom_to, center, reset_view, set_camera, set_projection, save_view, recall_view,
-    forget_view;                                                                             // camera_commands.cpp
-Reducer show_frame, next_frame, set_key, follow_keys, play, pause, resize, set_samples;      // camera_commands.cpp
-Reducer set_surface, set_probe, show, hide, represent, put_object, hide_surface, set_radii,  // figure_commands.cpp
-    set_cut, set_cap, remove_entry, set_patches;
-Reducer set_color, paint, set_patch_kinds, set_opacity, set_film_opacity, set_look, set_preset,  // look_commands.cpp
-    set_legend;
+    forget_view;                                                                           // camera_commands.cpp
+Reducer show_frame, next_frame, set_key, follow_keys, play, pause, resize, set_samples;    // camera_commands.cpp
+Reducer set_surface, set_probe, show, hide, represent, put_object, set_property, set_cut,  // figure_commands.cpp
+    remove_entry, set_patches;
+Reducer set_color, paint, set_patch_kinds, set_opacity, set_look, set_preset, set_legend;  // look_commands.cpp
 /// The next picture of a strip that plays; at its end playing ends.
 Outcome next_of_strip(PreviewState state, const Surroundings& around);
 Reducer keep_scene, forget_scene, show_strip;                                             // strip_commands.cpp

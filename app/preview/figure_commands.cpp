@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The commands that change what is shown: parts of the surface, what is drawn beside it, cuts.
+#include <algorithm>
 #include <array>
+#include <iterator>
+#include <ranges>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/preview/commands.h"
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/properties/properties.h"
 #include "core/scene/cut.h"
 #include "core/scene/molecule.h"
 #include "core/scene/scene_json.h"
+#include "core/scene/scene_values.h"
 #include "core/scene/surface_computer.h"
 
 namespace meniscus {
@@ -49,6 +56,16 @@ bool same_shape(const FigureObjectRequest& a, const FigureObjectRequest& b) {
   return a.shapes == b.shapes && a.text() == b.text() && a.radius == b.radius && a.kind == b.kind &&
          a.probe_radius == b.probe_radius;
 }
+
+/// A property of the figure, by its name in scenes, and what is made again when the command "set" changes it.
+struct SettableProperty {
+  std::string_view name;
+  Renewal renewal;
+};
+constexpr SettableProperty kSettable[] = {
+    {"hide_surface", Renewal::cuts}, {"film_opacity", Renewal::cuts},   {"cap_color", Renewal::cuts},
+    {"cap_hatching", Renewal::cuts}, {"stick_radius", Renewal::colors}, {"tube_radius", Renewal::colors},
+};
 
 Outcome with_part(const CommandReader& command, PreviewState& state, const Surroundings& around) {
   const std::size_t atoms = command.naming([&] { return around.molecule.count_shown(state); });
@@ -131,16 +148,27 @@ Outcome put_object(const CommandReader& command, PreviewState state, const Surro
   return next;
 }
 
-Outcome hide_surface(const CommandReader& command, PreviewState state, const Surroundings&) {
-  state.figure.hides_surface = command.flag("on");
-  return {std::move(state), Renewal::cuts};
-}
-
-Outcome set_radii(const CommandReader& command, PreviewState state, const Surroundings&) {
-  Representations& representations = state.figure.representations;
-  if (command.has("stick")) representations.stick_radius = command.number("stick", property_of("shapes.stick_radius"));
-  if (command.has("tube")) representations.tube_radius = command.number("tube", property_of("shapes.tube_radius"));
-  return {std::move(state), Renewal::colors};  // of the same atoms
+Outcome set_property(const CommandReader& command, PreviewState state, const Surroundings&) {
+  const std::string name = command.text("key");
+  const auto row = std::ranges::find(kSettable, name, &SettableProperty::name);
+  if (row == std::end(kSettable))
+    throw RequestError(fmt::format("set: \"key\" is {}; it must be one of {}", in_quotes(name),
+                                   fmt::join(kSettable | std::views::transform(&SettableProperty::name), ", ")));
+  const Property& property = scene_property(name);
+  const bool is_switch = property.type == ValueType::flag;
+  if (is_switch) command.flag("value");  // set_value() would take other words for true
+  const nlohmann::json& value = command.value("value");
+  const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  Scene scene;
+  scene.figure = std::move(state.figure);
+  try {
+    set_value(scene, property, {&text, 1});
+  } catch (const ValueError& error) {
+    throw RequestError(fmt::format("set: {}: {}", name, error.what()));
+  }
+  state.figure = std::move(scene.figure);
+  // A switch is a step by itself; the places of a slider that follow each other are one.
+  return {.state = std::move(state), .renewal = row->renewal, .is_own_step = is_switch};
 }
 
 Outcome set_cut(const CommandReader& command, PreviewState state, const Surroundings& around) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands that colour: schemes, rules, opacity, caps, the look and the legend.
+// The commands that colour: schemes, rules, opacity, the look and the legend.
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -156,21 +156,6 @@ Outcome set_opacity(const CommandReader& command, PreviewState state, const Surr
     index = rules.size() - 1;
   }
   return {std::move(state), Renewal::colors, {{"index", index}}};
-}
-
-Outcome set_film_opacity(const CommandReader& command, PreviewState state, const Surroundings&) {
-  state.figure.thickens = command.flag("on");
-  return {std::move(state), Renewal::cuts};
-}
-
-Outcome set_cap(const CommandReader& command, PreviewState state, const Surroundings&) {
-  CapStyle& cap = state.figure.cap;
-  if (command.has("color")) {
-    cap.color.reset();
-    if (command.text("color") != "atom") cap.color = named_color(command, "color");
-  }
-  if (command.has("hatching")) cap.hatching = command.number("hatching", property_of("surface.cap_hatching"));
-  return {std::move(state), Renewal::cuts};
 }
 
 Outcome set_look(const CommandReader& command, PreviewState state, const Surroundings&) {

@@ -57,18 +57,20 @@ constexpr const char* kEdits[] = {
     R"({"command":"remove","of":"representations","index":0})",
     R"({"command":"object","object":{"selection":"ligand","color":"red"}})",
     R"({"command":"object","object":{"representation":"spheres","selection":"resn HOH","color":"#00ff00"}})",
-    R"({"command":"hide_surface","on":true})",
+    R"({"command":"set","key":"hide_surface","value":true})",
     R"({"command":"object","index":0,"object":{"selection":"ligand","color":"blue","opacity":"0.6","clip":"x<6.5"}})",
-    R"({"command":"hide_surface","on":false})",
+    R"({"command":"set","key":"hide_surface","value":false})",
     R"({"command":"remove","of":"objects","index":1})",
     R"({"command":"show","selection":"within 5 of ligand"})",
     R"({"command":"show"})",
     R"({"command":"color","scheme":"bfactor","map":"magma","range":"10:20"})",
     R"({"command":"paint","selection":"name CA","color":"red"})",
     R"({"command":"opacity","opacity":0.5,"selection":"name O"})",
-    R"({"command":"film_opacity","on":true})",
+    R"({"command":"set","key":"film_opacity","value":true})",
     R"({"command":"cut","plane":"x<1"})",
-    R"({"command":"cap","color":"#00ff00","hatching":0.5})",
+    R"({"command":"set","key":"cap_color","value":"#00ff00"})",
+    R"({"command":"orbit","dx":0.0,"dy":0.1})",
+    R"({"command":"set","key":"cap_hatching","value":0.5})",
     R"({"command":"hide","selection":"name N"})",
     R"({"command":"preset","preset":"flat"})",
     R"({"command":"look","background":"#336699"})",
@@ -161,8 +163,13 @@ TEST_F(FigureSession, WhatIsRefusedChangesNothing) {
       {R"({"command":"opacity","opacity":1,"index":0})", "index"},
       {R"({"command":"cut","plane":"x=1"})", "there is no < or >"},
       {R"({"command":"cut","plane":"x<2","index":1})", "from 0 to 0"},
-      {R"({"command":"cap","color":"greenish"})", "colour's name"},
-      {R"({"command":"cap","hatching":-1})", "hatching"},
+      {R"({"command":"set","key":"cap_color","value":"greenish"})", "cap_color: 'greenish'"},
+      {R"({"command":"set","key":"cap_hatching","value":-1})", "cap_hatching: '-1'"},
+      {R"({"command":"set","key":"cap_hatching","value":[1]})", "cap_hatching: '[1]'"},
+      {R"({"command":"set","key":"film_opacity","value":"perhaps"})", "true or false"},
+      {R"({"command":"set","key":"hide_surface","value":null})", "true or false"},
+      {R"({"command":"set","key":"probe","value":2})", "one of hide_surface, film_opacity, cap_color"},
+      {R"({"command":"set","key":"cap_hatching"})", "value"},
       {R"({"command":"remove","of":"rules","index":0})", "there are no rules"},
       {R"({"command":"remove","of":"cuts","index":1})", "index"},
       {R"({"command":"remove","of":"atoms"})", "one of"},
@@ -172,7 +179,7 @@ TEST_F(FigureSession, WhatIsRefusedChangesNothing) {
       {R"({"command":"legend","place":"left"})", "one of auto, right, below"},
       {R"({"command":"color","scheme":"bfactor","range":"9:1"})", "lo:hi"},
       {R"({"command":"color","scheme":"chain","range":"1:9"})", "colours by a number"},
-      {R"({"command":"radii","stick":0})", "stick"},
+      {R"({"command":"set","key":"stick_radius","value":0})", "stick_radius: '0'"},
       {R"({"command":"surface","kind":"ms"})", "one of ses, sas, vdw"},
       {R"({"command":"recall_view","name":"front"})", "no view is called"},
       {R"({"command":"save_view","name":""})", "1 to 60"},
@@ -340,7 +347,7 @@ TEST_F(FigureSession, ObjectsHaveLooksAndAtomsOfTheirOwn) {
   EXPECT_EQ(told[0],
             Json::parse(R"({"representation":"surface","selection":"ligand","color":"#ffd700","specular":0.8})"));
   // The ligand is not an atom of the surface, yet it is picked.
-  expect_ok(R"({"command":"hide_surface","on":true})");
+  expect_ok(R"({"command":"set","key":"hide_surface","value":true})");
   expect_ok(R"({"command":"zoom_to","selection":"ligand"})");
   const Json pick = apply(R"({"command":"pick","x":40,"y":30})");
   ASSERT_TRUE(pick["hit"]) << pick;
@@ -378,7 +385,7 @@ TEST_F(FigureSession, WhatItCannotShowIsRefusedInOneLine) {
     refused(std::string(R"({"command":"color","scheme":")") + scheme + "\"}", "needs more than atoms");
   refused(R"({"command":"paint","selection":"all","color":"buried"})", "needs more than atoms");
   refused(R"({"command":"object","object":{"selection":"ligand","color":"rmsf"}})", "needs more than atoms");
-  refused(R"({"command":"hide_surface","on":true})", "nothing would be shown");
+  refused(R"({"command":"set","key":"hide_surface","value":true})", "nothing would be shown");
   refused(R"({"command":"object","object":{"selection":"resn XYZ"}})", "--object");
   refused(R"({"command":"object","object":{"selection":"ligand","colour":"red"}})", "colour");
   refused(R"({"command":"object","index":0,"object":{"selection":"ligand"}})", "index");

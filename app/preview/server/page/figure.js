@@ -71,12 +71,12 @@ export function figure_controls(command, say) {
       command("cut", { plane: `${axis}>${bound}` });
     });
   $("surface-shown").addEventListener("change", (event) =>
-    command("hide_surface", { on: !event.target.checked }).then((reply) => { if (!reply) event.target.checked = true; }));
-  $("film").addEventListener("change", (event) => command("film_opacity", { on: event.target.checked }));
+    command("set", { key: "hide_surface", value: !event.target.checked }).then((reply) => { if (!reply) event.target.checked = true; }));
+  $("film").addEventListener("change", (event) => command("set", { key: "film_opacity", value: event.target.checked }));
   $("cap").addEventListener("change", (event) =>
-    command("cap", { color: event.target.value === "own" ? $("cap-color").value : event.target.value }));
-  $("cap-color").addEventListener("input", (event) => command("cap", { color: event.target.value }));
-  $("hatching").addEventListener("input", (event) => command("cap", { hatching: event.target.valueAsNumber }));
+    command("set", { key: "cap_color", value: event.target.value === "own" ? $("cap-color").value : event.target.value }));
+  $("cap-color").addEventListener("input", (event) => command("set", { key: "cap_color", value: event.target.value }));
+  $("hatching").addEventListener("input", (event) => command("set", { key: "cap_hatching", value: event.target.valueAsNumber }));
   $("undo").addEventListener("click", () => command("undo"));
   $("redo").addEventListener("click", () => command("redo"));
   $("legend").addEventListener("change", (event) =>
