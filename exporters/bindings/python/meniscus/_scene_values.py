@@ -41,7 +41,7 @@ class SurfaceValues(TypedDict, total=False):
     #: F: Specular exponent, 1 to 1000; larger gives smaller highlights
     shininess: float
     #: F: Shade in pockets and clefts, 0 (none) to 1. All that is drawn casts shade; what is seen through casts
-    #: none
+    #: less
     ambient_occlusion: float
     #: Å: Largest distance in Å at which ambient_occlusion_rays finds shade
     ambient_occlusion_radius: float
