@@ -92,7 +92,7 @@ ColorKey figure_key(const Structure& structure, const ColorScheme& scheme, Drawn
     mark(extras.objects[n], requests[n], own);
     const ColorScheme color = scheme_of(requests[n], structure, count, scheme);
     const std::string name = requests[n].text();
-    if (requests[n].is_companion) keep_ruled(color, all, own);
+    if (requests[n].is_companion) keep_ruled(scheme, all, own);
     if (!any_of(own)) continue;
     if (color.by == By::fixed && color.rules.empty())
       key.classes.push_back({name, color.fixed});

@@ -90,7 +90,12 @@ ColorScheme scheme_of(const FigureObjectRequest& request, const Structure& struc
     own.fixed = kDashColor;
     own.rules.clear();
   }
-  if (request.is_companion && own.by != ColorScheme::By::element) own.by = ColorScheme::By::element_cpk;
+  if (request.is_companion && own.by != ColorScheme::By::element && own.by != ColorScheme::By::element_cpk) {
+    // Carbon of a colour that no chain has keeps ligands apart from the surface.
+    static const ColorRule kCarbon = parse_color_rule("element C=#45a878");
+    own.by = ColorScheme::By::element_cpk;
+    own.rules.insert(own.rules.begin(), kCarbon);
+  }
   if (request.color && own.uses_file()) own.set_numbers(scheme.file);
   if (request.color && request.shapes) own.by = scheme_of_shapes(own.by, *request.shapes);
   if (!request.color)
@@ -162,7 +167,7 @@ std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> obje
   }
   if (structure.companions == Companions::drawn) {
     Shapes& shapes = made.emplace_back().shapes.shapes;
-    shapes = sticks(all, marked_atoms(all, kCompanionSticks), *structure.shown_bonds, kStickRadius);
+    shapes = sticks(all, marked_atoms(all, kCompanionSticks), *structure.shown_bonds, kCompanionRadius);
     append(shapes, spheres(all, marked_atoms(all, kCompanionSpheres)));
   }
   color_objects(objects, structure, scheme, made);

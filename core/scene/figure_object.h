@@ -53,6 +53,8 @@ struct FigureObjectRequest {
   std::string text() const { return atoms.text() + (partners ? " to " + partners->text() : ""); }
 };
 
+inline constexpr double kCompanionRadius = 0.4;  ///< Å; radius of the sticks of companions
+
 /// The colour of dashed lines without a colour of their own, sRGB.
 inline constexpr glm::vec3 kDashColor{1.0f, 0.70f, 0.0f};
 

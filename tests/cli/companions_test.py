@@ -18,6 +18,7 @@ ATOM = "{0:<6}{1:5d} {2:>4} {3:>3} {4}{5:4d}    {6:8.3f}{7:8.3f}{8:8.3f}  1.00 1
 SHEET = [("ATOM", " CA", "ALA", "A", n + 1, (3.8 * (n % 6), 3.8 * (n // 6), 0.0), "C") for n in range(36)]
 LIGAND = [("HETATM", " C1", "LIG", "B", 1, (8.0, 8.0, 9.0), "C"), ("HETATM", " O1", "LIG", "B", 1, (9.2, 8.0, 9.0), "O")]
 ION = [("HETATM", "ZN", "ZN", "B", 2, (3.0, 14.0, 7.0), "ZN")]
+LIGAND_COLORS = ["element-cpk", "element C=#45a878"]
 WATER = [("HETATM", " O", "HOH", "B", 3, (14.0, 3.0, 7.0), "O")]
 
 
@@ -102,12 +103,12 @@ class Numbers(Companions):
         self.assertIn("1 water, 2 of 1 ligand (LIG), 63 of 21 lipids (POPC) left out; 36 used", told.stderr)
         self.assertEqual(self.made("surface", "run.gro", "--trajectory", "frames.pdb", "--json").stdout.count("\n"), 2)
         self.assert_same(self.picture(file="run.gro"), self.picture("--select", "polymer", "--object", json.dumps(
-            {"representation": "sticks", "selection": "resname LIG", "color": "element-cpk"}), file="run.gro"))
+            {"representation": "sticks", "selection": "resname LIG", "color": LIGAND_COLORS, "radius": 0.4}), file="run.gro"))
 
 
 class Pictures(Companions):
     def objects(self, **more):
-        shapes = [{"representation": "sticks", "selection": "ligand", "color": "element-cpk"},
+        shapes = [{"representation": "sticks", "selection": "ligand", "color": LIGAND_COLORS, "radius": 0.4},
                   {"representation": "spheres", "selection": "ion", "color": "element-cpk"}]
         return [word for shape in shapes for word in ("--object", json.dumps({**shape, **more}))]
 
