@@ -35,7 +35,7 @@ constexpr int kRun = 4;              // texels whose coverage is computed at onc
 constexpr float kLeastDisc = 0.71f;  // texels; each ball has a texel
 constexpr float kLeastSoft = 1.2f;   // texels; the edges of smaller balls are not smoothed, because many overlap
 
-/// What the balls of a map cover of each texel. Heights are in texels.
+/// The parts of a map's texels that its balls cover. Heights are in texels.
 class Coverage {
  public:
   explicit Coverage(std::size_t texels) : whole_(texels + kRun, kEmpty), edge_(whole_), clear_(whole_.size(), 1.0f) {}
@@ -229,7 +229,8 @@ void LightMaps::draw(const View& view, const Raster& raster) const {
   const double scale = 1.0 / raster.texel, half = 0.5 * (raster.edge - 1);
   const std::size_t texels = static_cast<std::size_t>(raster.edge) * raster.edge;
   Coverage along(texels), against(raster.against ? texels : 0);
-  // Of a line: heights along and against the axis, and shares of the texels that a ball covers.
+  // These are values of the texels of one line: the heights of a ball along and against the axis, and the shares that
+  // it covers.
   std::vector<float> highest(static_cast<std::size_t>(raster.edge) + kRun), lowest(highest), shares(highest);
   for (const Group& group : groups_)
     for (const Blocker& ball : group.balls) {

@@ -37,7 +37,7 @@ glm::dvec2 r2_point(std::size_t index);
 std::vector<glm::dvec3> lamp_directions(const Look& look, const ViewBasis& basis, std::size_t count);
 
 /// The maps of gpu_shaders/look/light_maps.glsl. Surfaces block light as the balls of their atoms. Hidden and cut parts
-/// do not block light. What blocks a share of the light is in that share of the maps.
+/// do not block light. A blocker of a share of the light is drawn in that share of the maps.
 class LightMaps {
  public:
   /// Begins a picture without objects.
