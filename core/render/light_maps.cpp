@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -31,6 +32,7 @@ void walk(const glm::dvec3& from, const glm::dvec3& to, double step, const Add& 
   for (int n = 0; n <= count; ++n) add(count ? glm::mix(from, to, static_cast<double>(n) / count) : from);
 }
 
+constexpr double kCell = 8.0;        // Å; balls of a cell are drawn one after another
 constexpr int kRun = 4;              // texels whose coverage is computed at once
 constexpr float kLeastDisc = 0.71f;  // texels; each ball has a texel
 constexpr float kLeastSoft = 1.2f;   // texels; the edges of smaller balls are not smoothed, because many overlap
@@ -163,13 +165,15 @@ LightMaps::View LightMaps::view_along(const glm::dvec3& axis) {
   return {right, glm::cross(axis, right), axis};
 }
 
+bool LightMaps::Group::has_planes_of(const Group& other) const {
+  return std::ranges::equal(planes, other.planes, [](const ClipPlane& x, const ClipPlane& y) {
+    return x.normal == y.normal && x.offset == y.offset;
+  });
+}
+
 bool LightMaps::same(const Group& a, const Group& b) {
-  return std::ranges::equal(a.balls, b.balls,
-                            [](const Blocker& x, const Blocker& y) {
-                              return x.center == y.center && x.radius == y.radius && x.share == y.share;
-                            }) &&
-         std::ranges::equal(a.planes, b.planes, [](const ClipPlane& x, const ClipPlane& y) {
-           return x.normal == y.normal && x.offset == y.offset;
+  return a.has_planes_of(b) && std::ranges::equal(a.balls, b.balls, [](const Blocker& x, const Blocker& y) {
+           return x.center == y.center && x.radius == y.radius && x.share == y.share;
          });
 }
 
@@ -201,7 +205,30 @@ void LightMaps::place_sky(int axes) {
   }
 }
 
+void LightMaps::put_in_order() {
+  std::vector<Group> joined;
+  for (Group& group : groups_) {
+    const auto with_planes =
+        std::ranges::find_if(joined, [&](const Group& other) { return other.has_planes_of(group); });
+    if (with_planes == joined.end())
+      joined.push_back(std::move(group));
+    else
+      with_planes->balls.insert(with_planes->balls.end(), group.balls.begin(), group.balls.end());
+  }
+  groups_ = std::move(joined);
+  const auto place = [](const Blocker& ball) {
+    const glm::dvec3& p = ball.center;
+    const glm::dvec3 cell = glm::floor(p / kCell);
+    return std::tuple(cell.x, cell.y, cell.z, p.x, p.y, p.z, ball.radius, ball.share);
+  };
+  for (Group& group : groups_) std::ranges::sort(group.balls, {}, place);
+  std::ranges::sort(groups_, {}, [&](const Group& group) {
+    return std::pair(group.balls.size(), group.balls.empty() ? place({}) : place(group.balls.front()));
+  });
+}
+
 void LightMaps::make(const Look& look, const ViewBasis& basis) {
+  put_in_order();
   const int axes = look.maps_sky() ? kernel::kMostSkyAxes : 0;
   const bool keeps_sky = axes == sky_axes_ && !views_.empty() && std::ranges::equal(groups_, drawn_, same);
   if (!keeps_sky) place_sky(axes);

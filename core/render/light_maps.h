@@ -67,6 +67,8 @@ class LightMaps {
   struct Group {
     std::vector<Blocker> balls;
     std::vector<ClipPlane> planes;
+
+    bool has_planes_of(const Group& other) const;
   };
   /// The axes of a map.
   struct View {
@@ -84,6 +86,9 @@ class LightMaps {
   static View view_along(const glm::dvec3& axis);
   static bool same(const Group& a, const Group& b);
   static void add_shapes(const Shapes& shapes, const std::vector<float>& blocking, std::vector<Blocker>& balls);
+  /// Orders the balls by their places. By rounding, the share that edges cover of a texel depends on the order of
+  /// drawing, and a saved scene may have another order of objects.
+  void put_in_order();
   void place_sky(int axes);
   void draw(const View& view, const Raster& raster) const;
 
