@@ -46,7 +46,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kLabels, kShared | in_short_help),
     text("annotations.font", "--font", "NAME", "Font of all letters: an installed family, such as DejaVu Sans")
         .initially("Liberation Sans, else DejaVu Sans")
-        .in(kLabels, kShared | in_short_help),
+        .in(kLabels, kShared),
     file("annotations.font_file", "--font-file", "FILE", "Font of all letters: a .ttf or .otf file")
         .in(kLabels, kShared)
         .excludes("annotations.font"),
@@ -70,7 +70,7 @@ constexpr auto kTable = std::to_array<Property>({
          "if it is transparent")
         .proposes("auto|white|black")
         .initially("auto")
-        .in(kLabels, kShared | in_short_help),
+        .in(kLabels, kShared),
     text("annotations.labels", "--label", "EXPR=TEXT",
          "Write TEXT at these atoms, with a line to their centre. Repeatable")
         .in(kLabels, kShared | repeatable | in_short_help),

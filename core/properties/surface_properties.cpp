@@ -148,10 +148,10 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kBeside, in_bundle | live | repeatable | in_short_help),
     text("figure.bases", "--bases", "EXPR",
          "Draw the bases of these nucleotides as filled rings. Rungs lead to the tube")
-        .in(kBeside, in_bundle | live | repeatable | in_short_help),
+        .in(kBeside, in_bundle | live | repeatable),
     text("figure.glycans", "--glycans", "EXPR",
          "Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours: @color snfg@")
-        .in(kBeside, in_bundle | live | repeatable | in_short_help),
+        .in(kBeside, in_bundle | live | repeatable),
     text("figure.hydrogen_bonds", "--hydrogen-bonds", "EXPR",
          "Draw hydrogen bonds of these atoms as dashed lines, with lengths. 'EXPR to EXPR': only those between two "
          "sets. Water counts where it is drawn or selected")
