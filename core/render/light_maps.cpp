@@ -32,7 +32,6 @@ void walk(const glm::dvec3& from, const glm::dvec3& to, double step, const Add& 
   for (int n = 0; n <= count; ++n) add(count ? glm::mix(from, to, static_cast<double>(n) / count) : from);
 }
 
-constexpr double kCell = 8.0;        // Å; balls of a cell are drawn one after another
 constexpr int kRun = 4;              // texels whose coverage is computed at once
 constexpr float kLeastDisc = 0.71f;  // texels; each ball has a texel
 constexpr float kLeastSoft = 1.2f;   // texels; the edges of smaller balls are not smoothed, because many overlap
@@ -218,8 +217,7 @@ void LightMaps::put_in_order() {
   groups_ = std::move(joined);
   const auto place = [](const Blocker& ball) {
     const glm::dvec3& p = ball.center;
-    const glm::dvec3 cell = glm::floor(p / kCell);
-    return std::tuple(cell.x, cell.y, cell.z, p.x, p.y, p.z, ball.radius, ball.share);
+    return std::tuple(p.x, p.y, p.z, ball.radius, ball.share);
   };
   for (Group& group : groups_) std::ranges::sort(group.balls, {}, place);
   std::ranges::sort(groups_, {}, [&](const Group& group) {
