@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <ranges>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -151,9 +150,12 @@ Outcome put_object(const CommandReader& command, PreviewState state, const Surro
 Outcome set_property(const CommandReader& command, PreviewState state, const Surroundings&) {
   const std::string name = command.text("key");
   const auto row = std::ranges::find(kSettable, name, &SettableProperty::name);
-  if (row == std::end(kSettable))
-    throw RequestError(fmt::format("set: \"key\" is {}; it must be one of {}", in_quotes(name),
-                                   fmt::join(kSettable | std::views::transform(&SettableProperty::name), ", ")));
+  if (row == std::end(kSettable)) {
+    std::vector<std::string_view> names;
+    for (const SettableProperty& settable : kSettable) names.push_back(settable.name);
+    throw RequestError(
+        fmt::format("set: \"key\" is {}; it must be one of {}", in_quotes(name), fmt::join(names, ", ")));
+  }
   const Property& property = scene_property(name);
   const bool is_switch = property.type == ValueType::flag;
   if (is_switch) command.flag("value");  // set_value() would take other words for true

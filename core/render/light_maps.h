@@ -26,9 +26,9 @@ struct LightMapSize {
   int largest_edge;
 };
 inline constexpr LightMapSize kSkyMapSize{0.4, 384}, kLampMapSize{0.35, 768};
-inline constexpr int kLightMapMargin = 3;        ///< empty texels around everything
-inline constexpr double kLightMapStep = 0.35;    ///< largest distance between the balls of a stick or a mesh, Å
-inline constexpr double kMeshBallRadius = 0.25;  ///< Å; the balls of a mesh touch it from inside
+inline constexpr int kLightMapMargin = 3;       ///< empty texels around everything
+inline constexpr double kLightMapStep = 0.3;   ///< largest distance between the balls of a stick or a mesh, Å
+inline constexpr double kMeshBallRadius = 0.1;  ///< Å; the balls of a mesh touch it from inside, also in thin plates
 
 /// Returns a point of the R2 sequence (Roberts 2018) in the square [0, 1)².
 glm::dvec2 r2_point(std::size_t index);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -302,6 +303,25 @@ std::vector<float> light_left(Subject& subject, float sky, float shadows) {
 TEST(MappedLight, IsWholeOnALoneBall) {
   Subject subject({{{0.0, 0.0, 0.0}, 2.0}});
   for (const float left : light_left(subject, 1.0f, 0.0f)) EXPECT_GT(left, 0.995f);
+}
+
+// The balls that stand for the back of a thin plate do not stand out of its front.
+TEST(MappedLight, IsWholeOnAThinPlate) {
+  Subject subject({{{0.0, 0.0, -60.0}, 1.0}});  // far away, for the atom of the plate
+  Shapes shapes;
+  const std::vector<glm::dvec3> square{{-3.0, -3.0, 0.0}, {3.0, -3.0, 0.0}, {3.0, 3.0, 0.0}, {-3.0, 3.0, 0.0}};
+  add_plate(shapes.mesh, square, {0.0, 0.0, 1.0}, 0.15, 0);
+  PictureObject& plate = subject.objects.emplace_back();
+  plate.shapes = &shapes;
+  plate.coloring = &subject.coloring;
+  subject.camera = {.position = {6.0, 4.0, 40.0}, .target = {0.0, 0.0, 0.0}, .up = {0.0, 1.0, 0.0}};
+  subject.camera.projection = Projection::orthographic;
+  subject.camera.height = 4.0;
+  for (const float shadows : {0.0f, 1.0f}) {
+    const std::vector<float> left = light_left(subject, 1.0f - shadows, shadows);
+    EXPECT_GT(std::ranges::min(left), 0.85f) << shadows;
+    EXPECT_GT(std::accumulate(left.begin(), left.end(), 0.0) / static_cast<double>(left.size()), 0.97) << shadows;
+  }
 }
 
 // A ball of radius r whose centre is at distance d, at an angle to the normal, covers (r / d)² cos(angle) of the sky

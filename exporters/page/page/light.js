@@ -162,7 +162,7 @@ class LightMaps {
       if (shares[n] <= least_share) continue;
       const cx = balls[4 * n] - middle[0], cy = balls[4 * n + 1] - middle[1], cz = balls[4 * n + 2] - middle[2], radius = balls[4 * n + 3] / texel;
       const x = (cx * right[0] + cy * right[1] + cz * right[2]) / texel + half, y = (cx * up[0] + cy * up[1] + cz * up[2]) / texel + half;
-      const z = (cx * axis[0] + cy * axis[1] + cz * axis[2]) / texel, disc = Math.max(radius, 0.71), is_soft = radius >= 1.2, reach = disc + (is_soft ? 0.5 : 0);
+      const z = (cx * axis[0] + cy * axis[1] + cz * axis[2]) / texel, disc = Math.max(radius, 0.5), is_soft = radius >= 1.2, reach = disc + (is_soft ? 0.5 : 0);
       for (let line = Math.ceil(y - reach); line <= y + reach; ++line) {
         const off = line - y, across = Math.sqrt(Math.max(reach * reach - off * off, 0));
         for (let column = Math.ceil(x - across); column <= x + across; ++column) {
