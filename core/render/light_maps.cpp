@@ -32,9 +32,9 @@ void walk(const glm::dvec3& from, const glm::dvec3& to, double step, const Add& 
   for (int n = 0; n <= count; ++n) add(count ? glm::mix(from, to, static_cast<double>(n) / count) : from);
 }
 
-constexpr int kRun = 4;              // texels whose coverage is computed at once
-constexpr float kLeastDisc = 0.5f;   // texels; larger discs of small balls would stand out of flat faces
-constexpr float kLeastSoft = 1.2f;   // texels; the edges of smaller balls are not smoothed, because many overlap
+constexpr int kRun = 4;             // texels whose coverage is computed at once
+constexpr float kLeastDisc = 0.5f;  // texels; larger discs of small balls would stand out of flat faces
+constexpr float kLeastSoft = 1.2f;  // texels; the edges of smaller balls are not smoothed, because many overlap
 
 /// The parts of a map's texels that its balls cover. Heights are in texels.
 class Coverage {

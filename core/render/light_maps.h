@@ -27,7 +27,7 @@ struct LightMapSize {
 };
 inline constexpr LightMapSize kSkyMapSize{0.4, 384}, kLampMapSize{0.35, 768};
 inline constexpr int kLightMapMargin = 3;       ///< empty texels around everything
-inline constexpr double kLightMapStep = 0.3;   ///< largest distance between the balls of a stick or a mesh, Å
+inline constexpr double kLightMapStep = 0.3;    ///< largest distance between the balls of a stick or a mesh, Å
 inline constexpr double kMeshBallRadius = 0.1;  ///< Å; the balls of a mesh touch it from inside, also in thin plates
 
 /// Returns a point of the R2 sequence (Roberts 2018) in the square [0, 1)².
