@@ -76,17 +76,20 @@ class LightMaps {
   place_sky(axes) {
     const { caster } = this, { figure } = caster, { planes, atoms, opacity } = caster.cuts(), { sky, lamp, margin } = figure.light_maps;
     if (this.balls_of !== figure.tables.primitives) [this.all, this.balls_of] = [light_balls(figure), figure.tables.primitives];
-    const colors = new Float32Array(figure.own_colors.buffer), hidden = new Set(caster.hidden), { all } = this, balls = [], cut = [], shares = [];
+    const colors = new Float32Array(figure.own_colors.buffer), hidden = new Set(caster.hidden), { all } = this, blockers = [], sizes = [0, 0];
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
     all.atoms.forEach((atom, n) => {
-      const of_surface = atom < atoms, ball = all.balls.subarray(4 * n, 4 * n + 4);
+      const of_surface = atom < atoms, ball = all.balls.subarray(4 * n, 4 * n + 4), group = of_surface && planes.length ? 1 : 0;
       const share = hidden.has(atom) ? 0 : (colors[4 * atom + 3] * (of_surface ? opacity : 1)) ** 2;
       if (share === 0) return;
-      balls.push(...ball);
-      shares.push(share);
-      cut.push(of_surface && planes.some((plane) => plane[3] - dot(plane, ball) < ball[3]));
+      blockers.push({ ball, share, group, is_cut: group && planes.some((plane) => plane[3] - dot(plane, ball) < ball[3]) });
+      ++sizes[group];
       for (let k = 0; k < 3; ++k) [low[k], high[k]] = [Math.min(low[k], ball[k]), Math.max(high[k], ball[k])];
     });
+    // The order of light_maps.cpp: groups by size, and balls by place. Shares of edges depend on it by rounding.
+    blockers.sort((a, b) => sizes[a.group] - sizes[b.group] || a.group - b.group || a.ball[0] - b.ball[0] || a.ball[1] - b.ball[1] ||
+      a.ball[2] - b.ball[2] || a.ball[3] - b.ball[3] || a.share - b.share);
+    const balls = blockers.flatMap(({ ball }) => [...ball]), cut = blockers.map(({ is_cut }) => is_cut), shares = blockers.map(({ share }) => share);
     this.middle = cut.length ? times(plus(low, high), 0.5) : [0, 0, 0];
     let radius = 1;
     for (let n = 0; n < balls.length; n += 4)
