@@ -12,7 +12,7 @@
 
 namespace meniscus {
 
-/// What a key does to the page alone.
+/// The actions of keys that change the page and not the figure.
 enum class FaceAction { help, panel, export_name };
 
 /// Returns "help", "panel" or "export".

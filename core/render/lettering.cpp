@@ -58,8 +58,8 @@ const std::map<std::string, std::string>& installed_fonts() {
   return installed;
 }
 
-/// Returns the files of an installed family, found by their names: DejaVuSans.ttf and DejaVuSans-Bold.ttf are those of
-/// "DejaVu Sans". Without the family both are empty.
+/// Returns the regular and the bold font file of an installed family. The family is recognised by the names of its
+/// files: "DejaVu Sans" has DejaVuSans.ttf and DejaVuSans-Bold.ttf. Both are empty if it is not installed.
 FontFiles family_files(std::string_view family) {
   const auto first_of = [&](std::initializer_list<const char*> styles) -> std::string {
     for (const char* const style : styles)

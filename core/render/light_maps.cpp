@@ -127,7 +127,8 @@ void LightMaps::add_shapes(const Shapes& shapes, const std::vector<float>& block
     const glm::dvec3 corner = sunk(a), right = sunk(b) - corner, up = sunk(c) - corner;
     const double longest = std::max({glm::length(right), glm::length(up), glm::length(up - right)});
     const int parts = std::max(static_cast<int>(std::ceil(longest / kLightMapStep)), 1);
-    // The middles of equal triangles, of which every second is upside down.
+    // The triangle is divided into equal triangles, and each of them gets a ball in its middle. Every second one of a
+    // row points the other way.
     for (int i = 0; i < parts; ++i)
       for (int j = 0; j < 2 * (parts - i) - 1; ++j)
         add(corner + ((i + (j % 2 + 1) / 3.0) * right + (j / 2 + (j % 2 + 1) / 3.0) * up) / static_cast<double>(parts),

@@ -46,7 +46,7 @@ class LightMaps {
   void add(const PictureObject& object);
   /// Adds each copy of a surface.
   void add(const SurfaceObject& object);
-  /// Adds balls, each of which blocks a share of the light.
+  /// Adds the balls of a surface. blocking: the share of the light that each ball blocks, in [0, 1].
   void add(std::span<const Ball> balls, const std::vector<float>& blocking);
 
   /// Makes the maps of everything that was added. Maps of the sky are kept as long as the objects do not change.

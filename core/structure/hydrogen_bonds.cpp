@@ -59,7 +59,7 @@ class BondedAtoms {
     return count == 2 ? !is_in_base(n) || is_amide(n) : count == 0 || bond(n) >= kNitrile;
   }
 
-  /// True if the places of a donor and an acceptor are those of a hydrogen bond.
+  /// True if the distance and the angles of a donor and an acceptor meet the criterion of hydrogen_bonds().
   bool is_bond(std::uint32_t donor, std::uint32_t acceptor) const {
     const Atom &d = atoms_[donor], &a = atoms_[acceptor];
     if ((d.residue == a.residue && d.copy == a.copy) || is_joined(donor, acceptor, 3)) return false;
@@ -79,7 +79,7 @@ class BondedAtoms {
  private:
   bool is(std::uint32_t n, std::uint8_t element) const { return atoms_[n].element == element; }
   bool has_hydrogens(std::uint32_t n) const { return with_hydrogens_.contains({atoms_[n].copy, atoms_[n].residue}); }
-  /// Returns the way from an atom to one of its neighbours, and its length, Å.
+  /// Returns the vector from an atom to one of its neighbours, Å.
   glm::dvec3 to(std::uint32_t n, std::size_t which) const {
     return atoms_[neighbours_[n][which]].position - atoms_[n].position;
   }

@@ -29,7 +29,8 @@ class Network {
   std::uint16_t port() const;
   /// http://127.0.0.1:PORT/TOKEN/
   std::string url() const;
-  /// Returns an address that leads to the page once, whoever opens it first, and has another secret than the token.
+  /// Returns an address for the browser that this program starts. It works once: the first request is sent on to the
+  /// page, later requests are refused. It does not contain the token, because other users may see command lines.
   std::string url_once() const;
 
   /// Sends a message to one client, or to all. A client that is gone, or too slow to read, is not an error.

@@ -25,8 +25,8 @@ function slider(label, { min, max, step, value }, tell) {
 
 const kPlane = /^(depth|x|y|z|[^<>, ]+,[^<>, ]+,[^<>, ]+)([<>])(.*)$/;
 
-/// Returns the places where a plane can be that moves along the view, an axis or a direction such as 1,1,0; null for
-/// planes whose place is told by atoms.
+/// Returns the range of a plane's slider. The plane moves along the view, an axis or a direction such as 1,1,0. Returns
+/// null for a plane that is placed by a selection of atoms, such as 'before ligand'.
 function plane_range(plane, state) {
   const found = plane.match(kPlane);
   if (!found) return null;
