@@ -339,9 +339,10 @@ void add_surface(CLI::App& command) {
     SurfaceCommand& requested = declared->state;
     MoleculeRequest& molecule = requested.scene.molecule;
     molecule.reading.companions = Companions::hidden;  // --patches 'within 5 of ligand' sees them
-    molecule.surface.drawn = division.components || division.cavities != Cavities::keep || requested.open_sky;
+    const bool drawn = division.components || division.cavities != Cavities::keep || requested.open_sky;
+    molecule.surface.planes = drawn ? ClipPlanes::listed : ClipPlanes::left_out;
     molecule.surface.bordered =
-        molecule.surface.drawn || molecule.patches || !requested.cavity_csv.empty() || !requested.gradient_csv.empty();
+        drawn || molecule.patches || !requested.cavity_csv.empty() || !requested.gradient_csv.empty();
     requested.summary_csv.empty() ? print_surface(requested) : print_summary(requested);
   });
 }
