@@ -102,7 +102,8 @@ void PreviewSession::note(const Command& command, Outcome& next) {
   using Effect = Command::Effect;
   if (command.is_step() && next.renewal != Renewal::nothing) next.state.edition = ++last_edition_;
   if (next.is_saved) exporter_.saved = next.state.edition;
-  if (command.is_step()) history_.note(next.is_own_step ? std::string_view() : command.kind_of_step(), state_);
+  const std::string_view step = next.step.empty() ? command.kind_of_step() : next.step;
+  if (command.is_step()) history_.note(next.is_own_step ? std::string_view() : step, state_);
   if (command.effect == Effect::back) history_.go_back(state_);
   if (command.effect == Effect::forward) history_.go_forward(state_);
   if (command.effect == Effect::ends_step) history_.end_step();
