@@ -23,7 +23,7 @@
 namespace meniscus {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Ordered = nlohmann::ordered_json;
 using Texts = std::vector<std::string>;
 
 constexpr std::string_view kObjects = "figure.object";  // each of its texts is an object of scene files
@@ -67,11 +67,11 @@ const Property& live_property(const std::string& key) {
 }
 
 /// Returns the value in the form of replace_value(). Throws RequestError.
-Texts given_texts(const Property& property, Json value) {
+Texts given_texts(const Property& property, Ordered value) {
   if (value.is_null()) return {};
-  if (property.key == kObjects && value.is_object()) value = Json::array({value});
+  if (property.key == kObjects && value.is_object()) value = Ordered::array({value});
   if (property.key == kObjects && value.is_array())
-    for (Json& object : value)
+    for (Ordered& object : value)
       if (object.is_object()) object = object.dump();
   try {
     return texts_of_json(property, value);
@@ -147,19 +147,20 @@ void take_scene(const Property& property, Scene scene, PreviewState& state, cons
 
 /// Returns a value as scene files have it, lists always as lists; the default where the scene has none, and null where
 /// the default depends on other values.
-Json value_json(const Property& property, const Scene& scene) {
+Ordered value_json(const Property& property, const Scene& scene) {
   const Texts texts = value_texts(scene, property);
   if (property.type == ValueType::flag) return texts.empty() == property.has(negated);
   if (property.has(repeatable)) {
-    Json list = Json::array();
+    Ordered list = Ordered::array();
     for (const std::string& text : texts)
-      list.push_back(property.key == kObjects ? Json::parse(text, nullptr, false)
+      list.push_back(property.key == kObjects ? Ordered::parse(text, nullptr, false)
                                               : json_of_texts(property, {text}, ""));
     return list;
   }
   if (!texts.empty()) return json_of_texts(property, texts, "");
-  const bool has_one = property.initial.find(' ') == property.initial.npos && property.key != "surface.map";
-  return property.initial.empty() || !has_one ? Json() : json_of_texts(property, {std::string(property.initial)}, "");
+  const bool has_one = property.initial.find_first_of(" @") == property.initial.npos && property.key != "surface.map";
+  return property.initial.empty() || !has_one ? Ordered()
+                                              : json_of_texts(property, {std::string(property.initial)}, "");
 }
 
 /// Returns the type of a property's control: "flag", "number", "count", "word", "color", "selection", "length" or
@@ -199,7 +200,7 @@ std::string help_in_words(std::string_view help) {
 Outcome set_property(const CommandReader& command, PreviewState state, const Surroundings& around) {
   const std::string key = command.text("key");
   const Property& property = live_property(key);
-  Json value(command.value("value"));
+  Ordered value(command.value("value"));
   if (key.find('.') == key.npos && property.has(negated) && value.is_boolean()) value = !value.get<bool>();
   const bool is_slid =
       property.type != ValueType::flag && property.type != ValueType::word && !property.has(repeatable);
@@ -238,6 +239,7 @@ nlohmann::json property_values(const Surroundings& around) {
   Scene scene = own_scene(state, around);
   scene.look = look_request(state.look, state.full_look(), state.patches.has_value());
   scene.look.preset = state.preset;
+  if (!state.export_options.size) scene_values::replace_value(scene, property_of("image.size"), {});
   nlohmann::json values = nlohmann::json::object();
   for (const Property* property : properties())
     if (property->has(live)) values[std::string(property->key)] = nlohmann::json(value_json(*property, scene));

@@ -40,7 +40,10 @@ PreviewSession::PreviewSession(std::unique_ptr<PreviewRenderer> renderer, Struct
 
 Json PreviewSession::apply(const Json& command) {
   const auto failed = [&](const std::string& error) {
-    return Json{{"ok", false}, {"error", escaped(said_by(command_word(command), error))}};
+    const std::string word = command_word(command);
+    std::string said = said_by(word, error);
+    if (word == "set" && !said.starts_with("set: ")) said = "set: " + command["key"].get<std::string>() + ": " + said;
+    return Json{{"ok", false}, {"error", escaped(said)}};
   };
   try {
     return carry_out(command);
