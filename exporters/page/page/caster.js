@@ -6,6 +6,7 @@ const kNoPrimitive = 0xffffffff;
 const kToroidal = 1, kCylinder = 3;
 const kIsBeside = 1;    // of exporters/page/page_tables.cpp
 const kBuckets = 4096;  // of depth, front to back
+const kSelected = [0, 0.9, 0.25];  // linear; what is selected has most of it
 
 /// A figure cannot be drawn here, in a sentence for its reader.
 class NoWebGl extends Error {}
@@ -109,7 +110,7 @@ class Caster {
   /// scheme: its place among the figure's.
   set_scheme(scheme) {
     const { own_colors, tables, schemes } = this.figure, words = scheme > 0 ? tables[`scheme_${scheme}`] : own_colors;
-    const made_of = [words, own_colors, this.hidden], is_same = made_of.every((part, n) => part === this.colors_of?.[n]);
+    const made_of = [words, own_colors, this.hidden, this.selected], is_same = made_of.every((part, n) => part === this.colors_of?.[n]);
     this.by_kind = schemes[scheme].by_kind ? 1 : 0;
     this.scheme = scheme;
     this.look = schemes[scheme].look ?? this.figure.look;
@@ -119,9 +120,25 @@ class Caster {
       words.forEach((word, n) => colors.set([...linear_from_srgb([0, 8, 16].map((bit) => ((word >> bit) & 255) / 255)),
         n < tables.shown.length ? own[4 * n + 3] : 1], 4 * n));
     for (const atom of this.hidden ?? []) colors[4 * atom + 3] = 0;
+    for (const atom of this.selected ?? [])
+      for (let k = 0; k < 3; ++k) colors[4 * atom + k] = 0.35 * colors[4 * atom + k] + 0.65 * kSelected[k];
     this.gl.deleteTexture(this.tables.colors ?? null);
     this.tables.colors = this.table(new Uint32Array(colors.buffer));
     this.colors_of = made_of;
+  }
+
+  /// atoms: a set of the numbers of those that are shown as selected.
+  select(atoms) {
+    this.selected = atoms;
+    this.set_scheme(this.scheme);
+  }
+
+  /// Frees all that the figure takes on the device.
+  release() {
+    for (const number of [...this.ready.keys()]) this.forget(number);
+    this.gl.deleteTexture(this.tables.colors ?? null);
+    this.gl.deleteTexture(this.light.texture);
+    this.resize(1, 1);
   }
 
   /// atoms: numbers of those that are hidden beside those that the figure hides.
