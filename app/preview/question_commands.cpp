@@ -77,6 +77,7 @@ void add_figure(const PreviewState& state, Json& reply) {
   Json& objects = reply["objects"] = Json::array();
   for (const FigureObjectRequest& object : state.figure.objects)
     objects.push_back(Json::parse(json_line(figure_object_json(object))));
+  reply["bare"] = state.figure.bare;
   reply["surface_hidden"] = state.figure.hides_surface;
   reply["show"] = state.show ? Json(escaped(state.show->text())) : Json(nullptr);
   reply["patches"] = {{"selection", state.patches ? Json(escaped(state.patches->text())) : Json(nullptr)},
@@ -226,6 +227,7 @@ Json pick(const CommandReader& command, const Surroundings& around) {
   Json reply = atom_json(molecule.atom_in_view(point->atom));
   reply["hit"] = true;
   reply["kind"] = point->kind ? kind_word(*point->kind) : of_surface ? "cap" : "shape";
+  reply["selections"] = place_selections(molecule.atom_in_view(point->atom), molecule);
   reply["position"] = {point->position.x, point->position.y, point->position.z};
   if (has_copies) reply["copy"] = point->copy + 1;
   reply["exposed_area"] = nullptr;

@@ -48,6 +48,7 @@ class Viewer {
     if (names !== frame.names) this.last_picked = undefined;
     if (labels !== frame.labels) this.write_labels();
     this.caster.show(frame);
+    if (this.selected_places) this.mark_selected();
     this.lay();
     this.change(true);
   }
@@ -56,6 +57,7 @@ class Viewer {
     this.caster = new (this.figure.layers ? LayeredCaster : Caster)(this.canvas, this.figure);
     this.caster.hidden = this.hidden;
     this.caster.set_scheme(this.scheme ?? 0);
+    if (this.selected_places) this.mark_selected();
     this.lay();
   }
 
@@ -96,6 +98,18 @@ class Viewer {
     this.hidden = this.atoms_beside(shown);
     this.caster.hide(this.hidden);
     this.change();
+  }
+
+  /// Shows atoms as selected. places: their numbers in the figure's names.
+  select(places) {
+    this.selected_places = new Set(places);
+    this.mark_selected();
+    this.change();
+  }
+
+  mark_selected() {
+    const { shown } = this.figure.tables, places = this.selected_places;
+    this.caster?.select(places?.size > 0 ? [...shown.keys()].filter((atom) => places.has(shown[atom])) : []);
   }
 
   /// Atoms of other chains.
@@ -230,7 +244,9 @@ class Viewer {
     this.last_picked = picked?.atom;
     if (!picked) return "";
     if (before === undefined || before === picked.atom) return this.words(picked);
-    const distance = length(minus(this.caster.center_of(picked.atom), this.caster.center_of(before)));
+    const places = [picked.atom, before].map((atom) => this.caster.center_of(atom));
+    if (places.includes(null)) return this.words(picked);
+    const distance = length(minus(...places));
     return `${this.words(picked)}; ${distance.toFixed(2)} Å from ${this.atom_name(before)}`;
   }
 

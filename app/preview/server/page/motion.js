@@ -6,7 +6,7 @@ const kHoverRest = 120;      // ms the pointer must rest before an atom is named
 const kWheel = 0.0015;       // growth per unit of wheel
 
 /// Calls to.command(word, values) for motions, to.begin() where one begins, to.hover(pixel or null, place),
-/// to.pick(pixel) and, for a double click, to.center(pixel).
+/// to.pick(pixel, event) for a click and, for one of the middle button, to.center(pixel).
 export function follow_pointer(canvas, to) {
   let drag = null;  // of the pointer that came last
   let rest = 0;
@@ -70,9 +70,10 @@ export function follow_pointer(canvas, to) {
     const [[pointer, left] = []] = pointers;
     drag = left ? { ...was, pointer, x: left.clientX, y: left.clientY, wandered: kClick } : null;
     const pixel = pixel_at(event);
-    if (event.type === "pointerup" && was && was.button === 0 && was.wandered < kClick && pixel) to.pick(pixel);
+    if (event.type !== "pointerup" || !was || was.wandered >= kClick || !pixel) return;
+    if (was.button === 0) to.pick(pixel, event);
+    if (was.button === 1) to.center(pixel);
   };
-  canvas.addEventListener("dblclick", (event) => { const pixel = pixel_at(event); if (pixel) to.center(pixel); });
   canvas.addEventListener("pointerup", release);
   canvas.addEventListener("pointercancel", release);
   canvas.addEventListener("pointerleave", () => { clearTimeout(rest); to.hover(null); });

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page: input becomes commands, pictures become pixels, and the controls show what the server says.
 import { answers, Connection } from "./connection.js";
+import { contents_controls } from "./contents.js";
 import { figure_controls } from "./figure.js";
 import { follow_lamp, place_lamp } from "./lamp.js";
 import { follow_pointer, follow_keys } from "./motion.js";
+import { select_controls } from "./select.js";
 import { strip_controls } from "./strip.js";
 
 const $ = (id) => document.getElementById(id);
@@ -218,6 +220,9 @@ new ResizeObserver(fit).observe(stage);
 
 const figure = figure_controls(command, (text) => say(text));
 const show_strip = strip_controls(command);
+const context = { command, ask: (question) => server.ask(question), say, viewer: () => null };
+const selection = select_controls(context);
+const show_contents = contents_controls(context, selection);
 
 /// Unless somebody is at it: what is typed, or dragged ahead of the pictures, stays.
 function set_value(element, value) {
@@ -244,6 +249,8 @@ function apply_state(next) {
   set_value($("preset"), next.preset);
   figure.show(next);
   show_strip(next);
+  selection.show(next);
+  show_contents(next);
   take_wishes(next);
   $("kinds").checked = next.patch_kinds;
   $("kinds-key").hidden = !(next.patch_kinds || next.color.scheme === "kind");
@@ -355,32 +362,8 @@ async function hover(pixel, place, more = 10) {
   if (found.area_follows && more > 0) setTimeout(() => { if (number === hovered) hover(pixel, place, more - 1); }, 300);
 }
 
-let picked = 0;  // number of the latest click
-
-/// Tells of an atom at once, and of its area when that is known.
-async function pick(pixel) {
-  const number = ++picked;
-  const revision = newest;
-  for (;;) {
-    const found = await server.ask({ command: "pick", ...pixel, wait: false });
-    if (number !== picked) return;
-    const rows = found.hit ? [
-      ["place", found.place], ["element", found.element], ["what", found.kind],
-      ["position", found.position.map((x) => x.toFixed(2)).join(", ")],
-    ] : [];
-    const waits = found.hit && found.area_follows;
-    if (found.hit && (waits || found.exposed_area !== null))
-      rows.splice(3, 0, ["exposed", waits ? "…" : `${found.exposed_area.toFixed(3)} Å²`]);
-    $("picked").hidden = rows.length === 0;
-    fill_list($("picked").querySelector("dl"), rows);
-    if (!waits) return;
-    await new Promise((resolve) => setTimeout(resolve, 300));
-    if (number !== picked || newest !== revision) return;  // something else is there by now
-  }
-}
-
 follow_pointer(canvas, {
-  command: (...values) => { if (controls) command(...values); }, hover, pick,
+  command: (...values) => { if (controls) command(...values); }, hover, pick: selection.click,
   center: (pixel) => { if (controls) command("center", pixel); },
   begin: () => { last_change = 0; },
 });
@@ -486,7 +469,7 @@ const face_actions = {
   export: () => { document.body.classList.remove("bare"); $("export-name").focus(); $("export-name").select(); },
 };
 follow_keys((key) => {
-  if (key === "Escape") { $("help").hidden = true; return; }
+  if (key === "Escape") { $("help").hidden = true; return selection.clear(); }
   // At once: what is typed behind the key that opens a field is for the field, however late the session replies.
   const action = actions[key.length === 1 ? key.toLowerCase() : key];
   if (action) return face_actions[action]?.();
