@@ -128,13 +128,23 @@ std::shared_ptr<const Structure> everything(const Surroundings& around) {
 /// Returns the key of an atom that is the same in all structures of one file.
 std::uint64_t key_of(const Atom& atom) { return std::uint64_t{atom.copy} << 32 | atom.index; }
 
+/// Returns the bits of Atom::shown of atoms that are drawn beside the surface. The ends of dashed lines are not drawn.
+std::uint32_t drawn_bits(const FigureRequest& figure) {
+  std::uint32_t bits = ~(1u << kHiddenCompanion);
+  std::size_t mark = figure.representations.requests.size();
+  for (const FigureObjectRequest& object : figure.objects)
+    for (int side = 0; side < (object.partners ? 2 : 1); ++side, ++mark)
+      if (object.is_dashed()) bits &= ~(1u << mark);
+  return bits;
+}
+
 /// Returns the atoms in the picture, by key_of(), with the sRGB colours of those that belong to the surface.
 std::unordered_map<std::uint64_t, std::optional<glm::vec3>> visible_atoms(const Surroundings& around) {
   std::unordered_map<std::uint64_t, std::optional<glm::vec3>> visible;
   const Structure seen = around.molecule.annotated_structure();
   const Coloring coloring = around.molecule.coloring(around.state);
   for (const Atom& atom : shown_atoms(seen))
-    if (is_drawn_beside(atom)) visible[key_of(atom)] = {};
+    if (atom.shown & drawn_bits(around.state.figure)) visible[key_of(atom)] = {};
   for (std::uint32_t n = 0; n < seen.atoms.size(); ++n)
     if (!around.state.figure.hides_surface && coloring.shows(n)) visible[key_of(seen.atoms[n])] = coloring.atom[n];
   return visible;
@@ -248,7 +258,7 @@ void draw_beside(const Selection& selection, PreviewFigure& figure, const Surrou
   const std::vector<Atom> atoms = shown_atoms(seen), all = shown_atoms(*everything(around));
   const std::vector<bool> drawn = selection.evaluate(atoms), chosen = selection.evaluate(all);
   for (std::size_t n = 0; n < atoms.size(); ++n)
-    if (drawn[n] && is_drawn_beside(atoms[n])) return;
+    if (drawn[n] && (atoms[n].shown & drawn_bits(around.state.figure))) return;
   bool is_small = true, is_empty = true;  // is_small: nothing but ions and water
   for (std::size_t n = 0; n < all.size(); ++n) {
     if (!chosen[n]) continue;

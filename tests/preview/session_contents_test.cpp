@@ -31,8 +31,8 @@ HETATM   13  C1  NAG B   2      30.000   0.000   0.000  1.00 40.00           C
 HETATM   14  O5  NAG B   2      31.400   0.000   0.000  1.00 40.00           O
 HETATM   15  C1  ION X   2      10.000   5.000   0.000  1.00 40.00           C
 HETATM   16  O1  ION X   2      11.200   5.000   0.000  1.00 40.00           O
-HETATM   17 ZN    ZN     301       9.000   9.000   0.000  1.00 40.00          ZN
-HETATM   18 ZN    ZN     302      15.000   9.000   0.000  1.00 40.00          ZN
+HETATM   17 ZN    ZN   301       9.000   9.000   0.000  1.00 40.00          ZN
+HETATM   18 ZN    ZN   302      15.000   9.000   0.000  1.00 40.00          ZN
 HETATM   19  O   HOH A 401       4.000   9.000   0.000  1.00 40.00           O
 HETATM   20  O   HOH   402       4.000  15.000   0.000  1.00 40.00           O
 END
@@ -144,6 +144,10 @@ TEST_F(ContentsSession, HidesAndShowsAgain) {
   EXPECT_EQ(entry("Water")["shown"], 2);
   expect_ok(R"({"command":"take_away","selection":"water"})");
   EXPECT_EQ(entry("Water")["shown"], 0);
+  // The end of a dashed line is not drawn.
+  expect_ok(R"({"command":"object","object":{"representation":"distance","selection":"chain A to chain B"}})");
+  expect_ok(R"({"command":"take_away","selection":"chain A and polymer"})");
+  EXPECT_EQ(entry("Chain A")["shown"], 0);
 }
 
 TEST_F(ContentsSession, LocatesAtomsInThePicture) {

@@ -15,7 +15,7 @@ export function contents_controls({ command, ask }, selection) {
     eye.addEventListener("click", () => command(entry.shown > 0 ? "take_away" : "bring_back", { selection: entry.selection }));
     const size = entry.kind === "water" ? `${entry.residues.toLocaleString("en")} molecules`
       : `${entry.kind}, ${(entry.residues > 1 ? entry.residues : entry.atoms).toLocaleString("en")} ${entry.residues > 1 ? "residues" : "atoms"}`;
-    const name = element("button", { type: "button", className: "recall", title: entry.selection }, entry.name, " ",
+    const name = element("button", { type: "button", className: "recall", title: entry.selection }, entry.name,
       element("small", { textContent: size }));
     name.addEventListener("click", (event) => selection.choose({ ...entry, molecule: entry.selection }, event.shiftKey));
     const colour = element("input", { type: "color", value: entry.color ?? "#45a878" });
@@ -50,7 +50,7 @@ export function contents_controls({ command, ask }, selection) {
     $("letters").replaceChildren(...found.residues.map((residue, n) => {
       const [letter, number, name] = residue;
       const button = element("button", { type: "button", textContent: letter, title: `${name} ${number}`, tabIndex: n === 0 ? 0 : -1 });
-      button.setAttribute("aria-label", `${name} ${number}`);
+      button.setAttribute("aria-label", `${number} ${name}`);
       button.dataset.number = n % 10 === 0 ? number : "";
       button.dataset.selection = words_of(residue);
       return button;
@@ -59,7 +59,7 @@ export function contents_controls({ command, ask }, selection) {
   }
 
   const choose = (button, adds) => selection.choose({ selection: button.dataset.selection,
-    name: `${chain.name} ${button.title}`, residue: button.dataset.selection, molecule: chain.selection }, adds);
+    name: `${chain.name} ${button.getAttribute("aria-label")}`, residue: button.dataset.selection, molecule: chain.selection }, adds);
   $("letters").addEventListener("click", (event) => {
     if (event.target.matches("button")) choose(event.target, event.shiftKey);
   });

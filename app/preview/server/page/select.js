@@ -62,7 +62,7 @@ export function select_controls({ command, ask, say, viewer }) {
     if (!found.ok) return;
     if (!found.hit) return event.shiftKey ? undefined : become([]);
     const { selections, place, name } = found, residue = place.endsWith(name) ? place.slice(0, -name.length - 1) : place;
-    const names = [place, residue, selections.molecule];
+    const names = [place, residue, selections.molecule.replace(/ and polymer$/, "")];
     const entry = { selection: selections[kLevels[count - 1]], name: names[count - 1], ...selections };
     if (count > 1) entries = before;
     const box = $("stage").getBoundingClientRect();
