@@ -77,7 +77,6 @@ void add_figure(const PreviewState& state, Json& reply) {
   Json& objects = reply["objects"] = Json::array();
   for (const FigureObjectRequest& object : state.figure.objects)
     objects.push_back(Json::parse(json_line(figure_object_json(object))));
-  reply["bare"] = state.figure.bare;
   reply["surface_hidden"] = state.figure.hides_surface;
   reply["show"] = state.show ? Json(escaped(state.show->text())) : Json(nullptr);
   reply["patches"] = {{"selection", state.patches ? Json(escaped(state.patches->text())) : Json(nullptr)},

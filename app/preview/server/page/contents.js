@@ -101,7 +101,7 @@ export function contents_controls({ command, ask }, selection) {
   });
 
   return (state) => {
-    const shape = JSON.stringify([state.show, state.representations, state.objects, state.bare, state.surface_hidden, state.color]);
+    const shape = JSON.stringify([state.show, state.representations, state.objects, state.values["shapes.bare"], state.surface_hidden, state.color]);
     if (shape === known) return;
     known = shape;
     read();
