@@ -64,7 +64,7 @@ std::vector<Command> all_commands() {
       {"resize", {"width", "height"}, Effect::picture, resize},
       {"samples", {"count"}, Effect::slide, set_samples},
       {"press", {"key"}, Effect::none, press, false},  // what it means is recorded
-      {"pick", {"x", "y", "wait", "area"}, Effect::none, pick},
+      {"pick", {"x", "y", "place", "wait", "area"}, Effect::none, pick},
       {"export",
        {"format", "path", "width", "height", "samples", "transparent", "turns", "seconds", "force", "wait"},
        Effect::none,

@@ -9,7 +9,7 @@ export function contents_controls({ command, ask }, selection) {
   let entries = [], known = "", chain = null;  // chain: the entry whose sequence is shown
 
   const row = (entry) => {
-    const eye = element("button", { type: "button", className: "eye", textContent: entry.shown > 0 ? "◉" : "○" });
+    const eye = element("button", { type: "button", className: "plain eye", textContent: entry.shown > 0 ? "◉" : "○" });
     eye.setAttribute("aria-pressed", String(entry.shown > 0));
     eye.setAttribute("aria-label", `Show ${entry.name}`);
     eye.addEventListener("click", () => command(entry.shown > 0 ? "take_away" : "bring_back", { selection: entry.selection }));

@@ -8,11 +8,6 @@ const kSeries = 400;                             // ms between the clicks of a d
 const kNear = 6;                                 // CSS pixels between them
 const kLevels = ["atom", "residue", "molecule"];  // selected by one, two and three clicks
 
-const minus = (a, b) => a.map((x, n) => x - b[n]);
-const dot = (a, b) => a.reduce((sum, x, n) => sum + x * b[n], 0);
-const unit = (a) => a.map((x) => x / Math.hypot(...a));
-const cross = ([a, b, c], [x, y, z]) => [b * z - c * y, c * x - a * z, a * y - b * x];
-
 /// Returns where a camera of a state shows points, in pixels of a picture of this size; null for points behind it.
 function projected(points, { position, target, up, projection, vertical_fov, height }, [width, rows]) {
   const forward = unit(minus(target, position)), right = unit(cross(forward, up)), above = cross(right, forward);
@@ -24,11 +19,11 @@ function projected(points, { position, target, up, projection, vertical_fov, hei
   });
 }
 
-/// Returns the selection: {click(target, event), choose(entry, adds), has(text), clear(), listen(listener), show(state)}.
+/// Returns the selection: {click(found, event), choose(entry, adds), has(text), listen(listener), show(state)}.
 /// An entry is {selection, name, residue, molecule}: its expression, its name for people, and the expressions of the
-/// residue and the chain that it is part of. `viewer` returns what draws the stage, or null while pictures are shown.
+/// residue and the chain that it is part of. `viewer` returns what draws the stage.
 export function select_controls({ command, ask, say, viewer }) {
-  const card = $("picked"), listeners = [];
+  const card = $("card"), listeners = [];
   let entries = [], series = { at: -1e9 }, state = null, located = null, key = "", latest = 0, offered = "";
 
   const text = () => entries.length === 1 ? entries[0].selection
@@ -51,32 +46,34 @@ export function select_controls({ command, ask, say, viewer }) {
     else become(others.length < entries.length ? others : [...others, entry], place);
   }
 
-  /// target: what the question "pick" takes. Two clicks select the residue, three the chain.
-  async function click(target, event) {
+  /// found: of Viewer.pick(), or null. Two clicks select the residue, three the chain.
+  async function click(found, event) {
     const goes_on = event.timeStamp - series.at < kSeries &&
       Math.hypot(event.clientX - series.x, event.clientY - series.y) < kNear;
-    const pick = () => ask({ command: "pick", ...target, wait: false });
     series = { at: event.timeStamp, x: event.clientX, y: event.clientY, count: goes_on ? series.count % 3 + 1 : 1,
-      found: goes_on ? series.found : pick(), before: goes_on ? series.before : entries };
-    const { count, before } = series, found = await series.found;
-    if (!found.ok) return;
-    if (!found.hit) return event.shiftKey ? undefined : become([]);
-    const { selections, place, name } = found, residue = place.endsWith(name) ? place.slice(0, -name.length - 1) : place;
+      before: goes_on ? series.before : entries };
+    if (!found) return event.shiftKey ? undefined : become([]);
+    const pixel = found.x === undefined ? { place: found.place } : { x: found.x, y: found.y };
+    const pick = () => ask({ command: "pick", ...pixel, wait: false });
+    const { count, before } = series, told = await pick();
+    if (!told.ok || !told.hit) return;
+    const { selections, place, name } = told, residue = place.endsWith(name) ? place.slice(0, -name.length - 1) : place;
     const names = [place, residue, selections.molecule.replace(/ and polymer$/, "")];
     const entry = { selection: selections[kLevels[count - 1]], name: names[count - 1], ...selections };
     if (count > 1) entries = before;
     const box = $("stage").getBoundingClientRect();
     choose(entry, event.shiftKey, [event.clientX - box.left, event.clientY - box.top]);
     const number = latest;
-    for (let told = found; has(entry.selection) && number === latest; told = await pick()) {
-      tell(told);
-      if (!told.area_follows) return;
+    for (let now = told; has(entry.selection) && number === latest; now = await pick()) {
+      tell(now);
+      if (!now.area_follows) return;
       await new Promise((resolve) => setTimeout(resolve, 300));
     }
   }
 
   function tell({ element: symbol, kind, exposed_area, area_follows, position }) {
-    const rows = [["element", symbol], ["what", ["cap", "shape"].includes(kind) ? kind : `${kind} patch`]];
+    const rows = [["element", symbol]];
+    if (["convex", "toroidal", "concave"].includes(kind)) rows.push(["what", `${kind} patch`]);
     if (area_follows || exposed_area !== null) rows.push(["exposed", area_follows ? "…" : `${exposed_area.toFixed(3)} Å²`]);
     rows.push(["position", position.map((x) => x.toFixed(2)).join(", ")]);
     card.querySelector("dl").replaceChildren(...rows.flatMap(([term, value]) =>
@@ -105,7 +102,11 @@ export function select_controls({ command, ask, say, viewer }) {
     return button;
   });
   card.querySelector(".buttons").append(...buttons, element("label", { textContent: "Colour " }, colour));
-  card.querySelector(".remove").addEventListener("click", () => become([]));
+  card.querySelector(".plain").addEventListener("click", () => become([]));
+
+  document.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && entries.length > 0) become([]);
+  });
 
   function show_card(place) {
     card.hidden = entries.length === 0;
@@ -138,7 +139,7 @@ export function select_controls({ command, ask, say, viewer }) {
     const found = entries.length > 0 ? await ask({ command: "locate", selection: text() }) : { ok: true, points: [], places: [] };
     if (number !== latest || !found.ok) return;
     located = found;
-    viewer()?.select(found.places.flatMap(([first, count]) => Array.from({ length: count }, (_, n) => first + n)));
+    if (viewer().casts) viewer().select(found.places.flatMap(([first, count]) => Array.from({ length: count }, (_, n) => first + n)));
     draw();
   }
 
@@ -146,7 +147,7 @@ export function select_controls({ command, ask, say, viewer }) {
   function draw() {
     const { width = 1, height = 1 } = state ?? {}, svg = $("rings");
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    const places = state && located && !viewer() ? projected(located.points, state.camera, located.picture ?? [width, height]) : [];
+    const places = state && located && !viewer().casts ? projected(located.points, state.camera, located.picture ?? [width, height]) : [];
     svg.replaceChildren(...places.filter(Boolean).map(([x, y]) => {
       const ring = document.createElementNS("http://www.w3.org/2000/svg", "circle");
       for (const [name, value] of [["cx", x.toFixed(1)], ["cy", y.toFixed(1)], ["r", located.points.length > 60 ? 3 : 6]]) ring.setAttribute(name, value);
@@ -163,5 +164,5 @@ export function select_controls({ command, ask, say, viewer }) {
     draw();
   }
 
-  return { click, choose, has, clear: () => become([]), listen: (listener) => listeners.push(listener), show };
+  return { click, choose, has, listen: (listener) => listeners.push(listener), show };
 }
