@@ -62,7 +62,7 @@ class Selecting(PageCase):
             await self.open(page, PROTEASE)
             x, y = 560, 520
             await self.click(page, x, y)
-            await page.until("!document.getElementById('picked').hidden")
+            await page.until("!document.getElementById('card').hidden")
             atom = await page.until("document.getElementById('atoms').value")
             self.assertRegex(atom, r"^chain [AB] and resid \d+ and resname [A-Z]{3} and name \w+$")
             residue = atom[:atom.index(" and name")]
@@ -87,7 +87,7 @@ class Selecting(PageCase):
             # A click beside everything and Escape select nothing.
             await self.click(page, 30, 30)
             await self.selected(page, "")
-            self.assertTrue(await page.evaluate("document.getElementById('picked').hidden"))
+            self.assertTrue(await page.evaluate("document.getElementById('card').hidden"))
             await self.click(page, x, y)
             await self.selected(page, atom)
             await self.press(page, "Escape")
