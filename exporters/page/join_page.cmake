@@ -46,6 +46,6 @@ file(WRITE ${OUTPUT}/page.css "\n${style}")
 
 digest_of(SCRIPT_HASH ${OUTPUT}.js)
 digest_of(STYLE_HASH ${OUTPUT}/page.css)
-file(WRITE ${OUTPUT}/policy.html "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'\; script-src ${SCRIPT_HASH}\; \
-style-src ${STYLE_HASH}\; img-src data: blob:\; base-uri 'none'\; form-action 'none'\">")
+file(WRITE ${OUTPUT}/policy.html "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src ${SCRIPT_HASH}; \
+style-src ${STYLE_HASH}; img-src data: blob:; base-uri 'none'; form-action 'none'\">")
 configure_file(${FOLDER}/page.html ${OUTPUT}/page.html COPYONLY)
