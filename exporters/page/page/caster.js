@@ -6,7 +6,7 @@ const kNoPrimitive = 0xffffffff;
 const kToroidal = 1, kCylinder = 3;
 const kIsBeside = 1;    // of exporters/page/page_tables.cpp
 const kBuckets = 4096;  // of depth, front to back
-const kSelected = [0, 0.9, 0.25];  // linear; what is selected has most of it
+const kSelected = [1, 0.43, 0], kSelectedShare = 0.75;  // linear colour of what is selected, and its share
 
 /// A figure cannot be drawn here, in a sentence for its reader.
 class NoWebGl extends Error {}
@@ -121,16 +121,10 @@ class Caster {
         n < tables.shown.length ? own[4 * n + 3] : 1], 4 * n));
     for (const atom of this.hidden ?? []) colors[4 * atom + 3] = 0;
     for (const atom of this.selected ?? [])
-      for (let k = 0; k < 3; ++k) colors[4 * atom + k] = 0.35 * colors[4 * atom + k] + 0.65 * kSelected[k];
+      kSelected.forEach((channel, n) => { colors[4 * atom + n] += kSelectedShare * (channel - colors[4 * atom + n]); });
     this.gl.deleteTexture(this.tables.colors ?? null);
     this.tables.colors = this.table(new Uint32Array(colors.buffer));
     this.colors_of = made_of;
-  }
-
-  /// atoms: a set of the numbers of those that are shown as selected.
-  select(atoms) {
-    this.selected = atoms;
-    this.set_scheme(this.scheme);
   }
 
   /// Frees all that the figure takes on the device.
@@ -144,6 +138,12 @@ class Caster {
   /// atoms: numbers of those that are hidden beside those that the figure hides.
   hide(atoms) {
     this.hidden = atoms;
+    this.set_scheme(this.scheme);
+  }
+
+  /// atoms: numbers of those that are tinted as selected.
+  select(atoms) {
+    this.selected = atoms;
     this.set_scheme(this.scheme);
   }
 
@@ -443,8 +443,16 @@ class Caster {
     return words;
   }
 
-  /// Where an atom is, from where the records count.
-  center_of(atom) { return [...new Float32Array(this.figure.tables.balls.buffer, 16 * atom, 3)]; }
+  /// Returns where an atom is, from where the records count; null for an atom that only meshes show.
+  center_of(atom) {
+    const { tables, light_maps: { surfaces } } = this.figure, { primitives, rows, balls } = tables;
+    const own = surfaces.find(([, first, count]) => atom >= first && atom < first + count);
+    if (own) return [...new Float32Array(balls.buffer, 16 * (own[0] + atom - own[1]), 3)];
+    for (let at = 0; at < primitives.length; at += 12)
+      if (primitives[at + 7] === 0 && primitives[at + 8] === kNoPrimitive && primitives[at + 9] === atom)
+        return [...new Float32Array(rows.buffer, 16 * primitives[at + 5], 3)];
+    return null;
+  }
 
   /// What a pixel shows: {atom, primitive, point}, or nothing.
   pick(x, y) {

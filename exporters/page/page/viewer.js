@@ -8,7 +8,7 @@ const element = (id) => document.getElementById(id);
 class Viewer {
   /// pictures: draws in place of this browser's WebGL, as the program's do.
   constructor(figure, pictures = null) {
-    Object.assign(this, { figure, pictures, selected: new Set() });
+    Object.assign(this, { figure, pictures });
     this.canvas = element("picture");
     this.view_number = 0;
     this.camera = this.view.camera;
@@ -20,6 +20,8 @@ class Viewer {
     this.cuts_with_view = true;
     this.rests_here = true;  // draws the picture at rest; else drafts alone
     this.hidden = [];  // atoms
+    this.selected = new Set();  // their numbers in the names
+    this.selects = false;  // clicks select, and those that centre are of the middle button
     this.draft_scale = 1;
     this.sample = -1;  // the last one cast of the picture at rest
     this.moving = false;
@@ -50,10 +52,10 @@ class Viewer {
     this.effects = { shade: figure.has_shade, lines: figure.has_lines };
     if (names !== figure.names) this.last_picked = undefined;
     this.write_labels();
-    this.select(this.chosen);
     if (this.pictures || !this.caster) return;
     this.caster.show(this.figure);
     this.caster.forget(number);
+    this.mark_selected();
     this.set_scheme(0);
     this.set_layers();
   }
@@ -62,16 +64,6 @@ class Viewer {
   show_pictures(pictures) {
     this.pictures = pictures;
     this.start();
-    this.change();
-  }
-
-  /// Shows atoms as selected. places: their numbers in the names.
-  select(places = []) {
-    this.chosen = places;
-    const wanted = new Set(places), { shown = [] } = this.figure.tables ?? {};
-    this.selected = new Set([...shown.keys()].filter((atom) => wanted.has(shown[atom])));
-    if (!this.casts) return;
-    this.caster.select(this.selected);
     this.change();
   }
 
@@ -84,6 +76,7 @@ class Viewer {
     if (names !== frame.names) this.last_picked = undefined;
     if (labels !== frame.labels) this.write_labels();
     this.caster.show(frame);
+    this.mark_selected();
     this.lay();
     this.change(true);
   }
@@ -91,8 +84,9 @@ class Viewer {
   start() {
     this.caster?.release?.();
     this.caster = this.pictures ?? new LayeredCaster(this.canvas, this.figure);
-    Object.assign(this.caster, { hidden: this.hidden, selected: this.selected });
+    this.caster.hidden = this.hidden;
     this.caster.set_scheme(this.scheme ?? 0);
+    this.mark_selected();
     this.lay();
   }
 
@@ -143,6 +137,19 @@ class Viewer {
     this.hidden = this.atoms_beside(shown);
     this.caster.hide(this.hidden);
     this.change();
+  }
+
+  /// Shows atoms as selected. places: their numbers in the names.
+  select(places) {
+    this.selected = new Set(places);
+    this.mark_selected();
+    this.change();
+  }
+
+  mark_selected() {
+    if (!this.casts) return;
+    const { shown } = this.figure.tables;
+    this.caster.select(this.selected.size > 0 ? [...shown.keys()].filter((atom) => this.selected.has(shown[atom])) : []);
   }
 
   /// Atoms of other chains.
@@ -295,7 +302,9 @@ class Viewer {
     if (!picked) return "";
     if (picked.words) return picked.words;
     if (before === undefined || before === picked.atom) return this.words(picked);
-    const distance = length(minus(this.caster.center_of(picked.atom), this.caster.center_of(before)));
+    const places = [picked.atom, before].map((atom) => this.caster.center_of(atom));
+    if (places.includes(null)) return this.words(picked);
+    const distance = length(minus(...places));
     return `${this.words(picked)}; ${distance.toFixed(2)} Å from ${this.atom_name(before)}`;
   }
 

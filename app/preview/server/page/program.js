@@ -2,9 +2,11 @@
 // What the program adds to the stage: its sections, and commands from input; pictures and state from what it says.
 import { is_worth_timing, time_casting, webgl_device, who_draws } from "./casting.js";
 import { answers, Connection } from "./connection.js";
+import { contents_controls } from "./contents.js";
 import { figure_controls } from "./figure.js";
 import { follow_lamp, place_lamp } from "./lamp.js";
 import { Pictures } from "./pictures.js";
+import { select_controls } from "./select.js";
 import { strip_controls } from "./strip.js";
 
 const $ = element;
@@ -50,7 +52,7 @@ function place_sections() {
     if (before) $(before).before(...part.childNodes);
     else $(within).append(...part.childNodes);
   }
-  $("about").hidden = true;
+  for (const part of [$("about"), ...document.querySelectorAll(".of-pages")]) part.hidden = true;
   $("controls").hidden = false;
   $("controls").disabled = true;
   $("write").noValidate = false;
@@ -267,7 +269,9 @@ async function show_program_figure(message, bytes) {
   if (!unavailable) {
     const figure = read_figure_bytes(new Uint8Array(bytes), kept), cuts = message.state.cuts.map((plane) => plane.match(/^depth>(.*)/)?.[1]);
     const depths = cuts.length === figure.views[0].planes.length && cuts.some(Boolean) ? cuts.map((text) => text && Number(text)) : undefined;
+    const is_told = JSON.stringify(file_camera()) === told_text;
     viewer.show_figure({ ...figure, number: ++figures, depths });
+    if (is_told) told_text = JSON.stringify(file_camera());  // from another origin it is rounded otherwise
   }
   if (message.state.revision >= state.revision) apply_state(message.state);
   if (figures > 0 && !times.browser && $("drawn").value === "fastest") time_this_browser();
@@ -340,6 +344,8 @@ new ResizeObserver(fit).observe(stage);
 const context = { command, ask, say: (text, is_error) => tell(text, is_error), viewer: () => viewer };
 const figure = figure_controls(context);
 const show_strip = strip_controls(context);
+const selection = select_controls(context);
+const show_contents = contents_controls(context, selection);
 
 /// Unless somebody is at it: what is typed, or dragged ahead of the pictures, stays.
 function set_value(control, value) {
@@ -360,7 +366,8 @@ function begin(first) {
     if (viewer.casts) camera_timer = setTimeout(tell_camera, kCameraRest);
     else if (flights === 0) tell_camera();
   };
-  viewer.picked = tell_of_atom;
+  viewer.selects = true;
+  viewer.picked = selection.click;
   told_text = JSON.stringify(file_camera());
   follow_pointer(viewer);
   follow_keys(viewer, (key) => {
@@ -395,6 +402,8 @@ function apply_state(next) {
   set_value($("preset"), next.preset);
   figure.show(next);
   show_strip(next);
+  selection.show(next);
+  show_contents(next);
   take_wishes(next);
   $("kinds").checked = next.patch_kinds;
   $("kinds-key").hidden = !(next.patch_kinds || next.color.scheme === "kind");
@@ -513,24 +522,6 @@ async function hover(event, number, more = 10) {
   tip.style.transform = `translate(${Math.max(x, 0)}px, ${Math.max(y, 0)}px)`;
   // Where it is cheap the area comes soon.
   if (found.area_follows && more > 0) setTimeout(() => { if (number === hovered) hover(event, number, more - 1); }, 300);
-}
-
-let clicked = 0;  // number of the latest click
-
-/// Tells of an atom at once, and of its area when that is known.
-async function tell_of_atom(found) {
-  const number = ++clicked, revision = newest;
-  while (found && number === clicked && newest === revision) {
-    found = await pictures.pick(found.x, found.y, {}) ?? found;
-    if (number !== clicked) return;
-    const area = found.area_follows ? "…" : typeof found.exposed_area === "number" ? `${found.exposed_area.toFixed(3)} Å²` : null;
-    const list = document.createElement("dl");
-    list.append(...rows_of([["what", found.what], ["element", found.element], ...(area ? [["exposed", area]] : []),
-      ["position", found.position.map((x) => x.toFixed(2)).join(", ")]]));
-    $("picked").replaceChildren(Object.assign(document.createElement("strong"), { textContent: found.label }), list);
-    if (!found.area_follows) return;
-    await new Promise((resolve) => setTimeout(resolve, 300));
-  }
 }
 
 // Writing
