@@ -121,8 +121,8 @@ class Page(PageCase):
         await page.until("!document.getElementById('kinds-key').hidden")
         self.assertTrue((await self.state(page))["patch_kinds"])
         for key, value in (("ambient_occlusion", 0.8), ("silhouettes", 2), ("depth_cue", 0.25)):
-            await page.evaluate(f"""document.getElementById('{key}').value = '{value}';
-                document.getElementById('{key}').dispatchEvent(new Event('input')); 0""")
+            await page.evaluate(f"""document.getElementById('look-{key}').value = '{value}';
+                document.getElementById('look-{key}').dispatchEvent(new Event('input')); 0""")
         x, y, size = await page.evaluate("""document.getElementById('look').open = true, document.getElementById('lamp').scrollIntoView(),
             (({x, y, width}) => [x, y, width])(document.getElementById('lamp').getBoundingClientRect())""")
         await page.drag([(x + size / 2, y + size / 2), (x + 0.7 * size, y + 0.3 * size)])
@@ -233,8 +233,8 @@ class Page(PageCase):
             await page.click("#chips li:last-child .remove")
             await self.chips(page, 3)
             await page.evaluate("""const cut = document.getElementById('cut'); cut.value = 30;
-                cut.dispatchEvent(new Event('input')); document.getElementById('legend-on').click();
-                const preset = document.getElementById('preset'); preset.value = 'publication';
+                cut.dispatchEvent(new Event('input')); document.getElementById('legend-shown').click();
+                const preset = document.getElementById('look-preset'); preset.value = 'publication';
                 preset.dispatchEvent(new Event('change')); 0""")
             await page.until("JSON.parse(document.getElementById('picture').dataset.state).preset === 'publication'")
             state = await self.state(page)

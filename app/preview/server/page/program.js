@@ -6,6 +6,7 @@ import { contents_controls } from "./contents.js";
 import { figure_controls } from "./figure.js";
 import { follow_lamp, place_lamp } from "./lamp.js";
 import { Pictures } from "./pictures.js";
+import { property_controls } from "./properties.js";
 import { select_controls } from "./select.js";
 import { strip_controls } from "./strip.js";
 
@@ -15,7 +16,6 @@ remember_sections(["cutting", "viewing"]);
 
 const canvas = $("picture"), stage = $("stage");
 const numbered = new Set();  // colour schemes that take a map
-const strengths = [];  // keys of the look that have a slider
 let viewer = null;     // from the first state on
 let state = null;      // what the program shows
 let told_states = 0;   // how many states were asked for and told
@@ -343,6 +343,7 @@ new ResizeObserver(fit).observe(stage);
 
 const context = { command, ask, say: (text, is_error) => tell(text, is_error), viewer: () => viewer };
 const figure = figure_controls(context);
+const properties = property_controls(context);
 const show_strip = strip_controls(context);
 const selection = select_controls(context);
 const show_contents = contents_controls(context, selection);
@@ -390,7 +391,6 @@ function apply_state(next) {
   document.title = `${name} · Meniscus`;
   document.querySelector("h1").textContent = name;
   $("file").textContent = `${next.atoms.toLocaleString("en")} atoms`;
-  set_value($("surface-kind"), next.surface);
   $("probe").disabled = $("probe-number").disabled = next.surface === "vdw";
   set_value($("probe"), next.probe_radius);
   set_value($("probe-number"), Number(next.probe_radius.toFixed(3)));
@@ -399,7 +399,7 @@ function apply_state(next) {
   $("map-row").hidden = $("range-row").hidden = !numbered.has(next.color.scheme);
   set_value($("range"), next.color.range ?? "");
   if ($("map").options[0]) $("map").options[0].text = next.color.own_map ? "the file's" : "its own";
-  set_value($("preset"), next.preset);
+  properties.show(next.values);
   figure.show(next);
   show_strip(next);
   selection.show(next);
@@ -409,7 +409,6 @@ function apply_state(next) {
   $("kinds-key").hidden = !(next.patch_kinds || next.color.scheme === "kind");
   set_value($("background"), next.look.background);
   stage.style.background = next.look.background;
-  for (const key of strengths) set_value($(key), next.look[key]);
   $("shade").checked = next.look.ambient_occlusion > 0;
   $("lines").checked = next.look.silhouettes > 0;
   place_lamp($("lamp"), next.look.light_direction);
@@ -435,48 +434,30 @@ function fill_choices(choices) {
   }
   $("map").add(new Option("its own", ""));
   for (const map of choices.maps) $("map").add(new Option(map, map));
-  choices.sliders.forEach(add_slider);
+  properties.fill(choices.properties);
   $("shapes").prepend(...choices.representations.map((as) =>
     Object.assign(document.createElement("button"), { name: "do", value: as, textContent: as[0].toUpperCase() + as.slice(1) })));
-  for (const preset of choices.presets) $("preset").add(new Option(preset, preset));
   $("keys").append(...rows_of(choices.keys.map(({ keys, what }) => [keys, what])));
   if (state) apply_state(state);
 }
 
 // Controls
 
-$("surface-kind").addEventListener("change", (event) =>
-  command("surface", { kind: event.target.value }).then((reply) => reply ?? apply_state(state)));
-const set_probe = (radius) => {
-  if (Number.isFinite(radius)) command("probe", { radius: Math.round(radius * 1000) / 1000 });
-};
+const set = (key, value) => command("set", { key, value });
+const set_probe = (radius) => { if (Number.isFinite(radius)) set("surface.probe", Math.round(radius * 1000) / 1000); };
 $("probe").addEventListener("input", (event) => set_probe(event.target.valueAsNumber));
 $("probe-number").addEventListener("change", (event) => set_probe(event.target.valueAsNumber));
 
-const set_color = () => {
-  const scheme = $("scheme").value, map = $("map").value, range = $("range").value.trim();
-  const values = { scheme };
-  if (numbered.has(scheme) && map) values.map = map;
-  if (numbered.has(scheme) && range) values.range = range;
-  command("color", values).then((reply) => reply ?? apply_state(state));
-};
-$("scheme").addEventListener("change", () => { $("range").value = ""; set_color(); });
-$("range").addEventListener("change", set_color);
-$("preset").addEventListener("change", (event) => command("preset", { preset: event.target.value }));
-$("map").addEventListener("change", set_color);
+const set_color = (key, value) => set(key, value).then((reply) => reply ?? apply_state(state));
+$("scheme").addEventListener("change", () =>
+  set_color("surface.color", [$("scheme").value, ...state.values["surface.color"].filter((entry) => entry.includes("="))]));
+$("range").addEventListener("change", () => set_color("surface.color_range", $("range").value.trim() || null));
+$("map").addEventListener("change", () => set_color("surface.map", $("map").value || null));
 $("kinds").addEventListener("change", (event) => command("patch_kinds", { on: event.target.checked }));
 $("projection").addEventListener("change", (event) => set_projection(viewer, event.target.value === "orthographic"));
-$("background").addEventListener("input", (event) => command("look", { background: event.target.value }));
+$("background").addEventListener("input", (event) => set("image.background", event.target.value));
 for (const [id, key] of [["shade", "a"], ["lines", "l"]]) $(id).addEventListener("change", () => command("press", { key }));
-function add_slider({ key, label, end, help }) {
-  const slider = Object.assign(document.createElement("input"), { id: key, type: "range", min: 0, max: end, step: end > 2 ? 0.5 : 0.05 });
-  slider.addEventListener("input", () => command("look", { [key]: slider.valueAsNumber }));
-  const row = Object.assign(document.createElement("label"), { htmlFor: key, title: help });
-  row.append(`${label} `, slider);
-  $("strengths").append(row);
-  strengths.push(key);
-}
-follow_lamp($("lamp"), (light_direction) => { if (controls) command("look", { light_direction }); });
+follow_lamp($("lamp"), (direction) => { if (controls) set("look.light", direction.join()); });
 $("reset").addEventListener("click", () => command("reset_view"));
 $("zoom-form").addEventListener("submit", async (event) => {
   event.preventDefault();
