@@ -80,7 +80,7 @@ async function command(word, values = {}, refuse = (text) => tell(text, true)) {
   const reply = await server.ask({ command: word, ...values });
   --outstanding;
   newest = reply.revision ?? newest;
-  if (viewer?.casts && reply.revision !== undefined) follow_change(reply.revision);
+  if (viewer?.casts && word !== "camera" && reply.revision !== undefined) follow_change(reply.revision);
   note_rest();
   if (!reply.ok && reply.error) refuse(sentence_of(reply.error, word));
   else if (reply.ok && word !== "resize") forget_errors();
@@ -115,7 +115,9 @@ const has_picture = () => Boolean(shown?.full) && outstanding === 0 && shown.sta
 const is_at_rest = () => !viewer?.rests_here ? has_picture() : is_cast && due === 0 && outstanding === 0;
 function note_rest() {
   canvas.dataset.rest = String(Boolean(viewer) && is_at_rest());
-  $("pictures").hidden = Boolean(viewer?.casts) && (viewer.rests_here || !has_picture());
+  const casts = Boolean(viewer?.casts) && (viewer.rests_here || !has_picture());
+  $("pictures").hidden = casts;
+  $("labels").toggleAttribute("hidden", !casts);  // pictures of the program have theirs
 }
 
 $("take").addEventListener("click", () => server.request("control"));
@@ -255,7 +257,8 @@ function want() {
 /// Lets this browser draw, or the program, as it is due.
 function settle() {
   const casts = Boolean(device && figures > 0 && !unavailable && is_faster("draft"));
-  if (casts !== viewer.casts) viewer.show_pictures(casts ? null : pictures);
+  if (casts !== viewer.casts || !viewer.caster) viewer.show_pictures(casts ? null : pictures);
+  if (!casts) $("legend").textContent = "";  // it is of the figure that was cast
   viewer.rests_here = casts && !state.legend.on && is_faster("rest");
   $("drawn-by").textContent = who_draws({ device, unavailable, times, casts, rests: viewer.rests_here });
   note_rest();
@@ -307,7 +310,7 @@ async function show_program_picture(message, bytes) {
   show_stats(message.stats, message.full);
   // What was told while the picture was being decoded is newer.
   if (told_states === before || message.state.revision > state.revision) apply_state(message.state);
-  if ($("drawn-by").textContent === "") settle();
+  if (message.full || $("drawn-by").textContent === "") settle();
 }
 
 $("times").addEventListener("toggle", () => { $("fps").hidden = !$("times").open; });
