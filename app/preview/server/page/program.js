@@ -358,9 +358,8 @@ function set_value(control, value) {
 
 /// The stage begins with the program's pictures.
 function begin(first) {
-  const { size, ...others } = { size: [first.width, first.height], origin: [0, 0, 0], labels: [], schemes: [], samples: [], number: -1 };
-  viewer = window.meniscus = new Viewer({ size, ...others, background: [1, 1, 1],
-    views: [{ camera: page_camera(first.camera), planes: [], hatching: [], opacity: 1 }] }, pictures);
+  const views = [{ camera: page_camera(first.camera), planes: [], hatching: [], opacity: 1 }];
+  viewer = window.meniscus = new Viewer({ views, size: [first.width, first.height], origin: [0, 0, 0], labels: [], schemes: [], samples: [] }, pictures);
   viewer.rests_here = false;
   viewer.rest = (whole) => { is_cast = whole; note_rest(); };
   viewer.drafted = (took) => { $("fps").textContent = a_second(1000 / took); };
