@@ -138,10 +138,11 @@ function file_camera() {
 
 function tell_camera() {
   clearTimeout(camera_timer);
-  if (!viewer || !controls) return;
-  const camera = file_camera(), text = JSON.stringify(camera);
-  if (text === told_text) return;
+  if (!viewer) return;
+  if (!controls) viewer.camera = page_camera(state.camera, viewer.camera, viewer.figure.origin);  // who looks on turns nothing
+  const camera = file_camera(), text = JSON.stringify(camera), is_told = text === told_text;
   told_text = text;
+  if (is_told || !controls) return;
   ++flights;
   command("camera", { camera }).then(() => { --flights; if (viewer.casts) want(); else tell_camera(); });
 }
