@@ -74,7 +74,6 @@ export function contents_controls({ command, ask }, selection) {
     all[next].focus();
     if (event.shiftKey) choose(all[next], true);
   });
-  $("sequence-close").addEventListener("click", () => { show_sequence(null); });
 
   // Both ways
 
@@ -95,8 +94,7 @@ export function contents_controls({ command, ask }, selection) {
 
   selection.listen((next) => {
     chosen = next;
-    const of = entries.find((entry) => entry.selection === next.at(-1)?.molecule && entry.selection.endsWith("polymer"));
-    if (of) show_sequence(of);
+    show_sequence(entries.find(({ selection: own }) => own === next.at(-1)?.molecule && own.endsWith("polymer")) ?? null);
     mark();
   });
 
