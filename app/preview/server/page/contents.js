@@ -63,14 +63,13 @@ export function contents_controls({ command, ask }, selection) {
   $("letters").addEventListener("click", (event) => {
     if (event.target.matches("button")) choose(event.target, event.shiftKey);
   });
+  $("letters").addEventListener("focusin", ({ target }) => { for (const letter of letters()) letter.tabIndex = letter === target ? 0 : -1; });
   $("letters").addEventListener("keydown", (event) => {
     const all = letters(), at = all.indexOf(event.target);
     const next = { ArrowLeft: at - 1, ArrowRight: at + 1, Home: 0, End: all.length - 1 }[event.key];
     if (next === undefined || !all[next]) return;
     event.preventDefault();
     event.stopPropagation();
-    event.target.tabIndex = -1;
-    all[next].tabIndex = 0;
     all[next].focus();
     if (event.shiftKey) choose(all[next], true);
   });
