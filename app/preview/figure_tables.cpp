@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/queries/surface_parts.h"
@@ -47,6 +49,15 @@ bool FigureTables::compute(const PreviewState& state, const ShownMolecule& molec
   return true;
 }
 
+void FigureTables::color(const Structure& structure, const PreviewState& state, const ShownMolecule& molecule) {
+  Coloring& coloring = object_.coloring = molecule.coloring(state);
+  // Parts of a model count from 0, as those of all frames do.
+  const std::uint32_t first_part = coloring.part.empty() ? 0 : *std::ranges::min_element(coloring.part);
+  for (std::uint32_t& part : coloring.part) part -= first_part;
+  if (state.patches)
+    coloring.in_patch = atoms_of_patches(object_.surface, state.patches->evaluate(structure), state.least_patch);
+}
+
 std::shared_ptr<const page::PackedFrame> FigureTables::packed(const Scene& begun, const PreviewState& state,
                                                               const ShownMolecule& molecule,
                                                               const std::function<bool()>& stop) {
@@ -55,19 +66,16 @@ std::shared_ptr<const page::PackedFrame> FigureTables::packed(const Scene& begun
     throw RequestError("The browser cannot turn copies of one surface by itself; the program draws its pictures.");
   if (molecule.balls().size() > kMostAtoms)
     throw RequestError("This molecule is too large for the browser to turn by itself; the program draws its pictures.");
-  const Scene scene = rendered_scene(begun, {state, state.size, state.samples, false, {}, {}, {}});
-  if (!compute(state, molecule, stop) || (stop && stop())) return nullptr;
-  Figure figure;
-  figure.molecule.structure = molecule.annotated_structure();
-  figure.molecule.color = state.shown_scheme();
-  if (molecule.extras()) figure.extras = *molecule.extras();
-  object_.coloring = molecule.coloring(state);
-  if (state.patches)
-    object_.coloring.in_patch =
-        atoms_of_patches(object_.surface, state.patches->evaluate(figure.molecule.structure), state.least_patch);
-  const page::SceneFrame frame{state.camera, {}, molecule.key(state), {}, {}};
   try {
+    const Scene scene = rendered_scene(begun, {state, state.size, state.samples, false, {}, {}, {}});
     page::check_scene(scene);
+    if (!compute(state, molecule, stop) || (stop && stop())) return nullptr;
+    Figure figure;
+    figure.molecule.structure = molecule.annotated_structure();
+    figure.molecule.color = state.shown_scheme();
+    if (molecule.extras()) figure.extras = *molecule.extras();
+    color(figure.molecule.structure, state, molecule);
+    const page::SceneFrame frame{state.camera, {}, molecule.key(state), {}, {}};
     return std::make_shared<const page::PackedFrame>(
         page::scene_frame(scene, figure, object_, frame, {}, page::Packing::plain));
   } catch (const RequestError&) {

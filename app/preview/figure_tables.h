@@ -31,6 +31,7 @@ class FigureTables {
 
  private:
   bool compute(const PreviewState& state, const ShownMolecule& molecule, const std::function<bool()>& stop);
+  void color(const Structure& structure, const PreviewState& state, const ShownMolecule& molecule);
 
   std::vector<Ball> balls_;  ///< of the surface
   SurfaceObject object_;     ///< the surface of the last figure that had one, with its colours

@@ -19,8 +19,7 @@ std::string deflated(std::string_view bytes) {
       ::libdeflate_alloc_compressor(kLevel), &::libdeflate_free_compressor);
   if (!compressor) throw CapacityError("the page's data cannot be deflated: memory is exhausted");
   std::string packed(::libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
-  packed.resize(
-      ::libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), packed.data(), packed.size()));
+  packed.resize(::libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), packed.data(), packed.size()));
   return packed;
 }
 

@@ -115,9 +115,8 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
         with open(self.path("page.html")) as file:
             return page_of(file.read())
 
-    async def same_as_exported(self, client, what, is_model=False):
-        """Compares both figures to the last bit; the tables. is_model: chains of all models have numbers of their own, which
-        mark the atoms."""
+    async def same_as_exported(self, client, what):
+        """Compares both figures to the last bit; the tables."""
         _, own, tables, _ = await self.figure(client, has=[])
         page, exported = await self.exported(client)
         self.assertEqual(page.pop("shaders"), self.shaders)
@@ -126,8 +125,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
         page["schemes"] = page["schemes"][:1]
         self.assertEqual({name for name in exported if not name.startswith("scheme_")}, set(tables), what)
         for name, table in tables.items():
-            if not is_model or name != "marks":
-                self.assertEqual(exported[name], table, f"{what}: {name}")
+            self.assertEqual(exported[name], table, f"{what}: {name}")
         for name, value in page.items():
             self.assertEqual(own.pop(name), value, f"{what}: {name}")
         self.assertEqual(own, {})
@@ -157,7 +155,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
         async with self.serve(f"{DATA}/pdb2k39_truncated.pdb").socket() as client:
             for index in (2, 0):
                 self.assertTrue((await ask(client, {"command": "frame", "index": index}))["ok"])
-                await self.same_as_exported(client, f"model {index + 1}", True)
+                await self.same_as_exported(client, f"model {index + 1}")
 
     async def test_tables_that_a_page_has_are_not_sent_again(self):
         async with self.serve(TOXIN).socket() as client:

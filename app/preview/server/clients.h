@@ -53,7 +53,7 @@ class Mailbox {
   struct Content {
     std::vector<ClientCommand> commands;                           ///< in order
     std::set<ClientNumber> wanting;                                ///< clients that are ready for a picture
-    std::map<ClientNumber, std::set<std::string>> wanting_figure;  ///< and for a figure, with the tables that they have
+    std::map<ClientNumber, std::set<std::string>> wanting_figure;  ///< those ready for a figure, and their tables
     std::set<ClientNumber> gone;                                   ///< clients that left since the last time
   };
   /// Waits until something new is there or the time has come, and takes all of it.

@@ -90,11 +90,10 @@ class ServedSession {
       for (const ClientNumber client : news.gone) {
         waiting_.erase(client);
         shown_.erase(client);
-        figure_waiting_.erase(client);
-        figures_shown_.erase(client);
+        figure_pages_.erase(client);
       }
       waiting_.merge(news.wanting);
-      for (auto& [client, known] : news.wanting_figure) figure_waiting_[client] = std::move(known);
+      for (auto& [client, known] : news.wanting_figure) figure_pages_[client].known = std::move(known);
       for (const ClientCommand& command : news.commands) carry_out(command);
       play();
       // Of a large molecule there is something to see before its first surface.
@@ -114,7 +113,7 @@ class ServedSession {
 
   /// The next frame, when it is time and the pages have come along.
   void play() {
-    if (!session_.state().playing || (waiting_.empty() && figure_waiting_.empty()) || Clock::now() < next_frame_)
+    if (!session_.state().playing || (waiting_.empty() && !somebody_waits_for_figures()) || Clock::now() < next_frame_)
       return;
     const auto pace = std::chrono::duration<double>(1.0 / session_.state().frames_per_second);
     next_frame_ = std::max(next_frame_, Clock::now() - std::chrono::seconds(1)) +
@@ -153,12 +152,18 @@ class ServedSession {
     waiting_ = std::move(still_waiting);
   }
 
-  bool lacks_the_figure(ClientNumber client) const {
-    const auto shown = figures_shown_.find(client);
-    return shown == figures_shown_.end() || shown->second != session_.figure_revision();
-  }
+  /// A page that casts figures itself.
+  struct FigurePage {
+    std::optional<std::set<std::string>> known{};  ///< digests of its tables; nothing: it is not ready for a figure
+    std::uint64_t shown = 0;                       ///< revision of the figure that it was sent last
+  };
+
+  bool lacks_the_figure(const FigurePage& page) const { return page.known && page.shown != session_.figure_revision(); }
   bool somebody_lacks_the_figure() const {
-    return std::ranges::any_of(figure_waiting_, [&](const auto& waiting) { return lacks_the_figure(waiting.first); });
+    return std::ranges::any_of(figure_pages_, [&](const auto& page) { return lacks_the_figure(page.second); });
+  }
+  bool somebody_waits_for_figures() const {
+    return std::ranges::any_of(figure_pages_, [](const auto& page) { return page.second.known.has_value(); });
   }
 
   /// Sends the figure to pages that cast it themselves, or says why there is none for them.
@@ -167,21 +172,16 @@ class ServedSession {
     Json message{{"event", "figure"}, {"edition", figure_revision_}, {"revision", session_.state().revision}};
     message["state"] = question("state");
     if (!figure_) message["unavailable"] = escaped(figure_fault_);
-    for (auto waiting = figure_waiting_.begin(); waiting != figure_waiting_.end();) {
-      const auto& [client, known] = *waiting;
-      if (!lacks_the_figure(client)) {
-        ++waiting;
-        continue;
-      }
+    for (auto& [client, reader] : figure_pages_) {
+      if (!lacks_the_figure(reader)) continue;
       if (figure_) {
-        const std::string bytes = page::bytes_for_page(*figure_, known);
+        const std::string bytes = page::bytes_for_page(*figure_, *reader.known);
         network_.send_picture(client, message,
                               std::make_shared<const std::vector<std::uint8_t>>(bytes.begin(), bytes.end()));
       } else {
         network_.send(client, message);
       }
-      figures_shown_[client] = figure_revision_;
-      waiting = figure_waiting_.erase(waiting);
+      reader = {{}, figure_revision_};
     }
   }
 
@@ -252,7 +252,7 @@ class ServedSession {
   std::optional<Clock::time_point> next_deadline() const {
     std::optional<Clock::time_point> deadline;
     if (somebody_lacks_the_figure()) return Clock::now();
-    if (session_.state().playing && !figure_waiting_.empty()) deadline = next_frame_;
+    if (session_.state().playing && somebody_waits_for_figures()) deadline = next_frame_;
     if (waiting_.empty()) return deadline;
     const bool drawable = view_.fault().empty();
     if (drawable && !is_current()) return Clock::now();
@@ -268,13 +268,12 @@ class ServedSession {
   Mailbox& mailbox_;
   JpegEncoder jpeg_;
   SentPicture picture_;
-  std::set<ClientNumber> waiting_;                                ///< for a picture they have not seen
-  std::map<ClientNumber, std::uint64_t> shown_;                   ///< number of the picture each was sent last
-  std::shared_ptr<const page::PackedFrame> figure_;               ///< nullptr: none yet, or pages cannot show it
-  std::string figure_fault_;                                      ///< why not
-  std::uint64_t figure_revision_ = 0;                             ///< 0: none yet
-  std::map<ClientNumber, std::set<std::string>> figure_waiting_;  ///< for a figure, with the tables that each has
-  std::map<ClientNumber, std::uint64_t> figures_shown_;           ///< revision of the figure each was sent last
+  std::set<ClientNumber> waiting_;                   ///< for a picture they have not seen
+  std::map<ClientNumber, std::uint64_t> shown_;      ///< number of the picture each was sent last
+  std::shared_ptr<const page::PackedFrame> figure_;  ///< nullptr: none yet, or pages cannot show it
+  std::string figure_fault_;                         ///< why not
+  std::uint64_t figure_revision_ = 0;                ///< 0: none yet
+  std::map<ClientNumber, FigurePage> figure_pages_;
   Clock::time_point next_frame_{};
 };
 
