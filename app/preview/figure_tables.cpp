@@ -6,7 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <vector>
+#include <string>
+#include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/queries/surface_parts.h"
@@ -16,6 +19,18 @@
 
 namespace meniscus {
 namespace {
+
+/// Returns the share of the molecule's depth that planes across the view take away, by the numbers of these planes: the
+/// page keeps them there when it is turned.
+nlohmann::json depths_of(const FigureRequest& figure) {
+  nlohmann::json depths = nlohmann::json::object();
+  for (std::size_t n = 0; n < figure.cuts.size() && !figure.hides_surface; ++n) {
+    const Cut& cut = figure.cuts[n];
+    if (cut.direction == glm::dvec3(0.0) && cut.place == Cut::Place::bound && !cut.keeps_less)
+      depths[std::to_string(n)] = cut.bound;
+  }
+  return depths;
+}
 
 /// Ends the computation of a surface that is given up.
 struct GivenUp {};
@@ -76,8 +91,9 @@ std::shared_ptr<const page::PackedFrame> FigureTables::packed(const Scene& begun
     if (molecule.extras()) figure.extras = *molecule.extras();
     color(figure.molecule.structure, state, molecule);
     const page::SceneFrame frame{state.camera, {}, molecule.key(state), {}, {}};
-    return std::make_shared<const page::PackedFrame>(
-        page::scene_frame(scene, figure, object_, frame, {}, page::Packing::plain));
+    page::PackedFrame made = page::scene_frame(scene, figure, object_, frame, {}, page::Packing::plain);
+    (*made.description)["depths"] = depths_of(state.figure);
+    return std::make_shared<const page::PackedFrame>(std::move(made));
   } catch (const RequestError&) {
     throw RequestError("The browser cannot turn this figure by itself; the program draws its pictures.");
   }

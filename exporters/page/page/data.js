@@ -79,7 +79,8 @@ async function read_figure(text, count) {
 
 /// Reads the figure that a preview sends (bytes_for_page() in exporters/page/page_file.h). kept: a Map of tables by digest, which
 /// takes up those that come and forgets the oldest; its keys are `has` of the next request. Those that did not come are in it.
-function read_figure_bytes(bytes, kept) {
+/// number: another one for each figure.
+function read_figure_bytes(bytes, kept, number) {
   const parts = parts_of(bytes), read_json = (part) => JSON.parse(new TextDecoder().decode(part)), first = read_json(parts[0]);
   const table_of = ([part, , digest], read) => {
     const table = part === null ? kept.get(digest) : read(parts[part]);
@@ -96,5 +97,5 @@ function read_figure_bytes(bytes, kept) {
   let count = 0, size = 0;
   for (const [digest, table] of [...kept].reverse())
     if (++count > kMostTables || (size += table.byteLength ?? 0) > kMostTableBytes) kept.delete(digest);
-  return { ...first, names, shaders: kept.shaders, number: 0, frames: [0], moments: [""], sources, own_colors: tables.colors, tables };
+  return { ...first, names, shaders: kept.shaders, number, frames: [0], moments: [""], sources, own_colors: tables.colors, tables };
 }
