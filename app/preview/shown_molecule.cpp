@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_key.h"
+#include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
 #include "core/image/color_space.h"
@@ -271,7 +272,10 @@ void ShownMolecule::lay_out_legend(const PreviewState& state) {
 
 Coloring ShownMolecule::coloring(const PreviewFigure& figure) const {
   Coloring coloring = coloring_of(coloring_, atoms());
-  if (figure.patch_kinds) coloring.kind = kPatchKindColors;
+  if (figure.patch_kinds) {
+    coloring.atom.assign(atoms().size(), default_missing_color(ColorMap::categorical));  // on caps
+    coloring.kind = kPatchKindColors;
+  }
   if (figure.show) {
     coloring.hidden = part_shown(figure, marked_.get());
     coloring.hidden.flip();
