@@ -252,7 +252,7 @@ class PageManners(PageCase):
             rests = await sent("pick")
             self.assertTrue(all(pick["wait"] is False and pick["area"] is False for pick in rests), rests)
             await page.drag([(210, 210), (210, 210)])
-            await page.until("/Å²/.test(document.getElementById('picked').textContent)")
+            await page.until("/Å²/.test(document.getElementById('card').textContent)")
             clicks = (await sent("pick"))[len(rests):]
             self.assertTrue(all(pick["wait"] is False for pick in clicks), clicks)
             self.assertTrue(any(pick.get("area", True) for pick in clicks), clicks)

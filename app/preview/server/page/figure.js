@@ -73,18 +73,12 @@ export function figure_controls({ command, say, viewer }) {
     command("opacity", index < 0 ? { opacity } : { opacity, index });
   });
   $("surface-shown").addEventListener("change", (event) =>
-    command("set", { key: "hide_surface", value: !event.target.checked }).then((reply) => { if (!reply) event.target.checked = true; }));
-  $("rims").addEventListener("change", (event) => command("set", { key: "film_opacity", value: event.target.checked }));
+    command("set", { key: "surface.shown", value: event.target.checked }).then((reply) => { if (!reply) event.target.checked = true; }));
   $("cap").addEventListener("change", (event) =>
-    command("set", { key: "cap_color", value: event.target.value === "own" ? $("cap-color").value : event.target.value }));
-  $("cap-color").addEventListener("input", (event) => command("set", { key: "cap_color", value: event.target.value }));
-  $("hatching").addEventListener("input", (event) => command("set", { key: "cap_hatching", value: event.target.valueAsNumber }));
+    command("set", { key: "surface.cap_color", value: event.target.value === "own" ? $("cap-color").value : event.target.value }));
+  $("cap-color").addEventListener("input", (event) => command("set", { key: "surface.cap_color", value: event.target.value }));
   $("undo").addEventListener("click", () => command("undo"));
   $("redo").addEventListener("click", () => command("redo"));
-  $("legend-on").addEventListener("change", (event) =>
-    command("legend", { on: event.target.checked }).then((reply) => { if (!reply) event.target.checked = false; }));
-  $("legend-title").addEventListener("change", (event) => command("legend", { title: event.target.value || null }));
-  $("legend-place").addEventListener("change", (event) => command("legend", { place: event.target.value }));
   $("view-form").addEventListener("submit", async (event) => {
     event.preventDefault();
     if (await command("save_view", { name: $("view-name").value.trim() })) {
@@ -206,8 +200,6 @@ export function figure_controls({ command, say, viewer }) {
     }
     $("surface-shown").checked = !state.surface_hidden;
     $("surface-shown").parentElement.hidden = state.representations.length + state.objects.length === 0;
-    $("rims").checked = state.film_opacity;
-    $("rims").parentElement.hidden = state.opacities.length === 0;
     const of_all = state.opacities.find((rule) => rule.selection === undefined), cut = state.cuts[slider_cut(state)];
     if ($("opacity") !== document.activeElement) $("opacity").value = 100 * (of_all?.opacity ?? 1);
     if ($("cut") !== document.activeElement && !cut) $("cut").value = 0;
@@ -217,15 +209,11 @@ export function figure_controls({ command, say, viewer }) {
     $("cap").value = named ? state.cap.color : "own";
     $("cap-color-row").hidden = named;
     if (state.cap.color !== "atom") $("cap-color").value = state.cap.color;
-    $("hatching").value = state.cap.hatching;
-    for (const id of ["cap", "hatching"]) $(id).parentElement.hidden = state.cuts.length === 0;
+    const of_cuts = ["cap", "surface-cap_hatching", "surface-clip_all"].map((id) => [id, state.cuts.length > 0]);
+    for (const [id, there] of [...of_cuts, ["surface-film_opacity", state.opacities.length > 0]]) if ($(id)) $(id).parentElement.hidden = !there;
     $("cap-color-row").hidden ||= state.cuts.length === 0;
     $("undo").disabled = state.undo === 0;
     $("redo").disabled = state.redo === 0;
-    $("legend-on").checked = state.legend.on;
-    for (const row of document.querySelectorAll(".of-legend")) row.hidden = !state.legend.on;
-    if ($("legend-title") !== document.activeElement) $("legend-title").value = state.legend.title ?? "";
-    $("legend-place").value = state.legend.place;
     $("legend-fault").textContent = state.legend.fault ?? "";
     $("legend-fault").hidden = !state.legend.fault;
   }
