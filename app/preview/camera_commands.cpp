@@ -211,7 +211,7 @@ Outcome resize(const CommandReader& command, PreviewState state, const Surroundi
 }
 
 Outcome set_samples(const CommandReader& command, PreviewState state, const Surroundings&) {
-  state.samples = command.integer("count", 1, kMostSamples);
+  state.image.samples = command.integer("count", 1, kMostSamples);
   return {std::move(state)};
 }
 

@@ -85,7 +85,7 @@ std::string said_by(const std::string& word, const std::string& error);
 glm::ivec2 pixel_of(const CommandReader& command, const PreviewState& state);
 
 /// Returns the values of all properties that the preview changes, by their keys, for the state.
-nlohmann::json property_values(const Surroundings& around);
+nlohmann::json property_values(const PreviewState& state);
 /// Returns what pages need for controls of these properties: names, limits, words and help.
 nlohmann::json property_choices();
 

@@ -101,15 +101,15 @@ Outcome set_color(const CommandReader& command, PreviewState state, const Surrou
   const std::string word = command.text("scheme");
   std::optional<ColorScheme> scheme = parse_color_scheme(word);
   if (!scheme) throw RequestError("color: " + in_quotes(word) + " is not one of " + color_scheme_words());
-  scheme->rules = command.has("rules") ? rules_of(command) : state.color.rules;
-  state.color = previewed_scheme(*std::move(scheme), state.color, around.first.color, false);
-  read_scale(command, state.color);
-  state.color.share_scale();
+  scheme->rules = command.has("rules") ? rules_of(command) : state.molecule.color.rules;
+  state.molecule.color = previewed_scheme(*std::move(scheme), state.molecule.color, around.first.molecule.color, false);
+  read_scale(command, state.molecule.color);
+  state.molecule.color.share_scale();
   return {std::move(state), Renewal::colors};
 }
 
 Outcome paint(const CommandReader& command, PreviewState state, const Surroundings& around) {
-  ColorScheme& color = state.color;
+  ColorScheme& color = state.molecule.color;
   const Selection selection = command.selection();
   if (color.by == ColorScheme::By::kind)
     throw RequestError("paint: kinds of patch are coloured now, not atoms; choose another scheme first");
@@ -119,7 +119,7 @@ Outcome paint(const CommandReader& command, PreviewState state, const Surroundin
   color.rules.push_back(command.naming([&] { return named_color_rule(rule); }));
   require_previewed(color);
   if (color.uses_file()) {
-    const NumberFile& numbers = numbers_at_first(around.first.color);
+    const NumberFile& numbers = numbers_at_first(around.first.molecule.color);
     if (numbers.empty())
       throw RequestError("paint: \"file\" needs numbers; begin the preview with --color-by-file FILE");
     color.set_numbers(numbers);
@@ -135,7 +135,7 @@ Outcome set_patch_kinds(const CommandReader& command, PreviewState state, const 
 }
 
 Outcome set_opacity(const CommandReader& command, PreviewState state, const Surroundings&) {
-  std::vector<OpacityRule>& rules = state.color.opacities;
+  std::vector<OpacityRule>& rules = state.molecule.color.opacities;
   OpacityRule rule;
   rule.opacity = static_cast<float>(command.number("opacity", 0.0, 1.0));
   std::size_t index = rules.size();
@@ -159,7 +159,7 @@ Outcome set_opacity(const CommandReader& command, PreviewState state, const Surr
 
 Outcome set_look(const CommandReader& command, PreviewState state, const Surroundings&) {
   state.look = changed_look(state.look, command);
-  state.background = changed_background(state.background, command);
+  if (command.has("background")) state.image.background = changed_background(state.shown_background(), command);
   return {std::move(state), Renewal::legend};
 }
 
@@ -176,17 +176,17 @@ Outcome with_preset(PreviewState state, LookPreset preset, const Surroundings& a
   if (before.settings.empty() && preset_of(state.preset).settings.empty()) return {std::move(state), Renewal::legend};
   // The figure of the beginning takes the place of what another look draws.
   const SessionContext& context = around.exporter.context;
-  Scene scene = rendered_scene(context.scene.value_or(Scene{}), {around.first, state.size, 1, false, {}, {}, {}});
-  scene.molecule.color_named = context.scene && context.scene->molecule.color_named;
-  scene.picture.camera_file.clear();
+  Scene scene = around.first;
+  scene.picture.width = state.size.x;
+  scene.picture.height = state.size.y;
   scene.look = state.look;
   take_preset(scene);
-  state.kind = scene.molecule.surface.kind;
-  state.color = scene.molecule.color;
+  state.molecule.surface.kind = scene.molecule.surface.kind;
+  state.molecule.color = scene.molecule.color;
   state.figure = scene.figure;
   state.look = scene.look;
   if (scene.picture.zoom_to && context.aim) {
-    state.camera = context.aim(scene, state.color, context.read_shown(state.figure, state.frame));
+    state.camera = context.aim(scene, context.read_shown(state.figure, state.frame));
     state.overview = false;
   }
   return {std::move(state), Renewal::shapes, {}, true};
@@ -200,8 +200,8 @@ void require_legend_entries(bool is_shown, const ColorScheme& color) {
 Outcome set_legend(const CommandReader& command, PreviewState state, const Surroundings&) {
   constexpr std::size_t kLongestTitle = 200;
   const auto is_usual = [&](const char* key) { return command.value(key).is_null(); };
-  LegendStyle& style = state.legend_style;
-  state.legend = command.flag_or(state.legend, "on");
+  LegendStyle& style = state.legend.style;
+  state.legend.within = command.flag_or(state.legend.within, "on");
   if (command.has("title")) {
     style.title.reset();
     if (!is_usual("title")) style.title = shortened(command.text("title"), kLongestTitle);
@@ -212,7 +212,7 @@ Outcome set_legend(const CommandReader& command, PreviewState state, const Surro
   }
   if (command.has("place"))
     style.place = static_cast<LegendStyle::Place>(command.choice("place", property_of("legend.place")));
-  require_legend_entries(state.legend, state.shown_scheme());
+  require_legend_entries(state.legend.within, state.shown_scheme());
   return {.state = std::move(state), .renewal = Renewal::legend, .frames_all = true};
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command "set", which gives a property of the table another value, and what pages are told about properties.
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,15 +14,17 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
+#include "core/scene/annotations.h"
 #include "core/scene/molecule.h"
 #include "core/scene/scene_json.h"
+#include "core/scene/scene_lengths.h"
 #include "core/scene/scene_value.h"
 #include "core/scene/scene_values.h"
 
 namespace meniscus {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Ordered = nlohmann::ordered_json;
 using Texts = std::vector<std::string>;
 
 constexpr std::string_view kObjects = "figure.object";  // each of its texts is an object of scene files
@@ -36,21 +37,9 @@ Renewal renewal_of(const Property& property, const PreviewFigure& figure) {
   if (section == "figure" || property.key == "shapes.bare") return Renewal::shapes;
   if (std::ranges::find(kOfCuts, property.key) != std::end(kOfCuts)) return Renewal::cuts;
   // Another surface has the same colours, but its patches have other areas.
-  if (changes_surface(property.key)) return figure.patches ? Renewal::colors : Renewal::legend;
+  if (changes_surface(property.key)) return figure.molecule.patches ? Renewal::colors : Renewal::legend;
   if (section == "surface" || section == "shapes") return Renewal::colors;
   return section == "camera" ? Renewal::nothing : Renewal::legend;
-}
-
-/// Returns the state as the scene of its picture, with the colours that it has beneath kinds of patch.
-Scene own_scene(const PreviewState& state, const Surroundings& around) {
-  PreviewFigure figure = state;
-  figure.patch_kinds = false;
-  const ExportOptions& options = state.export_options;
-  Scene scene = rendered_scene(around.exporter.context.scene.value_or(Scene{}),
-                               {figure, options.size.value_or(state.size), options.samples.value_or(state.samples),
-                                options.transparent, std::nullopt, std::nullopt, std::nullopt, options.dots_per_inch});
-  scene.picture.projection = state.camera.projection;
-  return scene;
 }
 
 /// Returns the property that "key" names.
@@ -67,11 +56,11 @@ const Property& live_property(const std::string& key) {
 }
 
 /// Returns the value in the form of replace_value(). Throws RequestError.
-Texts given_texts(const Property& property, Json value) {
+Texts given_texts(const Property& property, Ordered value) {
   if (value.is_null()) return {};
-  if (property.key == kObjects && value.is_object()) value = Json::array({value});
+  if (property.key == kObjects && value.is_object()) value = Ordered::array({value});
   if (property.key == kObjects && value.is_array())
-    for (Json& object : value)
+    for (Ordered& object : value)
       if (object.is_object()) object = object.dump();
   try {
     return texts_of_json(property, value);
@@ -94,72 +83,56 @@ void check_extent(const Property& property, const Scene& scene) {
 }
 
 /// Throws RequestError for a value that contradicts others.
-void check_among_others(const Property& property, const Scene& scene, const Surroundings& around) {
-  const MoleculeRequest& molecule = scene.molecule;
-  const ColorScheme& color = molecule.color;
-  if (property.key == "surface.probe" && molecule.surface.kind == SurfaceKind::vdw)
+void check_among_others(const Property& property, const Scene& scene, const ShownMolecule& molecule) {
+  const ColorScheme& color = scene.molecule.color;
+  if (property.key == "surface.probe" && scene.molecule.surface.kind == SurfaceKind::vdw)
     throw RequestError("the van der Waals surface has no probe; choose another kind of surface first");
   if (!color.uses_scale() && (property.key == "surface.map" || property.key == "surface.color_range" ||
                               property.key == "surface.missing_color"))
     throw RequestError(fmt::format("is for colours by a number, not {}", in_quotes(scheme_word(color))));
-  if (property.key == "surface.patches" && molecule.patches)
-    patch_atoms(*molecule.patches, around.molecule.annotated_structure());
+  if (property.key == "surface.patches") patch_atoms(*scene.molecule.patches, molecule.annotated_structure());
+  if (property.key == "annotations.labels") annotations_of(scene.annotations, molecule.annotated_structure());
   if (property.key == kObjects)
     for (const FigureObjectRequest& object : scene.figure.objects)
       if (object.color) require_previewed(*object.color);
   if (property.key == "legend.shown") require_legend_entries(scene.legend.within, color);
-  if (scene.picture.fits) throw RequestError("'auto' is not WIDTHxHEIGHT in pixels, such as 1920x1080");
+  if (scene.picture.fits) throw RequestError("'auto' is not a size in pixels, such as 1920x1080");
 }
 
-/// Takes the values of a scene, of which one property was set, into the state.
-void take_scene(const Property& property, Scene scene, PreviewState& state, const Surroundings& around) {
-  ColorScheme& color = scene.molecule.color;
+/// Changes what depends on a property that was set in the state. before: the state before that.
+void follow(const Property& property, PreviewState& state, const Surroundings& around) {
+  const PreviewState& before = around.state;
+  const ColorScheme& first = around.first.molecule.color;
+  ColorScheme& color = state.molecule.color;
   if (property.key == "surface.color") {
-    color = previewed_scheme(color, state.color, around.first.color, color.by == state.color.by);
+    color = previewed_scheme(color, before.molecule.color, first, color.by == before.molecule.color.by);
     state.patch_kinds = false;
   }
-  if (property.key == "surface.map") color.own_map = color.map ? nullptr : around.first.color.own_map;
+  if (property.key == "surface.map") color.own_map = color.map ? nullptr : first.own_map;
   color.share_scale();
-  const Camera camera = state.camera.projection == scene.picture.projection
-                            ? state.camera
-                            : projected(state.camera, scene.picture.projection, balls_in_view(around.molecule));
-  PreviewFigure figure = figure_of(scene, color);
-  if (!color.uses_scale()) figure.color.title = state.color.title, figure.color.unit = state.color.unit;
-  if (property.key == "surface.color_title") figure.color.title = color.title;
-  if (property.key == "surface.color_unit") figure.color.unit = color.unit;
-  figure.camera = camera;
-  figure.overview = state.overview && property.section() != "camera";
-  figure.patch_kinds = state.patch_kinds;
-  figure.preset = state.preset;
-  if (!scene.image.background) figure.background = state.background;
-  figure.export_options = state.export_options;
-  figure.samples = state.samples;
-  ExportOptions& options = figure.export_options;
-  options.transparent = !scene.image.background;
-  options.dots_per_inch = scene.picture.dots_per_inch;
-  if (property.key == "image.samples") {
-    figure.samples = scene.image.samples;
-    options.samples.reset();
+  if (property.key == "camera.projection") {
+    state.camera = projected(state.camera, std::exchange(state.picture.projection, {}), balls_in_view(around.molecule));
+    state.overview = false;
   }
-  if (property.key == "image.size") options.size = scene.picture.size();
-  static_cast<PreviewFigure&>(state) = std::move(figure);
+  require_copies_apart(around.molecule.structure(), state, before.probe_reach());
 }
 
 /// Returns a value as scene files have it, lists always as lists; the default where the scene has none, and null where
 /// the default depends on other values.
-Json value_json(const Property& property, const Scene& scene) {
+Ordered value_json(const Property& property, const Scene& scene) {
   const Texts texts = value_texts(scene, property);
   if (property.type == ValueType::flag) return texts.empty() == property.has(negated);
   if (property.has(repeatable)) {
-    Json list = Json::array();
+    Ordered list = Ordered::array();
     for (const std::string& text : texts)
-      list.push_back(property.key == kObjects ? Json::parse(text, nullptr, false)
+      list.push_back(property.key == kObjects ? Ordered::parse(text, nullptr, false)
                                               : json_of_texts(property, {text}, ""));
     return list;
   }
   if (!texts.empty()) return json_of_texts(property, texts, "");
   const bool has_one = property.initial.find(' ') == property.initial.npos && property.key != "surface.map";
-  return property.initial.empty() || !has_one ? Json() : json_of_texts(property, {std::string(property.initial)}, "");
+  return property.initial.empty() || !has_one ? Ordered()
+                                              : json_of_texts(property, {std::string(property.initial)}, "");
 }
 
 /// Returns the type of a property's control: "flag", "number", "count", "word", "color", "selection", "length" or
@@ -199,24 +172,24 @@ std::string help_in_words(std::string_view help) {
 Outcome set_property(const CommandReader& command, PreviewState state, const Surroundings& around) {
   const std::string key = command.text("key");
   const Property& property = live_property(key);
-  Json value(command.value("value"));
+  Ordered value(command.value("value"));
   if (key.find('.') == key.npos && property.has(negated) && value.is_boolean()) value = !value.get<bool>();
   const bool is_slid =
       property.type != ValueType::flag && property.type != ValueType::word && !property.has(repeatable);
   try {
     const Texts texts = given_texts(property, std::move(value));
-    Scene scene = own_scene(state, around);
     if (property.key == "look.preset") {
-      scene_values::replace_value(scene, property, texts);
-      return with_preset(std::move(state), scene.look.preset, around);
+      scene_values::replace_value(state, property, texts);
+      return with_preset(std::move(state), state.look.preset, around);
     }
-    scene_values::replace_value(scene, property, texts);
-    if (!texts.empty()) check_extent(property, scene);
-    if (!texts.empty()) check_among_others(property, scene, around);
-    take_scene(property, std::move(scene), state, around);
-    if (texts.empty() && property.key == "image.size") state.export_options.size.reset();
-    if (texts.empty() && property.key == "image.samples") state.samples = PreviewState{}.samples;
-    require_copies_apart(around.molecule.structure(), state, around.state.probe_reach());
+    scene_values::replace_value(state, property, texts);
+    scene_values::complete_lengths(state);
+    if (!texts.empty()) check_extent(property, state);
+    if (!texts.empty()) check_among_others(property, state, around.molecule);
+    if (texts.empty() && property.key == "image.samples") state.image.samples = PreviewFigure().image.samples;
+    if (property.key == "image.size" || property.key == "image.width" || property.key == "image.height")
+      state.has_size = !texts.empty() || scene_values::has_lengths_of_sides(state);
+    follow(property, state, around);
   } catch (const SelectionError& error) {
     throw RequestError(fmt::format("set: {}: {}", key, error.sentence()));
   } catch (const RequestError& error) {
@@ -233,10 +206,12 @@ Outcome set_property(const CommandReader& command, PreviewState state, const Sur
           .step = "set " + std::string(property.key)};
 }
 
-nlohmann::json property_values(const Surroundings& around) {
-  const PreviewState& state = around.state;
-  Scene scene = own_scene(state, around);
-  scene.look = look_request(state.look, state.full_look(), state.patches.has_value());
+nlohmann::json property_values(const PreviewState& state) {
+  Scene scene = state;
+  if (!state.has_size) scene_values::replace_value(scene, property_of("image.size"), {});
+  scene.picture.projection = state.camera.projection;
+  scene.molecule.color_named = true;
+  scene.look = look_request(state.look, state.full_look(), state.molecule.patches.has_value());
   scene.look.preset = state.preset;
   nlohmann::json values = nlohmann::json::object();
   for (const Property* property : properties())

@@ -30,7 +30,7 @@ PreviewSession::PreviewSession(std::unique_ptr<PreviewRenderer> renderer, Struct
       molecule_(std::move(structure), std::move(trajectory), context.read_shown, state_),
       pictures_(std::move(renderer)),
       exporter_{std::move(export_folder), std::move(context)} {
-  require_previewed(state_.color);
+  require_previewed(state_.molecule.color);
   state_.overview = !camera;
   state_.camera = camera ? *camera : molecule_.overview(state_);
   validate_camera(state_.camera, "the view");
@@ -40,7 +40,10 @@ PreviewSession::PreviewSession(std::unique_ptr<PreviewRenderer> renderer, Struct
 
 Json PreviewSession::apply(const Json& command) {
   const auto failed = [&](const std::string& error) {
-    return Json{{"ok", false}, {"error", escaped(said_by(command_word(command), error))}};
+    const std::string word = command_word(command);
+    std::string said = said_by(word, error);
+    if (word == "set" && !said.starts_with("set: ")) said = "set: " + command["key"].get<std::string>() + ": " + said;
+    return Json{{"ok", false}, {"error", escaped(said)}};
   };
   try {
     return carry_out(command);

@@ -32,7 +32,7 @@ Structure peptides() {
 PreviewState view_of_copies() {
   PreviewState view;
   view.size = {160, 120};
-  view.samples = 1;
+  view.image.samples = 1;
   view.copies_apart = true;
   return view;
 }
@@ -84,7 +84,7 @@ TEST(PreviewCopies, AreDrawnPickedAndKeptApart) {
   }
   const Structure structure = peptides();
   PreviewState near = view_of_copies();
-  near.probe_radius = 6.0;
+  near.molecule.surface.probe_radius = 6.0;
   EXPECT_THROW(
       PreviewSession(make_cpu_copies_renderer(structure.instances), structure, near, std::nullopt, folder.path()),
       InputError);

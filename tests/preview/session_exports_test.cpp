@@ -20,7 +20,7 @@ class SessionExports : public SessionCase {
  protected:
   SessionExports() {
     SessionContext context;
-    context.scene.emplace();
+    context.writes_scenes = true;
     begin(read_structure(folder_.file("two.pdb", kTwoModels)), context);
   }
 };

@@ -110,7 +110,10 @@ TEST_F(FigureSession, EveryStepChangesThePictureAndUndoBringsItBack) {
     expected["width"] = 400;  // whatever the page was then
     expected["height"] = 300;
     Json now = state();
-    for (Json* json : {&expected, &now}) json->erase("camera"), json->erase("look");
+    for (Json* json : {&expected, &now}) {
+      json->erase("camera"), json->erase("look");
+      for (const char* width : {"look.silhouettes", "look.patch_lines"}) (*json)["values"].erase(width);
+    }
     now["legend"].erase("fault");
     expected["legend"].erase("fault");
     EXPECT_EQ(now, expected) << n;
@@ -166,9 +169,9 @@ TEST_F(FigureSession, WhatIsRefusedChangesNothing) {
       {R"({"command":"set","key":"cap_color","value":"greenish"})", "cap_color: 'greenish'"},
       {R"({"command":"set","key":"cap_hatching","value":-1})", "cap_hatching: '-1'"},
       {R"({"command":"set","key":"cap_hatching","value":[1]})", "cap_hatching: '[1]'"},
-      {R"({"command":"set","key":"film_opacity","value":"perhaps"})", "true or false"},
-      {R"({"command":"set","key":"hide_surface","value":null})", "true or false"},
-      {R"({"command":"set","key":"probe","value":2})", "one of hide_surface, film_opacity, cap_color"},
+      {R"({"command":"set","key":"film_opacity","value":"perhaps"})", "neither true nor false"},
+      {R"({"command":"set","key":"surface.shown","value":7})", "neither true nor false"},
+      {R"({"command":"set","key":"surface.prob","value":2})", "did you mean surface.probe?"},
       {R"({"command":"set","key":"cap_hatching"})", "value"},
       {R"({"command":"remove","of":"rules","index":0})", "there are no rules"},
       {R"({"command":"remove","of":"cuts","index":1})", "index"},
@@ -444,8 +447,8 @@ TEST_F(FigureSession, SchemesThatAreOfferedAreThoseItCanShow) {
   for (std::size_t n = 0; n < assembly.atoms.size(); ++n) assembly.atoms[n].copy = static_cast<std::uint32_t>(n % 2);
   PreviewState view;
   view.size = {80, 60};
-  view.color.by = ColorScheme::By::file;
-  view.color.file = {.path = "numbers.txt", .numbers = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}};
+  view.molecule.color.by = ColorScheme::By::file;
+  view.molecule.color.file = {.path = "numbers.txt", .numbers = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}};
   PreviewSession session(make_cpu_preview_renderer(), assembly, view, std::nullopt, folder_.path());
   const std::set<std::string> more = offered(session);
   EXPECT_TRUE(more.contains("copy"));

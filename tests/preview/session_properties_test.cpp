@@ -34,15 +34,16 @@ class Properties : public SessionCase {
     ReadOptions reading;
     reading.selection = parse_selection("polymer");
     SessionContext context;
-    context.scene.emplace();
-    context.scene->molecule.file = file;
-    context.scene->molecule.reading = reading;
+    context.writes_scenes = true;
     context.read_shown = [file, reading](const FigureRequest& figure, std::size_t) {
       ReadOptions shown = reading;
       figure.mark_atoms(shown);
       return read_structure(file, shown);
     };
-    begin(read_structure(file, reading), context);
+    PreviewState view;
+    view.molecule.file = file;
+    view.molecule.reading = reading;
+    begin(read_structure(file, reading), context, view);
     expect_ok(R"({"command":"resize","width":200,"height":150})");
     expect_ok(R"({"command":"set","key":"figure.sticks","value":"ligand"})");
     expect_ok(R"({"command":"set","key":"surface.color","value":"bfactor"})");
@@ -57,9 +58,10 @@ class Properties : public SessionCase {
   /// The texts of a property in the scene that pictures carry; empty if it has its default.
   std::vector<std::string> saved(const std::string& key) {
     const std::string text = apply(R"({"command":"scene"})")["text"];
+    std::vector<std::string> texts;
     for (const SceneSetting& setting : parse_scene(text, "scene"))
-      if (setting.property->key == key) return setting.texts;
-    return {};
+      if (setting.property->key == key) texts.insert(texts.end(), setting.texts.begin(), setting.texts.end());
+    return texts;
   }
 };
 
@@ -88,8 +90,8 @@ const std::map<std::string, std::pair<Json, Json>>& examples() {
       {"figure.balls", {{"ligand"}, "chain ("}},
       {"figure.spheres", {{"resn HOH"}, "chain Q"}},
       {"figure.tube", {{"polymer"}, "chain ("}},
-      {"figure.bases", {{}, "chain ("}},
-      {"figure.glycans", {{}, "chain ("}},
+      {"figure.bases", {Json::array(), "chain ("}},
+      {"figure.glycans", {Json::array(), "chain ("}},
       {"figure.object",
        {{{{"representation", "spheres"}, {"selection", "resn HOH"}, {"color", "#00ff00"}}},
         {{"selection", "ligand"}, {"colour", "red"}}}},
@@ -118,6 +120,8 @@ const std::map<std::string, std::pair<Json, Json>>& examples() {
       {"look.linear_alpha", {true, "yes"}},
       {"camera.projection", {"orthographic", "fish"}},
       {"image.size", {"120x90", "auto"}},
+      {"image.width", {"85mm", "85 miles"}},
+      {"image.height", {"200px", "0mm"}},
       {"image.dpi", {150, 0}},
       {"image.samples", {2, 0}},
       {"image.background", {"#336699", "greenish"}},
@@ -126,6 +130,11 @@ const std::map<std::string, std::pair<Json, Json>>& examples() {
       {"legend.size", {12, 2}},
       {"legend.names", {{"A=Alpha"}, {{1}}}},
       {"legend.place", {"below", "left"}},
+      {"annotations.panel", {"b", {1}}},
+      {"annotations.title", {"Toxin", {1}}},
+      {"annotations.scale_bar", {5, "long"}},
+      {"annotations.labels", {{"name CA=here"}, "chain Q=here"}},
+      {"annotations.lengths", {false, 1}},
       {"annotations.letter_size", {14, 2}},
       {"annotations.font", {"DejaVu Sans", {1}}},
       {"annotations.letter_color", {"#ffffff", "greenish"}},
