@@ -175,10 +175,12 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   Annotations annotations =
       annotations_of(state.annotations, molecule.annotated_structure(),
                      molecule.extras() ? molecule.extras()->lengths() : std::vector<PlaceLabel>());
+  Coloring coloring = molecule.coloring(state);
+  coloring.in_patch = molecule.patch_marks(state);
   auto view = std::make_shared<const ExportedView>(
-      ExportedView{molecule.structure(), molecule.atoms(), molecule.balls(), molecule.coloring(state),
-                   molecule.key(state), state, molecule.extras(), std::move(annotations), options.size, options.samples,
-                   options.transparent, format == Format::png ? scene_of(command, around) : ""});
+      ExportedView{molecule.structure(), molecule.atoms(), molecule.balls(), std::move(coloring), molecule.key(state),
+                   state, molecule.extras(), std::move(annotations), options.size, options.samples, options.transparent,
+                   format == Format::png ? scene_of(command, around) : ""});
   const auto write = [view, target, format, make_device](const ExportWatch& watch) {
     return written(*view, format, make_device, target, watch);
   };

@@ -130,7 +130,7 @@ Ordered value_json(const Property& property, const Scene& scene) {
     return list;
   }
   if (!texts.empty()) return json_of_texts(property, texts, "");
-  const bool has_one = property.initial.find(' ') == property.initial.npos && property.key != "surface.map";
+  const bool has_one = property.initial.find_first_of(" @") == property.initial.npos && property.key != "surface.map";
   return property.initial.empty() || !has_one ? Ordered()
                                               : json_of_texts(property, {std::string(property.initial)}, "");
 }

@@ -65,8 +65,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kSession),
     file("preview.commands", "--commands", "FILE", "Run commands from this file first, one JSON object per line")
         .in(kSession),
-    new_file("preview.record", "--record", "FILE", "Record all commands in this file, for @commands@")
-        .in(kSession),
+    new_file("preview.record", "--record", "FILE", "Record all commands in this file, for @commands@").in(kSession),
     new_file("preview.output_folder", "--output-dir", "FOLDER", "Folder for exports").initially(".").in(kSession),
 
     file("panels.scenes", "PANEL", "", "Pictures of meniscus render, which carry their scenes, or scene files")

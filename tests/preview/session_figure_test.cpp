@@ -112,7 +112,8 @@ TEST_F(FigureSession, EveryStepChangesThePictureAndUndoBringsItBack) {
     Json now = state();
     for (Json* json : {&expected, &now}) {
       json->erase("camera"), json->erase("look");
-      for (const char* width : {"look.silhouettes", "look.patch_lines"}) (*json)["values"].erase(width);
+      for (const char* kind : {"silhouettes", "outer_lines", "inner_lines", "part_lines", "patch_lines"})
+        (*json)["values"].erase(std::string("look.") + kind);
     }
     now["legend"].erase("fault");
     expected["legend"].erase("fault");
