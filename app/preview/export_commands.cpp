@@ -228,9 +228,6 @@ Outcome open_scene(const CommandReader& command, PreviewState state, const Surro
   const Exporter& exporter = around.exporter;
   if (!exporter.context.open_scene) throw RequestError("open: this preview reads no scenes");
   const std::string name = command.text("path");
-  if (!name.ends_with(".json") && !name.ends_with(".png"))
-    throw RequestError(
-        fmt::format("open: \"path\" is {}; a scene ends in .json, a picture that holds one in .png", in_quotes(name)));
   OpenedScene opened = exporter.context.open_scene(export_path(exporter.folder, name));
   const ColorScheme& first = around.first.molecule.color;
   ColorScheme& color = opened.figure.molecule.color;

@@ -69,6 +69,16 @@ Texts given_texts(const Property& property, Ordered value) {
   }
 }
 
+/// Returns the type of a property's control: "flag", "number", "count", "word", "color", "selection", "length" or
+/// "text".
+std::string_view control_of(const Property& property) {
+  constexpr std::string_view kTypes[] = {"flag", "number", "count", "word"};
+  if (property.type <= ValueType::word) return kTypes[static_cast<std::size_t>(property.type)];
+  if (property.key == "surface.probe") return "number";
+  if (property.has_range()) return "length";
+  return property.value == "COLOR" ? "color" : property.value == "EXPR" ? "selection" : "text";
+}
+
 /// Throws RequestError if a list of the scene is longer than previews draw, or a text longer than they write.
 void check_extent(const Property& property, const Scene& scene) {
   constexpr std::size_t kMostEntries = 100, kMostCuts = 16, kLongestText = 200;
@@ -135,16 +145,6 @@ Ordered value_json(const Property& property, const Scene& scene) {
                                               : json_of_texts(property, {std::string(property.initial)}, "");
 }
 
-/// Returns the type of a property's control: "flag", "number", "count", "word", "color", "selection", "length" or
-/// "text".
-std::string_view control_of(const Property& property) {
-  constexpr std::string_view kTypes[] = {"flag", "number", "count", "word"};
-  if (property.type <= ValueType::word) return kTypes[static_cast<std::size_t>(property.type)];
-  if (property.key == "surface.probe") return "number";
-  if (property.has_range()) return "length";
-  return property.value == "COLOR" ? "color" : property.value == "EXPR" ? "selection" : "text";
-}
-
 std::string label_of(const Property& property) {
   if (!property.label.empty()) return std::string(property.label);
   std::string label(property.name());
@@ -183,7 +183,7 @@ Outcome set_property(const CommandReader& command, PreviewState state, const Sur
       return with_preset(std::move(state), state.look.preset, around);
     }
     scene_values::replace_value(state, property, texts);
-    scene_values::complete_lengths(state);
+    if (property.section() == "image" || control_of(property) == "length") scene_values::complete_lengths(state);
     if (!texts.empty()) check_extent(property, state);
     if (!texts.empty()) check_among_others(property, state, around.molecule);
     if (texts.empty() && property.key == "image.samples") state.image.samples = PreviewFigure().image.samples;

@@ -157,7 +157,7 @@ Json get_state(const CommandReader&, const Surroundings& around) {
       {"export",
        {{"width", state.has_size ? Json(state.picture.width) : Json(nullptr)},
         {"height", state.has_size ? Json(state.picture.height) : Json(nullptr)},
-        {"samples", nullptr},
+        {"samples", state.has_size ? Json(state.image.samples) : Json(nullptr)},
         {"transparent", !state.image.background}}},
       {"views", Json::array()},
       {"undo", around.history.undo_steps()},

@@ -323,7 +323,7 @@ std::size_t PageWriter::bytes() const {
   return texts + static_cast<std::size_t>(kLettersPerByte * static_cast<double>(data_.size() + described_));
 }
 
-std::string PageWriter::text() const {
+std::string PageWriter::text(const std::string& scene) const {
   json description = *first_.description;
   description["frames"] = frames_;
   description["moments"] = moments_;
@@ -335,6 +335,9 @@ std::string PageWriter::text() const {
   fill("STYLE", std::string(template_text(page_templates(), "page.css")));
   fill("SCRIPT",
        std::string(template_text(page_templates(), "first.js")).append(template_text(page_templates(), "second.js")));
+  std::string in_html;  // in which no "<" of a JSON text may begin a tag
+  for (const char letter : scene) in_html += letter == '<' ? std::string("\\u003c") : std::string(1, letter);
+  fill("SCENE", std::move(in_html));
   fill("BYTES", std::to_string(packed.size()));
   fill("DATA", text_of_bytes(packed));
   return filled(template_text(page_templates(), "page.html"), texts);

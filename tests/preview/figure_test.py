@@ -310,7 +310,7 @@ class Figures(unittest.TestCase):
             {"command": "opacity", "opacity": 0.5},
             {"command": "legend", "on": True},
             {"command": "orbit", "dx": 0.2, "dy": 0.05},
-            {**export, "path": "figure.png"},
+            {**export, "path": "figure.png"}, {**export, "path": "figure.tif"}, {**export, "path": "figure.jpg"},
             {"command": "save", "path": "figure.json", **SIZE, "samples": 2}])
         self.assertTrue(all(reply["ok"] for reply in replies), replies)
         self.run_program("render", "--scene", self.path("figure.json"), "--trust-scene", "-o", "rendered.png")
@@ -326,6 +326,16 @@ class Figures(unittest.TestCase):
         self.assertEqual(replies[1]["objects"], replies[-1]["objects"])
         for name, expected in (("opened", "figure"), ("undone", "first"), ("redone", "figure")):
             self.same(f"{name}.png", f"{expected}.png")
+        # Pictures carry their scenes, and so do pages.
+        options = (MOLECULE, "--select", "polymer", "--color", "chain", "--tube", "chain D", "--clip", "x<60", "--probe", "1.6")
+        self.run_program("export", "page", *options, "-o", "page.html")
+        self.run_program("render", *options, "--size", "240x180", "--samples", "2", "-o", "page.png")
+        for name, expected in (("figure.png", "figure.png"), ("figure.tif", "figure.png"), ("figure.jpg", "figure.png"),
+                               ("page.html", "page.png")):
+            replies = self.session(MOLECULE, "--select", "polymer", commands=[
+                {"command": "open", "path": name}, {**export, "path": "again.png", "force": True}])
+            self.assertTrue(all(reply["ok"] for reply in replies), replies)
+            self.same("again.png", expected)
 
     def frames_of(self, film):
         """How many pictures a film has, and their size."""
