@@ -112,7 +112,7 @@ Scene shown_scene(const CommandReader& command, const Surroundings& around) {
   if (molecule.has_trajectory()) view.frame = molecule.number_of(state.frame);
   if (molecule.has_models()) {
     using By = ColorScheme::By;
-    if (!state.patch_kinds && (state.molecule.color.by == By::index || state.molecule.color.by == By::radial))
+    if (state.molecule.color.by == By::index || state.molecule.color.by == By::radial)
       throw RequestError(
           fmt::format("{}: {} counts the atoms of all models here, and those of one in a picture by "
                       "render; choose another scheme",

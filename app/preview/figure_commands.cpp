@@ -63,30 +63,6 @@ Outcome with_part(const CommandReader& command, PreviewState& state, const Surro
 
 }  // namespace
 
-Outcome set_surface(const CommandReader& command, PreviewState state, const Surroundings& around) {
-  state.molecule.surface.kind = static_cast<SurfaceKind>(command.choice("kind", property_of("surface.kind")));
-  require_copies_apart(around.molecule.structure(), state, around.state.probe_reach());
-  const Renewal renewal = state.molecule.patches ? Renewal::colors : Renewal::legend;  // other areas
-  return {.state = std::move(state), .renewal = renewal, .frames_all = true};
-}
-
-Outcome set_probe(const CommandReader& command, PreviewState state, const Surroundings& around) {
-  const double radius = command.number("radius", 0.0, 1e6);
-  if (const std::string fault = probe_fault(radius); !fault.empty()) throw RequestError("probe: " + fault);
-  if (state.molecule.surface.kind == SurfaceKind::vdw)
-    throw RequestError("probe: the van der Waals surface has no probe; choose another kind of surface first");
-  state.molecule.surface.probe_radius = radius;
-  require_copies_apart(around.molecule.structure(), state, around.state.probe_reach());
-  const Renewal renewal = state.molecule.patches ? Renewal::colors : Renewal::legend;
-  return {std::move(state), renewal};
-}
-
-Outcome show(const CommandReader& command, PreviewState state, const Surroundings& around) {
-  state.molecule.show.reset();
-  if (command.has("selection")) state.molecule.show = command.selection();
-  return with_part(command, state, around);
-}
-
 Outcome hide(const CommandReader& command, PreviewState state, const Surroundings& around) {
   const std::string hidden = "not (" + command.selection().text() + ")";
   state.molecule.show = command.naming([&] {
@@ -94,18 +70,6 @@ Outcome hide(const CommandReader& command, PreviewState state, const Surrounding
                                                : hidden);
   });
   return with_part(command, state, around);
-}
-
-Outcome set_patches(const CommandReader& command, PreviewState state, const Surroundings& around) {
-  if (command.has("min_area"))
-    state.molecule.least_patch = command.number("min_area", property_of("surface.min_patch"));
-  else
-    state.molecule.patches.reset();
-  if (command.has("selection")) {
-    state.molecule.patches = command.selection();
-    command.naming([&] { return patch_atoms(*state.molecule.patches, around.molecule.annotated_structure()); });
-  }
-  return {std::move(state), Renewal::colors};
 }
 
 Outcome represent(const CommandReader& command, PreviewState state, const Surroundings&) {

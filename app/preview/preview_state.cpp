@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/camera/camera_json.h"
 
 namespace meniscus {
@@ -32,19 +33,10 @@ std::string who_shows(ColorScheme::By scheme, bool has_numbers) {
 
 void require_shown(const ColorScheme& color) {
   if (const std::string who = who_shows(color.by, !color.file.empty()); !who.empty())
-    throw RequestError(fmt::format("color: \"{}\" needs more than atoms: {}", scheme_word(color), who));
+    throw RequestError(fmt::format("colour by {} needs more than atoms: {}", in_quotes(scheme_word(color)), who));
 }
 
 }  // namespace
-
-ColorScheme PreviewFigure::shown_scheme() const {
-  ColorScheme scheme = molecule.color;
-  if (patch_kinds) {
-    scheme.by = ColorScheme::By::kind;
-    scheme.rules.clear();
-  }
-  return scheme;
-}
 
 void require_previewed(const ColorScheme& color) {
   require_shown(color);
@@ -91,8 +83,8 @@ Scene rendered_scene(const PreviewFigure& figure, const RenderedView& view) {
     scene.output = "frame_#####.png";
   }
   molecule.surface.probe_named = molecule.surface.kind != SurfaceKind::vdw;
-  molecule.color_named = figure.patch_kinds || molecule.color.by != By::file;
-  ColorScheme& color = molecule.color = figure.shown_scheme();
+  molecule.color_named = molecule.color.by != By::file;
+  ColorScheme& color = molecule.color;
   if (!color.uses_file()) molecule.number_file = molecule.number_column = "";
   if (!color.uses_scale() || !color.own_map) molecule.map_file.clear();
   if (!color.uses_scale()) {

@@ -38,16 +38,13 @@ struct PreviewFigure : Scene {
   explicit PreviewFigure(Scene scene);
 
   Camera camera;
-  bool overview = true;      ///< all is shown, until the camera is moved
-  bool has_size = false;     ///< exported pictures have the size of the scene; else that of the page
-  bool patch_kinds = false;  ///< coloured by kind of patch, whatever the scheme (figure 2 of Krone et al. 2010)
+  bool overview = true;                         ///< all is shown, until the camera is moved
+  bool has_size = false;                        ///< exported pictures have the size of the scene; else that of the page
   LookPreset preset = LookPreset::publication;  ///< the word that was chosen last; the scene has its light
   std::uint64_t edition = 0;                    ///< a number of its own for all that was changed, but for the camera
 
-  /// Returns the scheme by which the colours are, which may be kinds of patch.
-  ColorScheme shown_scheme() const;
   /// Returns the changes that light may make to the colours.
-  Hues hues() const { return hues_of(shown_scheme(), uses_atoms(figure.cuts)); }
+  Hues hues() const { return hues_of(molecule.color, uses_atoms(figure.cuts)); }
   /// Returns the background on the screen, sRGB: white if pictures are transparent.
   glm::vec3 shown_background() const { return image.background.value_or(glm::vec3(1.0f)); }
   /// Returns the length in Å by which the balls of the surface are grown.

@@ -47,7 +47,7 @@ const Property& live_property(const std::string& key) {
   std::vector<std::string_view> keys;
   for (const Property* property : properties()) {
     if (!property->has(live)) continue;
-    if (property->key == key || value_name(*property) == key) return *property;
+    if (property->key == key) return *property;
     keys.push_back(property->key);
   }
   const std::string_view nearest = nearest_word(key, keys);
@@ -105,7 +105,9 @@ void check_among_others(const Property& property, const Scene& scene, const Show
   if (property.key == kObjects)
     for (const FigureObjectRequest& object : scene.figure.objects)
       if (object.color) require_previewed(*object.color);
-  if (property.key == "legend.shown") require_legend_entries(scene.legend.within, color);
+  if (property.key == "legend.shown" && scene.legend.within && color.by == ColorScheme::By::fixed &&
+      color.rules.empty())
+    throw RequestError("there is nothing to explain: everything has one colour; choose another scheme first");
   if (scene.picture.fits) throw RequestError("'auto' is not a size in pixels, such as 1920x1080");
 }
 
@@ -116,7 +118,6 @@ void follow(const Property& property, PreviewState& state, const Surroundings& a
   ColorScheme& color = state.molecule.color;
   if (property.key == "surface.color") {
     color = previewed_scheme(color, before.molecule.color, first, color.by == before.molecule.color.by);
-    state.patch_kinds = false;
   }
   if (property.key == "surface.map") color.own_map = color.map ? nullptr : first.own_map;
   color.share_scale();
@@ -173,7 +174,6 @@ Outcome set_property(const CommandReader& command, PreviewState state, const Sur
   const std::string key = command.text("key");
   const Property& property = live_property(key);
   Ordered value(command.value("value"));
-  if (key.find('.') == key.npos && property.has(negated) && value.is_boolean()) value = !value.get<bool>();
   const bool is_slid =
       property.type != ValueType::flag && property.type != ValueType::word && !property.has(repeatable);
   try {
@@ -193,14 +193,16 @@ Outcome set_property(const CommandReader& command, PreviewState state, const Sur
   } catch (const SelectionError& error) {
     throw RequestError(fmt::format("set: {}: {}", key, error.sentence()));
   } catch (const RequestError& error) {
-    const std::string said = said_by("", error.what());  // without the word of another command, ": ..."
-    throw RequestError(fmt::format("set: {}{}{}", key, said.starts_with(": ") ? "" : ": ", said));
+    throw RequestError(fmt::format("set: {}: {}", key, error.what()));
   }
   const bool frames_all = property.key == "surface.kind" || property.section() == "legend";
   const Renewal renewal = renewal_of(property, state);
   // A switch is a step by itself; the places of a slider that follow each other are one.
+  nlohmann::json reply = nlohmann::json::object();
+  if (property.key == "surface.show") reply["atoms"] = around.molecule.count_shown(state);
   return {.state = std::move(state),
           .renewal = renewal,
+          .reply = std::move(reply),
           .frames_all = frames_all,
           .is_own_step = !is_slid,
           .step = "set " + std::string(property.key)};

@@ -148,7 +148,7 @@ Json get_state(const CommandReader&, const Surroundings& around) {
       {"surface", kind_word(state.molecule.surface.kind)},
       {"probe_radius", state.molecule.surface.probe_radius},
       {"color", color_json(state.molecule.color)},
-      {"patch_kinds", state.patch_kinds},
+      {"patch_kinds", state.molecule.color.by == ColorScheme::By::kind},
       {"preset", words_of(property_of("look.preset"))[static_cast<std::size_t>(state.preset)]},
       {"look", look_json(state.full_look())},
       {"width", state.size.x},
@@ -206,7 +206,6 @@ Json get_choices(const CommandReader&, const Surroundings& around) {
           {"keys", keys},
           {"actions", actions},
           {"presets", words_of(property_of("look.preset"))},
-          {"sliders", look_sliders()},
           {"properties", property_choices()},
           {"representations", {"sticks", "balls", "spheres", "tube", "bases", "glycans"}}};
 }

@@ -99,7 +99,7 @@ std::vector<Ball> sampled_balls(const TrajectoryPositions& trajectory, const Str
 /// before: beside the surface so far, of which only colours are changed where no shapes are to be made again.
 std::shared_ptr<const FigureExtras> extras_of(const Structure& marked, const PreviewFigure& figure, bool only_colors,
                                               const std::shared_ptr<const FigureExtras>& before) {
-  const ColorScheme scheme = figure.shown_scheme();
+  const ColorScheme& scheme = figure.molecule.color;
   if (!only_colors) return std::make_shared<const FigureExtras>(make_extras(marked, figure.figure, scheme));
   auto extras = std::make_shared<FigureExtras>(*before);
   color_extras(marked, figure.figure, scheme, *extras);
@@ -253,7 +253,7 @@ ColorKey ShownMolecule::key(const PreviewFigure& figure) const {
   const std::vector<bool> shown = part_shown(figure, marked_.get());
   for (std::size_t n = 0; n < shown.size(); ++n)
     if (!shown[n]) drawn.atoms[marked_ ? n : atoms()[n]] = false;
-  return figure_key(structure, figure.shown_scheme(), std::move(drawn), figure.figure,
+  return figure_key(structure, figure.molecule.color, std::move(drawn), figure.figure,
                     extras_ ? *extras_ : FigureExtras());
 }
 
@@ -273,7 +273,6 @@ void ShownMolecule::lay_out_legend(const PreviewState& state) {
 
 Coloring ShownMolecule::coloring(const PreviewFigure& figure) const {
   Coloring coloring = coloring_of(coloring_, atoms());
-  if (figure.patch_kinds) coloring.kind = kPatchKindColors;
   if (figure.molecule.show) {
     coloring.hidden = part_shown(figure, marked_.get());
     coloring.hidden.flip();
