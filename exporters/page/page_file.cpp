@@ -332,12 +332,13 @@ std::string PageWriter::text(const std::string& scene) const {
   std::vector<Filling> texts = first_.texts;
   const auto fill = [&](const char* mark, std::string text) { texts.push_back({mark, std::move(text)}); };
   fill("VERSION", MENISCUS_VERSION);
-  fill("STYLE", std::string(template_text(page_templates(), "page.css")));
-  fill("SCRIPT",
-       std::string(template_text(page_templates(), "first.js")).append(template_text(page_templates(), "second.js")));
+  fill("POLICY", std::string(template_text(page_templates(), "policy.html")));
+  fill("STYLE", fmt::format("<style>{}</style>", template_text(page_templates(), "page.css")));
   std::string in_html;  // in which no "<" of a JSON text may begin a tag
   for (const char letter : scene) in_html += letter == '<' ? std::string("\\u003c") : std::string(1, letter);
-  fill("SCENE", std::move(in_html));
+  fill("SCRIPT",
+       fmt::format("<script type=\"application/json\" id=\"scene\">{}</script>\n<script>{}{}</script>", in_html,
+                   template_text(page_templates(), "first.js"), template_text(page_templates(), "second.js")));
   fill("BYTES", std::to_string(packed.size()));
   fill("DATA", text_of_bytes(packed));
   return filled(template_text(page_templates(), "page.html"), texts);
