@@ -28,6 +28,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kLongestExportedSide = 16384;  // pixels
+constexpr int kMostSamples = 1024;           // as the property image.samples has it
 
 /// The size and the quality of an exported picture.
 struct PictureOptions {
@@ -40,7 +41,7 @@ PictureOptions picture_options(const CommandReader& command, const PreviewState&
   const glm::ivec2 size = state.has_size ? state.picture.size() : state.size;
   return {{command.integer_or(size.x, "width", 16, kLongestExportedSide),
            command.integer_or(size.y, "height", 16, kLongestExportedSide)},
-          command.has("samples") ? command.integer("samples", property_of("image.samples")) : state.image.samples,
+          command.integer_or(state.image.samples, "samples", 1, kMostSamples),
           command.flag_or(!state.image.background, "transparent")};
 }
 
