@@ -69,13 +69,14 @@ Texts given_texts(const Property& property, Ordered value) {
   }
 }
 
-/// Returns the type of a property's control: "flag", "number", "count", "word", "color", "selection", "length" or
-/// "text".
+/// Returns the type of a property's control: "flag", "number", "count", "word", "color", "selection", "length",
+/// "direction" or "text".
 std::string_view control_of(const Property& property) {
   constexpr std::string_view kTypes[] = {"flag", "number", "count", "word"};
   if (property.type <= ValueType::word) return kTypes[static_cast<std::size_t>(property.type)];
   if (property.key == "surface.probe") return "number";
   if (property.has_range()) return "length";
+  if (property.key == "look.light") return "direction";
   return property.value == "COLOR" ? "color" : property.value == "EXPR" ? "selection" : "text";
 }
 
@@ -174,8 +175,8 @@ Outcome set_property(const CommandReader& command, PreviewState state, const Sur
   const std::string key = command.text("key");
   const Property& property = live_property(key);
   Ordered value(command.value("value"));
-  const bool is_slid =
-      property.type != ValueType::flag && property.type != ValueType::word && !property.has(repeatable);
+  constexpr std::string_view kSlid[] = {"number", "count", "length", "color", "direction"};
+  const bool is_slid = !property.has(repeatable) && std::ranges::find(kSlid, control_of(property)) != std::end(kSlid);
   try {
     const Texts texts = given_texts(property, std::move(value));
     if (property.key == "look.preset") {
@@ -197,7 +198,7 @@ Outcome set_property(const CommandReader& command, PreviewState state, const Sur
   }
   const bool frames_all = property.key == "surface.kind" || property.section() == "legend";
   const Renewal renewal = renewal_of(property, state);
-  // A switch is a step by itself; the places of a slider that follow each other are one.
+  // The places of a slider that follow each other are one step; any other value is a step by itself.
   nlohmann::json reply = nlohmann::json::object();
   if (property.key == "surface.show") reply["atoms"] = around.molecule.count_shown(state);
   return {.state = std::move(state),
