@@ -27,9 +27,9 @@ HETATM    7  O   HOH B   3       4.000   5.000   0.000  1.00 40.00           O
 END
 )";
 
-class Properties : public SessionCase {
+class PreviewProperties : public SessionCase {
  protected:
-  Properties() {
+  PreviewProperties() {
     const std::string file = folder_.file("three.pdb", kAtoms);
     ReadOptions reading;
     reading.selection = parse_selection("polymer");
@@ -142,7 +142,7 @@ const std::map<std::string, std::pair<Json, Json>>& examples() {
   return all;
 }
 
-TEST_F(Properties, AllThatAreOfferedCanBeSet) {
+TEST_F(PreviewProperties, AllThatAreOfferedCanBeSet) {
   std::size_t count = 0;
   for (const Json& choice : choices()) {
     const std::string key = choice["key"];
@@ -188,7 +188,7 @@ TEST_F(Properties, AllThatAreOfferedCanBeSet) {
   EXPECT_EQ(count, examples().size());
 }
 
-TEST_F(Properties, ErrorsNameKeyValueAndLimits) {
+TEST_F(PreviewProperties, ErrorsNameKeyValueAndLimits) {
   const std::vector<std::pair<std::pair<const char*, Json>, const char*>> kRefused{
       {{"look.ambient", 2}, "set: look.ambient: '2' is not a number from 0 to 1"},
       {{"look.ambient", true}, "set: look.ambient: 'true' is neither a text nor a number"},
@@ -210,7 +210,7 @@ TEST_F(Properties, ErrorsNameKeyValueAndLimits) {
   EXPECT_NE(set("surface.probe", 2).value("error", "").find("has no probe"), std::string::npos);
 }
 
-TEST_F(Properties, SlidersOfOnePropertyAreOneStep) {
+TEST_F(PreviewProperties, SlidersOfOnePropertyAreOneStep) {
   expect_ok(R"({"command":"end_step"})");
   const int before = state()["undo"];
   for (const double radius : {1.5, 1.6, 1.7}) EXPECT_TRUE(set("surface.probe", radius)["ok"]);
@@ -222,7 +222,7 @@ TEST_F(Properties, SlidersOfOnePropertyAreOneStep) {
   EXPECT_EQ(state()["undo"], before + 4) << "each switch is a step";
 }
 
-TEST_F(Properties, AnotherSchemeHasAScaleOfItsOwnAndARuleKeepsIt) {
+TEST_F(PreviewProperties, AnotherSchemeHasAScaleOfItsOwnAndARuleKeepsIt) {
   EXPECT_TRUE(set("surface.map", "magma")["ok"]);
   EXPECT_TRUE(set("surface.color", {"bfactor", "name CA=#ff0000"})["ok"]);
   EXPECT_EQ(values()["surface.map"], "magma");
@@ -232,7 +232,7 @@ TEST_F(Properties, AnotherSchemeHasAScaleOfItsOwnAndARuleKeepsIt) {
   EXPECT_EQ(values()["surface.map"], "magma");
 }
 
-TEST_F(Properties, AreOfferedWithWhatControlsNeed) {
+TEST_F(PreviewProperties, AreOfferedWithWhatControlsNeed) {
   std::map<std::string, Json> offered;
   for (const Json& choice : choices()) {
     const std::string help = choice["help"], label = choice["label"];
