@@ -456,7 +456,8 @@ $("write").addEventListener("submit", async (event) => {
   follow_export();
 });
 $("open-scene").addEventListener("click", async () => {
-  const reply = await command("open", { path: `${$("export-name").value}.json` });
+  const name = $("export-name").value;
+  const reply = await command("open", { path: /\.(json|png|tiff?|jpe?g|html)$/.test(name) ? name : `${name}.json` });
   if (reply) tell(`Opened: ${reply.path}`);
 });
 
