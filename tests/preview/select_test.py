@@ -3,6 +3,7 @@
 
 Arguments as of page_case.py. With MENISCUS_SCREENSHOTS=FOLDER pictures are left there."""
 
+import asyncio
 import json
 import math
 import unittest
@@ -17,6 +18,7 @@ LARGE, PHONE = (1400, 900), (390, 844)
 
 class Selecting(PageCase):
     async def click(self, page, x, y, count=1, shift=False):
+        await asyncio.sleep(0.45)  # or it would go on with the clicks of before
         await page.mouse("mouseMoved", x, y)
         for n in range(1, count + 1):
             for kind in ("mousePressed", "mouseReleased"):

@@ -63,18 +63,16 @@ export function contents_controls({ command, ask }, selection) {
   $("letters").addEventListener("click", (event) => {
     if (event.target.matches("button")) choose(event.target, event.shiftKey);
   });
+  $("letters").addEventListener("focusin", ({ target }) => { for (const letter of letters()) letter.tabIndex = letter === target ? 0 : -1; });
   $("letters").addEventListener("keydown", (event) => {
     const all = letters(), at = all.indexOf(event.target);
     const next = { ArrowLeft: at - 1, ArrowRight: at + 1, Home: 0, End: all.length - 1 }[event.key];
     if (next === undefined || !all[next]) return;
     event.preventDefault();
     event.stopPropagation();
-    event.target.tabIndex = -1;
-    all[next].tabIndex = 0;
     all[next].focus();
     if (event.shiftKey) choose(all[next], true);
   });
-  $("sequence-close").addEventListener("click", () => { show_sequence(null); });
 
   // Both ways
 
@@ -95,8 +93,7 @@ export function contents_controls({ command, ask }, selection) {
 
   selection.listen((next) => {
     chosen = next;
-    const of = entries.find((entry) => entry.selection === next.at(-1)?.molecule && entry.selection.endsWith("polymer"));
-    if (of) show_sequence(of);
+    show_sequence(entries.find(({ selection: own }) => own === next.at(-1)?.molecule && own.endsWith("polymer")) ?? null);
     mark();
   });
 
