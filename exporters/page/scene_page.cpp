@@ -219,10 +219,11 @@ void check_scene(const Scene& scene) {
 std::vector<OtherColors> other_colors(const Structure& structure, const ColorScheme& requested,
                                       const std::function<void(ColorScheme&)>& measure) {
   std::vector<OtherColors> others;
+  const ColorScheme::By current = resolved_scheme(structure, requested).by;
   for (const char* const word :
        {"element", "chain", "residue", "secondary", "kind", "hydrophobicity", "bfactor", "charge", "rainbow"}) {
     ColorScheme scheme = parse_color_scheme(word).value();
-    if (scheme.by == resolved_scheme(structure, requested.by) && requested.rules.empty()) continue;
+    if (scheme.by == current && requested.rules.empty()) continue;
     try {
       if (measure) measure(scheme);
       ColorKey key = color_key(structure, scheme);
@@ -269,8 +270,7 @@ PackedFrame scene_frame(const Scene& scene, const Figure& figure, const SurfaceO
   const Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure, figure.extras.lengths());
   shown.labels = annotations.labels;
   shown.atoms = atoms;
-  ColorScheme scheme = figure.molecule.color;
-  scheme.by = resolved_scheme(figure.molecule.structure, scheme.by);
+  const ColorScheme scheme = resolved_scheme(figure.molecule.structure, figure.molecule.color);
   shown.scheme = scheme.by == ColorScheme::By::fixed || !scheme.rules.empty() ? "given" : scheme_word(scheme);
   add_schemes(frame.others, figure, scene.figure, surface, shown);
   for (std::size_t n = 0; n < frame.others.size(); ++n)
