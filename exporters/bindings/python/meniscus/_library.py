@@ -12,12 +12,12 @@ import sys
 from typing import Any, Callable, Optional
 
 from . import _header as header
-from ._errors import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, OutputError,
-                      UsageError)
+from ._calls import interruptible
+from ._messages import error_of
 
-_EXCEPTIONS = {header.INTERNAL: InternalError, header.USAGE: UsageError, header.INPUT: InputError,
-               header.NO_GPU: GpuError, header.CAPACITY: CapacityError, header.OUTPUT: OutputError,
-               header.NOT_CLOSED: NotClosedError}
+#: The functions that may take longer than a tenth of a second.
+_LONG = frozenset(("compute", "read", "surface_distance", "surface_gradient", "surface_pockets", "surface_mesh", "mesh_save",
+                   "render", "render_scene", "scene_page", "surface_page"))
 
 _ELF_MACHINES = {3: "i386", 62: "x86_64", 183: "arm64"}
 #: Debian packages that are not named after their library.
@@ -105,11 +105,18 @@ def _library() -> ctypes.CDLL:
 
 
 def call(name: str, *arguments: Any) -> None:
-    """Calls meniscus_NAME and raises an error if its status is not OK. Other Python threads run during the call."""
+    """Calls meniscus_NAME and raises an error if its status is not OK. Other Python threads run during the call, and
+    Ctrl-C interrupts long calls."""
     dll = _library()
-    status = getattr(dll, "meniscus_" + name)(*arguments)
+    function = getattr(dll, "meniscus_" + name)
+
+    def result() -> tuple[int, bytes]:
+        status = function(*arguments)
+        return status, dll.meniscus_last_error() if status != header.OK else b""
+
+    status, message = interruptible(result) if name in _LONG else result()
     if status != header.OK:
-        raise _EXCEPTIONS.get(status, Error)(dll.meniscus_last_error().decode("utf-8", "replace"))
+        raise error_of(status, message.decode("utf-8", "replace"))
 
 
 def default(name: str, struct: Any) -> Any:
