@@ -27,7 +27,9 @@ def color_of(name: str) -> tuple[float, float, float]:
     color = np.empty(3, np.float32)
     try:
         lib.call("structure_colors", _atom().pointer, name.encode(), color.ctypes.data)
-    except UsageError:
+    except UsageError as error:
+        if "is not one of" not in str(error):  # of a build without colours
+            raise
         raise InputError(f"colors has {name!r}, no colour such as red or #rrggbb; Structure.colors() has those of schemes") from None
     red, green, blue = color.tolist()
     return red, green, blue

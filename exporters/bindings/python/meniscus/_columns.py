@@ -36,8 +36,8 @@ class _Column(np.ndarray):
         kinds = [np.asarray(values).dtype.kind for values in (self, other)]
         if ("U" in kinds or "S" in kinds) and any(kind in "iufb" for kind in kinds):
             which = ("texts", "numbers") if kinds[0] in "US" else ("numbers", "texts")
-            raise wrong_type(f"the array has {which[0]} such as {self.flat[0] if self.size else ''!r}, and is compared with "
-                             f"{which[1]}: {other!r:.60}")
+            example = f" such as {self.flat[0].item()!r}" if self.size else ""
+            raise wrong_type(f"the array has {which[0]}{example}, and is compared with {which[1]}: {other!r:.60}")
         return self.view(np.ndarray)
 
     def __eq__(self, other: Any) -> Any:
@@ -46,8 +46,12 @@ class _Column(np.ndarray):
     def __ne__(self, other: Any) -> Any:
         return self._checked(other) != _plain(other)
 
+    def __reduce_ex__(self, protocol: Any) -> Any:  # pickles are plain arrays, which need no package
+        return self.view(np.ndarray).__reduce_ex__(protocol)
+
     def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
-        return array[()] if return_scalar or array.ndim == 0 else array  # results of functions are plain arrays
+        plain = array.view(np.ndarray)  # as results of functions are
+        return plain[()] if return_scalar or array.ndim == 0 else plain
 
 
 class _Elements(_Column):

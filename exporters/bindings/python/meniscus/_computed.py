@@ -9,7 +9,7 @@ import numpy as np
 
 from ._errors import InputError, wrong_type
 from ._packages import structure_of
-from ._sources import package_of
+from ._sources import is_molecule
 from ._structure import Structure
 from ._surface import Surface
 from ._types import Device, Floats, Kind
@@ -49,7 +49,7 @@ def surface(xyz: Any, radii: Optional[Any] = None, probe: float = 1.4, *, kind: 
     Traceback (most recent call last):
         ...
     meniscus.InputError: the radius of atom 0 is -1.7 Å; it has to be above 0, or leave the atom out"""
-    if not isinstance(xyz, Structure) and not isinstance(xyz, np.ndarray) and package_of(xyz):
+    if is_molecule(xyz):
         xyz = structure_of(xyz, radii, 4)
     if isinstance(xyz, Structure):
         return Surface(xyz.positions, xyz.radii if radii is None else radii, probe, kind, device, threads, verify, xyz)
@@ -110,7 +110,7 @@ def buried(molecule: Structure, first: Any, second: Any, probe: float = 1.4, *, 
     >>> meniscus.buried(helix, "chain A", helix.chains == "B").areas.shape
     (64,)"""
     if not isinstance(molecule, Structure):
-        raise wrong_type(f"molecule is a {type(molecule).__name__}, not a meniscus.Structure")
+        raise wrong_type(f"molecule is of the type {type(molecule).__name__}, not a meniscus.Structure")
     parts = [molecule._mask(part) for part in (first, second)]
     if (parts[0] & parts[1]).any():
         atom = int(np.flatnonzero(parts[0] & parts[1])[0])

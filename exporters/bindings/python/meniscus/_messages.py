@@ -23,16 +23,15 @@ _WORDS = [(re.compile(words), python) for words, python in (
     (r"\blarge_probe_radius\b", "large_probe"),
     (r"give one colour, or atom_colors", "give one colour, or colors with one for each atom"),
     (r"or the van der Waals surface", 'or kind="vdw"'),
-    (r"which MENISCUS_MESH_BY_DENSITY does not keep to; leave it at [\d.]+", "which a mesh of a density does not keep to; "
+    (r"which MENISCUS_MESH_BY_DENSITY does not keep to; leave it at \S+", "which a mesh of a density does not keep to; "
      "leave it out"),
     (r"MENISCUS_ATOM_SAS_AREAS are of MENISCUS_SES surfaces; see MENISCUS_ATOM_AREAS",
      'atom_sas_areas are of surfaces of kind "ses"; atom_areas has those of other kinds'),
     (r"gradients of MENISCUS_GRADIENT_SAS_\.\.\. are of MENISCUS_SES surfaces; see MENISCUS_GRADIENT_AREA",
      'gradients of "sas_area" and "sas_volume" are of surfaces of kind "ses"; "area" and "volume" are those of other kinds'),
     (r"a surface of MENISCUS_SES", 'a surface of kind "ses"'),
-    (r"meniscus_render_scene\(\) does that", "a meniscus.Scene does that"),
-    (r"the program's --(\w+)", r"the program's option \1"),
-    (r"is none of the options that scene files hold", "is not a value of a scene"))]
+    (r"meniscus_render_scene\(\)", "a meniscus.Scene"),
+    (r"the program's --(\w+)", r"the program's option \1"))]
 
 #: The ends of messages about files, and Python's exceptions for them.
 _ABOUT_FILES: tuple[tuple[str, type[Exception]], ...] = (

@@ -95,10 +95,17 @@ class Picture(_Sealed):
 
     @property
     def __array_interface__(self) -> dict[str, Any]:
-        return self.pixels.__array_interface__
+        return {**self.pixels.__array_interface__, "strides": self.pixels.strides}  # Pillow calls tobytes() then
 
     def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> AnyArray:
         return np.array(self.pixels, dtype=dtype) if copy or dtype else self.pixels
+
+    def tobytes(self) -> bytes:
+        """Returns the bytes of the pixels.
+
+        >>> len(picture.tobytes())
+        19200"""
+        return self.pixels.tobytes()
 
     def png(self) -> bytes:
         """Returns the bytes of a PNG file.
@@ -157,7 +164,7 @@ def blank(scene: Handle) -> Picture:
 def of_picture(colors: Any, atom_count: int, camera: Optional[Camera]) -> tuple[Any, Optional[header.Camera]]:
     """Returns the colours of atoms and the camera as arguments of meniscus_render(); None stays None."""
     if camera is not None and not isinstance(camera, Camera):
-        raise wrong_type(f"camera is a {type(camera).__name__}, not a meniscus.Camera")
+        raise wrong_type(f"camera is of the type {type(camera).__name__}, not a meniscus.Camera")
     return None if colors is None else atom_colors(colors, atom_count), None if camera is None else camera._struct()
 
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import ctypes
 import functools
 import os
+import shutil
 import tempfile
+import weakref
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
 
@@ -20,7 +22,7 @@ from ._page import Page, made
 from ._picture import Picture, blank, renderer
 from ._scene_molecule import values_of
 from ._scene_values import SceneAttributes
-from ._sources import package_of
+from ._sources import is_molecule
 from ._structure import Structure
 from ._types import Device, Path
 
@@ -125,29 +127,28 @@ class Scene(SceneAttributes, Mapping[str, Any]):
 
     _handle: lib.Handle
     _molecule: Optional[Structure]  # which a temporary file holds
-    _folder: Any
 
     def __init__(self, molecule: Any = None, /, **values: Unpack[SceneValues]) -> None:
         self._hold(lib.Handle("scene", "scene_new"), None)
         if molecule is None or isinstance(molecule, (str, bytes, os.PathLike)):
             self["file"] = molecule
-        elif isinstance(molecule, Structure) or package_of(molecule):
+        elif isinstance(molecule, Structure) or is_molecule(molecule):
             self._draw(molecule if isinstance(molecule, Structure) else structure_of(molecule, None, 2))
         else:
-            raise wrong_type(f"molecule is a {type(molecule).__name__}, neither a path nor a molecule")
+            raise wrong_type(f"molecule is of the type {type(molecule).__name__}, neither a path nor a molecule")
         self.set(**values)
 
     def _hold(self, handle: lib.Handle, molecule: Optional[Structure]) -> None:
-        for name, value in (("_handle", handle), ("_molecule", molecule), ("_folder", None)):
-            object.__setattr__(self, name, value)
+        object.__setattr__(self, "_handle", handle)
+        object.__setattr__(self, "_molecule", molecule)
 
     def _draw(self, molecule: Structure) -> None:
         """Writes a molecule to a temporary file, and sets the values that draw it."""
-        folder = tempfile.TemporaryDirectory(prefix="meniscus-")
-        for name, value in values_of(molecule, folder.name).items():
+        folder = tempfile.mkdtemp(prefix="meniscus-")
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+        for name, value in values_of(molecule, folder).items():
             self[name] = value
         object.__setattr__(self, "_molecule", molecule)
-        object.__setattr__(self, "_folder", folder)
 
     @classmethod
     def read(cls, path: Path) -> Scene:

@@ -207,6 +207,14 @@ def package_of(value: Any) -> str:
     return next((name for name in names if name in _READERS), "")
 
 
+def is_molecule(value: Any) -> bool:
+    """Returns true for a molecule of another package; false for its positions with a unit, and for other objects."""
+    package = "" if isinstance(value, np.ndarray) else package_of(value)
+    if package == "openmm":
+        return hasattr(value, "topology") or (isinstance(value, tuple) and hasattr(value[0], "atoms"))
+    return bool(package)
+
+
 def opened(molecule: Any, package: str, every: bool, level: int) -> Source:
     """Returns the atoms of a molecule of a package. every: whether the source has all frames, not only the current one.
     level: the number of calls between the caller of the package, whom a warning is for, and this function. Raises

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal, Optional, Union, overload
 
 import numpy as np
 
 from . import _header as header
 from . import _library as lib
+from ._arguments import number
 from ._arrays import real_array
 from ._cif import cif_of
 from ._columns import NUMBERS, SYMBOLS, Columns
@@ -37,7 +38,8 @@ class Structure(Columns):
     another shape; they are read-only.
 
     positions: (n, 3) Å. elements: symbols or atomic numbers, (n,); None or "" where they are guessed from the names, as
-    read() does. radii: van der Waals radii in Å, (n,) or one for all atoms; None for those of the elements. The other
+    read() does. radii: van der Waals radii in Å, (n,) or one for all atoms; None for those of the elements; {"C": 1.8}
+    for others of some elements; or a set of read() such as "protor". The other
     arrays, (n,), may be None: names, residue_names, residue_numbers, insertion_codes, chains, segments, altlocs, models
     (from 1), charges in e, b_factors in Å² and occupancies. name: the name of the molecule, which messages have. Raises
     InputError for impossible shapes and values, and for atoms without element and radius.
@@ -74,14 +76,15 @@ class Structure(Columns):
                  "insertion_codes": insertion_codes, "chains": chains, "segments": segments, "altlocs": altlocs,
                  "models": models, "charges": charges, "b_factors": b_factors, "occupancies": occupancies}
         self._count, self._handle, self._source = len(xyz), None, None
-        self._report = Report(name, "arrays", "bondi" if radii is None else "arrays", f"{len(xyz)} atoms", 1)
+        self._report = Report(name, "arrays", radii if isinstance(radii, str) else "bondi" if radii is None else "arrays", f"{len(xyz)} atoms", 1)
         self._columns = {header.STRUCTURE_POSITIONS: np.array(xyz, np.float64)}
         for key, values in given.items():
-            self._columns[_GIVEN[key]] = _checked(key, _GIVEN[key], values, len(xyz))
+            by_rule = key == "radii" and isinstance(values, (str, Mapping))
+            self._columns[_GIVEN[key]] = _checked(key, _GIVEN[key], None if by_rule else values, len(xyz))
         self._set_residues(residue_names is None)
         self._set_elements(elements)
-        if radii is None:
-            self._columns[header.STRUCTURE_RADII] = self._radii_of_elements()
+        if radii is None or isinstance(radii, (str, Mapping)):
+            self._columns[header.STRUCTURE_RADII] = self._radii_by(radii)
         for column in self._columns.values():
             column.flags.writeable = False
 
@@ -122,17 +125,28 @@ class Structure(Columns):
         missing = np.flatnonzero(numbers == 0)
         if not len(missing) or not (names != "").any():
             return
-        handle = self._reread(**WHOLE)
+        try:
+            handle = self._reread(**WHOLE)
+        except InputError:  # because all are virtual sites
+            return
         found = np.array(column_of(handle, header.STRUCTURE_INDICES), np.int64)
         columns[header.STRUCTURE_ELEMENTS] = np.zeros(self._count, np.uint8)
         columns[header.STRUCTURE_ELEMENTS][found] = column_of(handle, header.STRUCTURE_ELEMENTS)
         columns[header.STRUCTURE_WARNINGS] = np.array(
             [str(text) for text in column_of(handle, header.STRUCTURE_WARNINGS) if "element" in str(text)], np.str_)
 
-    def _radii_of_elements(self) -> Floats:
+    def _radii_by(self, rule: Union[None, str, Mapping[str, float]]) -> Floats:
+        """Returns radii by element, of a set of read(), or by element with those of a mapping instead."""
         numbers = self._columns[header.STRUCTURE_ELEMENTS]
+        if isinstance(rule, str):
+            handle = self._reread(**WHOLE, radii=rule)
+            if report_of(handle)[1] == self._count:
+                return np.array(column_of(handle, header.STRUCTURE_RADII))
         if numbers.all():
-            return radii_of(numbers.tolist())
+            found = radii_of(numbers.tolist())
+            for symbol, radius in (rule or {}).items() if not isinstance(rule, str) else ():
+                found[numbers == atomic_numbers([symbol])[0]] = number("radii", radius)
+            return found
         missing, names = np.flatnonzero(numbers == 0), self._columns[header.STRUCTURE_NAMES]
         n = int(missing[0])
         if not (names != "").any():
@@ -304,7 +318,7 @@ class Structure(Columns):
         >>> molecule.select("chain B and name CA")
         <meniscus.Structure: 8 of 64 atoms of helix.pdb>"""
         if not isinstance(selection, str):
-            raise wrong_type(f"selection is a {type(selection).__name__}, not a text")
+            raise wrong_type(f"selection is of the type {type(selection).__name__}, not a text")
         return self._rows(self._selected(selection))
 
     def _selected(self, selection: str) -> AnyArray:
@@ -340,8 +354,8 @@ class Structure(Columns):
         """Returns a pandas.DataFrame with a row for each atom.
 
         >>> import pandas
-        >>> molecule.to_dataframe().loc[1, ["name", "chain", "radius"]].tolist()
-        ['CA', 'A', 1.7]"""
+        >>> molecule.to_dataframe().loc[1, ["name", "chain"]].tolist()
+        ['CA', 'A']"""
         return dataframe_of(self)
 
     def write(self, path: Path, *, format: Optional[Literal["cif", "pdb"]] = None, replace: bool = False) -> None:
@@ -368,7 +382,7 @@ class Structure(Columns):
         [1.0, 0.0, 0.0]
         >>> meniscus.surface(molecule).mesh(0.1).save("helix.ply", colors=molecule.colors("residue"))"""
         if not isinstance(scheme, str):
-            raise wrong_type(f"scheme is a {type(scheme).__name__}, not a text")
+            raise wrong_type(f"scheme is of the type {type(scheme).__name__}, not a text")
         if self._source is not None:  # atoms keep the colours that they have in the whole molecule
             colors: Singles = self._source[0].colors(scheme)[self._source[1]]
             return colors
@@ -387,7 +401,7 @@ def _numbers_of(elements: Any, count: int) -> AnyArray:
     """Returns the atomic numbers of `count` atoms; 0 for unknown elements."""
     values = np.asarray(elements)
     if values.shape != (count,):
-        raise InputError(f"elements has the shape {values.shape}; there are {count} atoms")
+        raise InputError(f"elements has the shape {values.shape}; the number of atoms is {count}")
     numbers = atomic_numbers(values)
     wrong = np.flatnonzero((numbers < 0) | (numbers >= len(SYMBOLS)))
     if len(wrong):
@@ -412,5 +426,5 @@ def _checked(name: str, column: int, values: Any, count: int) -> AnyArray:
         if array.dtype.kind not in "UO" or (array.dtype.kind == "O" and not all(isinstance(v, str) for v in array)):
             raise wrong_type(f"{name} has {array.dtype.type.__name__}, not texts")
     if array.shape != (count,):
-        raise InputError(f"{name} has the shape {array.shape}; there are {count} atoms")
+        raise InputError(f"{name} has the shape {array.shape}; the number of atoms is {count}")
     return np.array(array, dtype if dtype.kind != "U" else np.str_)

@@ -22,7 +22,7 @@ def save_bytes(content: bytes, target: Any, replace: bool) -> None:
         target.write(content)
         return
     if not isinstance(target, (str, bytes, os.PathLike)):
-        raise wrong_type(f"path is a {type(target).__name__}, neither a path nor a file object")
+        raise wrong_type(f"path is of the type {type(target).__name__}, neither a path nor a file object")
     path = os.fsdecode(target)
     if not flag("replace", replace) and os.path.lexists(path):
         raise about_file(OutputError, f"{path}: exists already; replace=True replaces it", path)
