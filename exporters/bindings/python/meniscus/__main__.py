@@ -11,8 +11,7 @@ def main() -> int:
     """Runs the program with the arguments, and returns its exit code."""
     program = shutil.which("meniscus", path=sysconfig.get_path("scripts")) or shutil.which("meniscus")
     if program is None:
-        print("python -m meniscus: the program is not installed, only the library; see docs/how-to/install.md", file=sys.stderr)
-        return 1
+        sys.exit("python -m meniscus: the program is not installed, only the library; see docs/how-to/install.md")
     if os.name == "posix":
         os.execv(program, ["meniscus", *sys.argv[1:]])
     return subprocess.call([program, *sys.argv[1:]])

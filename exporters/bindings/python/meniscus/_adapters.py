@@ -57,8 +57,8 @@ def _first(molecule: Any, package: str, radii: Optional[Any], options: SurfaceOp
 
 
 def from_mdanalysis(atoms: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Structure:
-    """Returns the atoms of an AtomGroup or Universe in its current frame, for surface(). Elements that the topology does
-    not have are guessed from the names, as read() does, with a UserWarning.
+    """Returns the atoms of an AtomGroup or Universe in its current frame, for surface(). Elements that the topology
+    does not have are guessed from the names, as read() does, with a UserWarning.
 
     radii: van der Waals radii in Å, (n,) or one for all atoms; None for those of the elements. options: those of
     surface(), which belong there (deprecated here). Raises InputError if radii is None and the element of an atom is

@@ -49,14 +49,17 @@ def cif_of(column: Callable[[int], AnyArray], classes: AnyArray, elements: Texts
     column: a function that returns a column of a structure, such as header.STRUCTURE_NAMES. classes: rows of
     _columns.CLASSES, (n,). elements: symbols, (n,); "" for unknown ones. name: that of the data block."""
     positions = np.asarray(column(header.STRUCTURE_POSITIONS))
-    names, residues, chains, numbers = (_values(column(key)) for key in (
-        header.STRUCTURE_NAMES, header.STRUCTURE_RESIDUE_NAMES, header.STRUCTURE_CHAINS, header.STRUCTURE_RESIDUE_NUMBERS))
-    sequence = np.where(classes == 0, numbers, ".").tolist()
-    fields = (_GROUPS[classes].tolist(), map(str, range(1, len(positions) + 1)), np.where(elements == "", "?", elements).tolist(),
-              names, _values(column(header.STRUCTURE_ALTLOCS)), residues, chains, _ENTITIES[classes].tolist(), sequence,
-              _values(column(header.STRUCTURE_INSERTION_CODES)), *(_numbers(positions[:, axis]) for axis in range(3)),
-              _numbers(column(header.STRUCTURE_OCCUPANCIES)), _numbers(column(header.STRUCTURE_B_FACTORS)), numbers, residues,
-              chains, names, map(str, np.asarray(column(header.STRUCTURE_MODELS)).tolist()))
+    names, residues, chains, codes, altlocs = (_values(column(key)) for key in (
+        header.STRUCTURE_NAMES, header.STRUCTURE_RESIDUE_NAMES, header.STRUCTURE_CHAINS,
+        header.STRUCTURE_INSERTION_CODES, header.STRUCTURE_ALTLOCS))
+    numbers, models, occupancies, b_factors = (_numbers(column(key)) for key in (
+        header.STRUCTURE_RESIDUE_NUMBERS, header.STRUCTURE_MODELS, header.STRUCTURE_OCCUPANCIES,
+        header.STRUCTURE_B_FACTORS))
+    fields = (_GROUPS[classes].tolist(), map(str, range(1, len(positions) + 1)),
+              np.where(elements == "", "?", elements).tolist(), names, altlocs, residues, chains,
+              _ENTITIES[classes].tolist(), np.where(classes == 0, numbers, ".").tolist(), codes,
+              *(_numbers(positions[:, axis]) for axis in range(3)), occupancies, b_factors, numbers, residues, chains,
+              names, models)
     head = "".join(f"_atom_site.{key}\n" for key in _KEYS)
     block = re.sub(r"[^A-Za-z0-9_.-]", "_", name) or "molecule"
     return f"data_{block}\n{_ENTITY_TABLE}loop_\n{head}" + "\n".join(map(" ".join, zip(*fields))) + "\n#\n"

@@ -30,7 +30,8 @@ def color_of(name: str) -> tuple[float, float, float]:
     except UsageError as error:
         if "is not one of" not in str(error):  # of a build without colours
             raise
-        raise InputError(f"colors has {name!r}, no colour such as red or #rrggbb; Structure.colors() has those of schemes") from None
+        raise InputError(f"colors has {name!r}, no colour such as red or #rrggbb; Structure.colors() has those of "
+                         "schemes") from None
     red, green, blue = color.tolist()
     return red, green, blue
 
@@ -38,8 +39,8 @@ def color_of(name: str) -> tuple[float, float, float]:
 def atom_colors(colors: Any, atom_count: int) -> AnyArray:
     """Returns a contiguous array of floats, (atom_count, 3), from one colour or from one colour per atom.
 
-    colors: sRGB in [0, 1], (3,) or (n, 3), also with an alpha of 1, (4,) or (n, 4), as matplotlib has it; or one name or
-    n names of colours. Raises InputError for other shapes and for colours that are not opaque."""
+    colors: sRGB in [0, 1], (3,) or (n, 3), also with an alpha of 1, (4,) or (n, 4), as matplotlib has it; or one name
+    or n names of colours. Raises InputError for other shapes and for colours that are not opaque."""
     names = np.asarray(colors) if isinstance(colors, (str, list, tuple, np.ndarray)) else np.empty(0)
     if names.dtype.kind == "U":
         given = np.array([color_of(str(name)) for name in names.flat], np.float32).reshape(*names.shape, 3)
@@ -47,7 +48,8 @@ def atom_colors(colors: Any, atom_count: int) -> AnyArray:
         given = real_array(colors, "colors").astype(np.float32)
     if given.shape in ((4,), (atom_count, 4)):
         if (given[..., 3] != 1).any():
-            raise InputError("colors has an alpha below 1, which colours of atoms do not have; opacity is a value of a scene")
+            raise InputError("colors has an alpha below 1, which colours of atoms do not have; opacity is a value of a "
+                             "scene")
         given = given[..., :3]
     if given.shape not in ((3,), (atom_count, 3)):
         raise InputError(f"colors has the shape {given.shape}; it has to be (3,) or ({atom_count}, 3)")

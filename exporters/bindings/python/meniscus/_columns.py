@@ -14,18 +14,19 @@ from ._types import AnyArray, Bytes, Floats, Indices, Numbers, Singles, Texts
 
 #: The dtype of the rows of each column, and its number of columns. All other columns are texts.
 NUMBERS: dict[int, Any] = {
-    header.STRUCTURE_POSITIONS: (np.float64, 3), header.STRUCTURE_RADII: (np.float64,), header.STRUCTURE_ELEMENTS: (np.uint8,),
-    header.STRUCTURE_INDICES: (np.uint32,), header.STRUCTURE_RESIDUE_NUMBERS: (np.int32,),
-    header.STRUCTURE_RESIDUES: (np.uint32,), header.STRUCTURE_MODELS: (np.int32,), header.STRUCTURE_COPIES: (np.uint32,),
+    header.STRUCTURE_POSITIONS: (np.float64, 3), header.STRUCTURE_RADII: (np.float64,),
+    header.STRUCTURE_ELEMENTS: (np.uint8,), header.STRUCTURE_INDICES: (np.uint32,),
+    header.STRUCTURE_RESIDUE_NUMBERS: (np.int32,), header.STRUCTURE_RESIDUES: (np.uint32,),
+    header.STRUCTURE_MODELS: (np.int32,), header.STRUCTURE_COPIES: (np.uint32,),
     header.STRUCTURE_CHARGES: (np.float32,), header.STRUCTURE_B_FACTORS: (np.float32,),
     header.STRUCTURE_OCCUPANCIES: (np.float32,), header.STRUCTURE_CLASSES: (np.uint8,),
     header.STRUCTURE_HYDROPATHIES: (np.float64,)}
 
 #: The symbols of the elements by atomic number. Unknown elements have none.
-SYMBOLS = np.array(("", *"""H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn Ga Ge As Se Br Kr Rb
-    Sr Y Zr Nb Mo Tc Ru Rh Pd Ag Cd In Sn Sb Te I Xe Cs Ba La Ce Pr Nd Pm Sm Eu Gd Tb Dy Ho Er Tm Yb Lu Hf Ta W Re Os Ir Pt
-    Au Hg Tl Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu Am Cm Bk Cf Es Fm Md No Lr Rf Db Sg Bh Hs Mt Ds Rg Cn Nh Fl Mc Lv Ts
-    Og""".split()))
+SYMBOLS = np.array(("", *"""H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn Ga Ge As Se
+    Br Kr Rb Sr Y Zr Nb Mo Tc Ru Rh Pd Ag Cd In Sn Sb Te I Xe Cs Ba La Ce Pr Nd Pm Sm Eu Gd Tb Dy Ho Er Tm Yb Lu Hf Ta W
+    Re Os Ir Pt Au Hg Tl Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu Am Cm Bk Cf Es Fm Md No Lr Rf Db Sg Bh Hs Mt Ds Rg Cn Nh
+    Fl Mc Lv Ts Og""".split()))
 CLASSES = np.array(["polymer", "ligand", "water", "ion", "unclassified"])
 
 

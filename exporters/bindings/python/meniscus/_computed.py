@@ -31,8 +31,9 @@ def surface(xyz: Any, radii: Optional[Any] = None, probe: float = 1.4, *, kind: 
     """Computes the surface of a molecule, or of atoms with positions and radii.
 
     xyz: a Structure, a molecule of another package that a from_...() function takes, or positions in Å, (n, 3). radii:
-    van der Waals radii in Å, (n,) or one for all atoms; None for those of the molecule. probe: the radius of the probe, 0.001 to 100 Å. Values with a unit of OpenMM, pint,
-    astropy or unyt are converted. A UserWarning says if positions look like nanometres.
+    van der Waals radii in Å, (n,) or one for all atoms; None for those of the molecule. probe: the radius of the probe,
+    0.001 to 100 Å. Values with a unit of OpenMM, pint, astropy or unyt are converted. A UserWarning says if positions
+    look like nanometres.
 
     kind: "ses" (solvent-excluded), "sas" (solvent-accessible) or "vdw" (van der Waals, without a probe). device: "cpu",
     "gpu", "software" (GL on the CPU), or "auto", a hardware GPU if one works, else the CPU. threads: the number of CPU
@@ -118,5 +119,6 @@ def buried(molecule: Structure, first: Any, second: Any, probe: float = 1.4, *, 
     both = parts[0] | parts[1]
     whole, areas = molecule[both], np.zeros(len(molecule))
     for part, sign in ((parts[0], 1.0), (parts[1], 1.0), (both, -1.0)):
-        areas[part] += sign * surface(molecule[part], probe=probe, kind="sas", device=device, threads=threads).atom_areas
+        of_part = surface(molecule[part], probe=probe, kind="sas", device=device, threads=threads)
+        areas[part] += sign * of_part.atom_areas
     return Buried(whole, parts[1][both], np.maximum(areas[both], 0.0))

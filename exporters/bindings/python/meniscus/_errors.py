@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The exceptions of the package: one class for each status of meniscus.h, which may have an exception of Python as a second
-base."""
+"""The exceptions of the package: one class for each status of meniscus.h, which may have an exception of Python as a
+second base."""
 from __future__ import annotations
 
 import errno
@@ -96,7 +96,8 @@ def _both(base: Any, kinds: tuple[type[Exception], ...]) -> Any:
     def reduced(self: Any) -> tuple[Any, ...]:
         return also, (base, kinds, str(self), getattr(self, "filename", None))
 
-    return type(base.__name__, (base, *kinds), {"__module__": "meniscus", "__doc__": base.__doc__, "__reduce__": reduced})
+    names = {"__module__": "meniscus", "__doc__": base.__doc__, "__reduce__": reduced}
+    return type(base.__name__, (base, *kinds), names)
 
 
 def also(base: type[Error], kinds: tuple[type[Exception], ...], message: str, file: Any = None) -> Error:

@@ -57,7 +57,8 @@ def _of_molecules(molecules: Any, radii: Optional[Any], options: SurfaceOptions)
 
 
 def _of_run(path: Any, topology: Any, radii: Optional[Any], options: SurfaceOptions) -> Iterator[Surface]:
-    """Yields the surface of each frame of a trajectory file, which MDAnalysis reads, of the atoms that read() would use."""
+    """Yields the surface of each frame of a trajectory file, which MDAnalysis reads: that of the atoms that read() would
+    use."""
     try:
         analysis: Any = importlib.import_module("MDAnalysis")
     except ImportError as error:
@@ -76,15 +77,17 @@ def _of_run(path: Any, topology: Any, radii: Optional[Any], options: SurfaceOpti
         yield last
 
 
-def frames(source: Any, *, topology: Any = None, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Iterator[Surface]:
-    """Yields the surface of each frame of a source: the frames of a trajectory, the models of a structure or the conformers
-    of a molecule that a from_...() function takes; a list of ase.Atoms; a list or an SDMolSupplier of molecules of RDKit;
-    or the models of a file that read() reads, such as the poses of an SDF file. The surfaces are independent of each
-    other, and each has its `structure`.
+def frames(source: Any, *, topology: Any = None, radii: Optional[Any] = None,
+           **options: Unpack[SurfaceOptions]) -> Iterator[Surface]:
+    """Yields the surface of each frame of a source: the frames of a trajectory, the models of a structure or the
+    conformers of a molecule that a from_...() function takes; a list of ase.Atoms; a list or an SDMolSupplier of
+    molecules of RDKit; or the models of a file that read() reads, such as the poses of an SDF file. The surfaces are
+    independent of each other, and each has its `structure`.
 
-    topology: the path of a topology, if source is that of a trajectory such as "run.xtc"; then MDAnalysis reads both, and
-    the atoms are those that read() would use. radii: van der Waals radii in Å, (n,) or one for all atoms; None for those of the elements. options: those of
-    surface(). Raises InputError for other sources, and the errors of read(), surface() and the from_...() functions.
+    topology: the path of a topology, if source is that of a trajectory such as "run.xtc". Then MDAnalysis reads both,
+    and the atoms are those that read() would use. radii: van der Waals radii in Å, (n,) or one for all atoms; None for
+    those of the elements. options: those of surface(). Raises InputError for other sources, and the errors of read(),
+    surface() and the from_...() functions.
 
     >>> [round(s.area, 2) for s in meniscus.frames("models.pdb", kind="vdw")]
     [1796.57, 1972.7]

@@ -161,13 +161,13 @@ class Mesh:
         """Writes the mesh to a file, completely or not at all. Edges shorter than 0.001 Å and triangles without area in
         single precision are welded in the file.
 
-        path: a path, or a binary file object. format: "stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms", "ply", "ply-ascii", "usda", "usdz" or "py", a
-        script for PyMOL; None for that of the path's extension, which file objects need. colors: sRGB in [0, 1], (3,) or one per atom.
-        attributes: numbers of vertices in GLB, PLY, VTP and USD files, separated by commas. "usual" means "vdw_radii",
-        "atom_index", "ses_kind" and "ses_component"; the others are "mean_curvature", "gaussian_curvature",
-        "smooth_mean_curvature", "smooth_gaussian_curvature", "atom_area", "accessible_area", "patch_area", "open_sky"
-        and "atom_open_sky". "all" means all but the last two, and "none" none. scale: the length of 1 Å in the file.
-        replace: whether an existing file is replaced.
+        path: a path, or a binary file object. format: "stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms", "ply",
+        "ply-ascii", "usda", "usdz" or "py", a script for PyMOL; None for that of the path's extension, which file
+        objects need. colors: sRGB in [0, 1], (3,) or one per atom. attributes: numbers of vertices in GLB, PLY, VTP and
+        USD files, separated by commas. "usual" means "vdw_radii", "atom_index", "ses_kind" and "ses_component"; the
+        others are "mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature",
+        "atom_area", "accessible_area", "patch_area", "open_sky" and "atom_open_sky". "all" means all but the last two,
+        and "none" none. scale: the length of 1 Å in the file. replace: whether an existing file is replaced.
 
         Raises OutputError if the file cannot be written, or exists and is not replaced; UsageError for an unknown
         format or attribute; InputError for impossible colours; NotClosedError if "smesh" finds no point inside a

@@ -28,7 +28,7 @@ _WORDS = [(re.compile(words), python) for words, python in (
     (r"MENISCUS_ATOM_SAS_AREAS are of MENISCUS_SES surfaces; see MENISCUS_ATOM_AREAS",
      'atom_sas_areas are of surfaces of kind "ses"; atom_areas has those of other kinds'),
     (r"gradients of MENISCUS_GRADIENT_SAS_\.\.\. are of MENISCUS_SES surfaces; see MENISCUS_GRADIENT_AREA",
-     'gradients of "sas_area" and "sas_volume" are of surfaces of kind "ses"; "area" and "volume" are those of other kinds'),
+     'gradients of "sas_area" and "sas_volume" are of surfaces of kind "ses"; "area" and "volume" are those of others'),
     (r"a surface of MENISCUS_SES", 'a surface of kind "ses"'),
     (r"meniscus_render_scene\(\)", "a meniscus.Scene"),
     (r"the program's --(\w+)", r"the program's option \1"))]

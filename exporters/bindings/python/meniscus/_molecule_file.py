@@ -96,7 +96,8 @@ def as_file(source: Any) -> Iterator[Path]:
     for bytes that are the content of a file. Messages name the source instead of the temporary file."""
     if not is_content(source):
         if not isinstance(source, (str, bytes, os.PathLike)):
-            raise wrong_type(f"path is of the type {type(source).__name__}, neither a path nor a file object nor the bytes of a file")
+            raise wrong_type(f"path is of the type {type(source).__name__}, neither a path nor a file object nor the "
+                             "bytes of a file")
         yield source
         return
     content = source.read() if hasattr(source, "read") else bytes(source)

@@ -13,8 +13,8 @@ from ._structure import Structure
 
 
 def first_of(source: Source, radii: Optional[Any], level: int) -> Structure:
-    """Returns the molecule in the first frame that is left of a source. Elements that are missing are guessed from names
-    with a warning. radii: as of Structure(). level: as of opened()."""
+    """Returns the molecule in the first frame that is left of a source. Elements that are missing are guessed from
+    names with a warning. radii: as of Structure(). level: as of opened()."""
     positions = next(source.frames, None)
     if positions is None:
         raise InputError("the atoms have no positions")

@@ -26,4 +26,5 @@ class Patches(NamedTuple):
     cuts: Indices
 
     def __repr__(self) -> str:
-        return (f"<meniscus.Patches: {len(self.convex)} convex, {len(self.toroidal)} toroidal, {len(self.concave)} concave>")
+        return (f"<meniscus.Patches: {len(self.convex)} convex, {len(self.toroidal)} toroidal, {len(self.concave)} "
+                "concave>")

@@ -123,14 +123,14 @@ class Picture(_Sealed):
                 chunk(b"sRGB", b"\0") + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)) + chunk(b"IEND", b""))
 
     def save(self, path: Union[Path, IO[bytes]], *, replace: bool = False) -> None:
-        """Writes the picture as a PNG file, completely or not at all. PIL.Image.fromarray(picture) writes other formats.
+        """Writes the picture as a PNG file, completely or not at all. PIL.Image.fromarray(picture) writes others.
 
         path: a path that ends with .png, or a binary file object. replace: whether an existing file is replaced. Raises
         OutputError if the file cannot be written, or exists and is not replaced; UsageError for other endings.
 
         >>> picture.save("atom.png")"""
         if isinstance(path, (str, bytes, os.PathLike)) and not os.fsdecode(path).lower().endswith(".png"):
-            raise UsageError(f"{os.fsdecode(path)!r} does not end with .png; PIL.Image.fromarray(picture) writes other formats")
+            raise UsageError(f"{os.fsdecode(path)!r} does not end with .png; PIL.Image.fromarray(picture) writes others")
         save_bytes(self.png(), path, replace)
 
     _repr_png_ = png

@@ -21,14 +21,14 @@ def read(path: Union[Path, IO[Any]], *, select: Optional[str] = None, assembly: 
     all of a file without a polymer, with the most occupied conformer of each residue, but neither water nor free ions.
     Unusual things in the file are UserWarnings.
 
-    select: a selection such as "chain A and resid 10-50", or "all" to use ligands, too. assembly: the biological assembly to build. model: the number
-    of the model, from 1, or "all" for all models as one molecule. altloc: the alternate location of each residue:
-    "best", "first", "all" or a letter. hydrogens: "keep", "drop", or "auto", which keeps them unless the radii of heavy
-    atoms include them. radii: the set of radii, "bondi", "united", "protor" or "file"; None for those of the file if it
-    has any, else "bondi". radii_files: paths of tables by residue and atom, which override the set. radius: radii in Å
-    by selection, such as {"element Zn": 1.1}. keep_water, keep_ions: whether water and free ions are used, too.
-    unknown_element: what happens to atoms of unknown element: "halt" raises InputError, "guess" gives them a radius of
-    2.0 Å, "skip" ignores them.
+    select: a selection such as "chain A and resid 10-50", or "all" to use ligands, too. assembly: the biological
+    assembly to build. model: the number of the model, from 1, or "all" for all models as one molecule. altloc: the
+    alternate location of each residue: "best", "first", "all" or a letter. hydrogens: "keep", "drop", or "auto", which
+    keeps them unless the radii of heavy atoms include them. radii: the set of radii, "bondi", "united", "protor" or
+    "file"; None for those of the file if it has any, else "bondi". radii_files: paths of tables by residue and atom,
+    which override the set. radius: radii in Å by selection, such as {"element Zn": 1.1}. keep_water, keep_ions: whether
+    water and free ions are used, too. unknown_element: what happens to atoms of unknown element: "halt" raises
+    InputError, "guess" gives them a radius of 2.0 Å, "skip" ignores them.
 
     Raises InputError if the file cannot be read, and UsageError for an invalid option or selection.
 
@@ -49,8 +49,8 @@ def read(path: Union[Path, IO[Any]], *, select: Optional[str] = None, assembly: 
 
 
 def models_of(path: Union[Path, IO[Any]], level: int) -> list[Structure]:
-    """Returns each model of a file, with the atoms that read() uses. level: the number of calls between the caller of the
-    package, whom warnings are for, and this function."""
+    """Returns each model of a file, with the atoms that read() uses. level: the number of calls between the caller of
+    the package, whom warnings are for, and this function."""
     with as_file(path) as file:
         first, whole = opened(file), opened(file, model="all")
     name = os.path.basename(os.fsdecode(file)) if is_content(path) else None

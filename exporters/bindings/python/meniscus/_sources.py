@@ -51,7 +51,8 @@ def _mdanalysis(atoms: Any, every: bool) -> Source:
             found["chains"] = found["segments"]
         if found["chains"] is not None:
             found["chains"] = ["" if chain == "SYSTEM" else chain for chain in found["chains"]]  # stands for none
-        return {**found, "name": os.path.basename(str(getattr(getattr(atoms, "universe", None), "filename", None) or ""))}
+        file = getattr(getattr(atoms, "universe", None), "filename", None)
+        return {**found, "name": os.path.basename(str(file or ""))}
 
     return Source(getattr(atoms, "elements", None), frames, getattr(atoms, "altLocs", ()), columns)
 
@@ -63,7 +64,7 @@ def _mdtraj(trajectory: Any, every: bool) -> Source:
                   columns=lambda: _listed(atoms, {
                       "names": lambda a: a.name, "residue_names": lambda a: a.residue.name,
                       "residue_numbers": lambda a: a.residue.resSeq, "segments": lambda a: a.residue.segment_id or "",
-                      "chains": lambda a: getattr(a.residue.chain, "chain_id", None) or chr(65 + a.residue.chain.index % 26)}))
+                      "chains": lambda a: getattr(a.residue.chain, "chain_id", None) or str(a.residue.chain.index + 1)}))
 
 
 def _prody(atoms: Any, every: bool) -> Source:
@@ -168,7 +169,8 @@ def _openmm(source: Any, every: bool) -> Source:
                   columns=lambda: _listed(atoms, {
                       "names": lambda a: a.name, "residue_names": lambda a: a.residue.name,
                       "residue_numbers": lambda a: int(a.residue.id) if a.residue.id.lstrip("-").isdigit() else 0,
-                      "insertion_codes": lambda a: a.residue.insertionCode.strip(), "chains": lambda a: a.residue.chain.id}))
+                      "insertion_codes": lambda a: a.residue.insertionCode.strip(),
+                      "chains": lambda a: a.residue.chain.id}))
 
 
 def _gemmi(part: Any, every: bool) -> Source:
@@ -186,7 +188,8 @@ def _gemmi(part: Any, every: bool) -> Source:
     return Source([atom.element.atomic_number for atom, _ in first],
                   (np.array([atom.pos.tolist() for atom, _ in atoms(model)]) for model in models),
                   [atom.altloc for atom, _ in first], lambda: _listed(first, {
-                      "names": lambda a: a[0].name, "b_factors": lambda a: a[0].b_iso, "occupancies": lambda a: a[0].occ,
+                      "names": lambda a: a[0].name, "b_factors": lambda a: a[0].b_iso,
+                      "occupancies": lambda a: a[0].occ,
                       "residue_names": lambda a: getattr(parent(a, "seqid"), "name", ""),
                       "residue_numbers": lambda a: parent(a, "seqid").seqid.num or 0 if parent(a, "seqid") else 0,
                       "insertion_codes": lambda a: parent(a, "seqid").seqid.icode.strip() if parent(a, "seqid") else "",

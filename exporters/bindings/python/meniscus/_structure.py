@@ -33,9 +33,9 @@ _UNCLASSIFIED = 4
 
 
 class Structure(Columns):
-    """The atoms of a molecule: of a file, from read(); of another package, from the from_...() functions; or of arrays. It
-    never changes, and all threads may use it at once. Arrays have one row per atom, (n,) unless their description has
-    another shape; they are read-only.
+    """The atoms of a molecule: of a file, from read(); of another package, from the from_...() functions; or of arrays.
+    It never changes, and all threads may use it at once. Arrays have one row per atom, (n,) unless their description
+    has another shape; they are read-only.
 
     positions: (n, 3) Å. elements: symbols or atomic numbers, (n,); None or "" where they are guessed from the names, as
     read() does. radii: van der Waals radii in Å, (n,) or one for all atoms; None for those of the elements; {"C": 1.8}
@@ -76,7 +76,8 @@ class Structure(Columns):
                  "insertion_codes": insertion_codes, "chains": chains, "segments": segments, "altlocs": altlocs,
                  "models": models, "charges": charges, "b_factors": b_factors, "occupancies": occupancies}
         self._count, self._handle, self._source = len(xyz), None, None
-        self._report = Report(name, "arrays", radii if isinstance(radii, str) else "bondi" if radii is None else "arrays", f"{len(xyz)} atoms", 1)
+        radii_set = radii if isinstance(radii, str) else "bondi" if radii is None else "arrays"
+        self._report = Report(name, "arrays", radii_set, f"{len(xyz)} atoms", 1)
         self._columns = {header.STRUCTURE_POSITIONS: np.array(xyz, np.float64)}
         for key, values in given.items():
             by_rule = key == "radii" and isinstance(values, (str, Mapping))
@@ -151,9 +152,9 @@ class Structure(Columns):
         n = int(missing[0])
         if not (names != "").any():
             raise InputError("some atoms have no element; give radii")
-        residue = f"{self._columns[header.STRUCTURE_RESIDUE_NAMES][n]} {self._columns[header.STRUCTURE_RESIDUE_NUMBERS][n]}"
-        raise InputError(f"{len(missing)} of {self._count} atoms have no element, and no name that tells it (first: atom {n}, "
-                         f"{str(names[n])!r} in {residue}); give radii, or leave such particles out")
+        raise InputError(f"{len(missing)} of {self._count} atoms have no element, and no name that tells it (first: atom "
+                         f"{n}, {str(names[n])!r} in {self._columns[header.STRUCTURE_RESIDUE_NAMES][n]} "
+                         f"{self._columns[header.STRUCTURE_RESIDUE_NUMBERS][n]}); give radii, or leave such particles out")
 
     # ---- the library's object
 
@@ -172,7 +173,8 @@ class Structure(Columns):
         """Returns the molecule as mmCIF. classes: rows of CLASSES; None for atoms without a class."""
         if classes is None:
             classes = np.full(self._count, _UNCLASSIFIED, np.uint8)
-        return cif_of(self._column, classes, SYMBOLS[self._column(header.STRUCTURE_ELEMENTS)], os.path.basename(self.file))
+        elements = SYMBOLS[self._column(header.STRUCTURE_ELEMENTS)]
+        return cif_of(self._column, classes, elements, os.path.basename(self.file))
 
     def _reread(self, **options: Any) -> lib.Handle:
         """Returns the library's object of the atoms, which it reads from a temporary file. options: those of read()."""
@@ -186,13 +188,13 @@ class Structure(Columns):
                 return opened(path, **options)
 
     def _library_object(self) -> lib.Handle:
-        """Returns the library's object of these atoms, in this order. Raises InputError if it does not take all atoms."""
+        """Returns the library's object of these atoms, in this order. Raises InputError if it does not take all."""
         if self._handle is None:
             handle = self._reread(**WHOLE)
             count = report_of(handle)[1]
             if count != self._count:
-                raise InputError(f"{self._count - count} of {self._count} atoms are virtual sites, which have no surface; leave "
-                                 "them out")
+                raise InputError(f"{self._count - count} of {self._count} atoms are virtual sites, which have no surface; "
+                                 "leave them out")
             self._handle = handle
         return self._handle
 
@@ -267,7 +269,8 @@ class Structure(Columns):
             of = f" of {self.file}" if self.file else ""
             return f"<meniscus.Structure: {self._count} of {whole._count} atoms{of}>"
         if self.format == "arrays":
-            return f"<meniscus.Structure: {self._count} atom{'s' * (self._count != 1)}{' of ' * bool(self.file)}{self.file}>"
+            many = "s" * (self._count != 1)
+            return f"<meniscus.Structure: {self._count} atom{many}{' of ' * bool(self.file)}{self.file}>"
         return f"<meniscus.Structure: {self.file}, {self.format}: {self.report}>"
 
     # ---- parts
@@ -290,7 +293,7 @@ class Structure(Columns):
         except IndexError as error:
             raise also(InputError, (IndexError,), f"not rows of the {self._count} atoms: {error}") from None
         if rows.ndim != 1:
-            raise wrong_type(f"{key!r:.60} is no mask, slice or list of indices")
+            raise wrong_type(f"{key!r:.60} is not a mask, a slice or a list of indices")
         return self._rows(rows)
 
     def _rows(self, rows: AnyArray) -> Structure:
@@ -415,8 +418,8 @@ def _checked(name: str, column: int, values: Any, count: int) -> AnyArray:
         dtype = np.dtype(NUMBERS[column][0])
         if values is None:
             return np.full(count, np.nan if dtype.kind == "f" else 1 if name == "models" else 0, dtype)
-        array = np.broadcast_to(real_array(values, name, 1 if name == "radii" else None), (count,)) if np.ndim(values) == 0 \
-            else real_array(values, name, 1 if name == "radii" else None)
+        array = real_array(values, name, 1 if name == "radii" else None)
+        array = np.broadcast_to(array, (count,)) if array.ndim == 0 else array
         if dtype.kind != "f" and array.dtype.kind == "f":
             raise wrong_type(f"{name} has fractions; give whole numbers")
     else:

@@ -83,7 +83,8 @@ class Surface:
         radii_type = header.FLOAT if radii.dtype == np.float32 else header.DOUBLE
         atoms = header.Atoms(ctypes.sizeof(header.Atoms), len(positions), positions.ctypes.data, radii.ctypes.data,
                           positions.strides[0], 0, positions_type, radii_type, int(radii.ndim == 0), 0)
-        handle = lib.Handle("surface", "compute", self._computer.pointer, ctypes.byref(atoms))
+        handle = lib.Handle("surface", "compute", self._computer.pointer, ctypes.byref(atoms),
+                            long=len(positions) > 2000)
         warn_of_nanometres(positions)
         return handle
 
@@ -207,8 +208,8 @@ class Surface:
 
     def _named(self) -> Structure:
         if self._structure is None:
-            raise InputError("the surface is of bare positions and radii; give surface() a meniscus.Structure, which knows "
-                             "residues and chains")
+            raise InputError("the surface is of bare positions and radii; give surface() a meniscus.Structure, which "
+                             "knows residues and chains")
         return self._structure
 
     def _areas(self) -> dict[str, AnyArray]:
@@ -357,8 +358,8 @@ class Surface:
         """Returns the exact distances of points from the surface in Å, (m,): above 0 in the solvent, below 0 in the
         solid. For one point, (3,), it is a single number.
 
-        points: (m, 3) or (3,) Å. nearest: whether the nearest points of the surface, (m, 3) Å, are returned, too. Raises
-        InputError for points that are not finite.
+        points: (m, 3) or (3,) Å. nearest: whether the nearest points of the surface, (m, 3) Å, are returned, too.
+        Raises InputError for points that are not finite.
 
         >>> s.distance([[0, 0, 0], [6, 0, 3]]).round(2).tolist()
         [-1.7, 1.3]
@@ -373,7 +374,7 @@ class Surface:
         feet = np.empty((len(array), 3)) if flag("nearest", nearest) else None
         handle = self._handle
         lib.call("surface_distance", handle.pointer, len(array), array.ctypes.data, distances.ctypes.data,
-                 None if feet is None else feet.ctypes.data)
+                 None if feet is None else feet.ctypes.data, long=len(array) > 10_000)
         one = given.ndim == 1
         result: Floats = distances.reshape(()) if one else distances
         return result if feet is None else (result, feet[0] if one else feet)
@@ -399,7 +400,7 @@ class Surface:
             raise InputError(f"weights has the shape {factors.shape}; it has to be ({summary.atoms},)")
         gradient = np.empty((summary.atoms, 3))
         lib.call("surface_gradient", handle.pointer, quantity, None if factors is None else factors.ctypes.data,
-                 gradient.ctypes.data)
+                 gradient.ctypes.data, long=summary.atoms > 20_000)
         return gradient
 
     def pockets(self, large_probe: float = 4.0, *, trim: float = 1.0, min_volume: float = 30.0,
@@ -430,10 +431,11 @@ class Surface:
                **values: Unpack[SurfaceValues]) -> Picture:
         """Returns a picture of the surface with the program's look.
 
-        colors: sRGB in [0, 1], (3,) or one per atom, (n, 3); or names such as "red" and "#rrggbb". camera: None for that of camera(). device: "cpu", "gpu",
-        "software" (GL on the CPU), or "auto", a hardware GPU if one works, else the CPU. values: properties of a Scene
-        that concern the look and the image, such as size="800x600" and background="white". Raises UsageError for other
-        properties, and GpuError if the device needs GL and there is none.
+        colors: sRGB in [0, 1], (3,) or one per atom, (n, 3); or names such as "red" and "#rrggbb". camera: None for
+        that of camera(). device: "cpu", "gpu", "software" (GL on the CPU), or "auto", a hardware GPU if one works, else
+        the CPU. values: properties of a Scene that concern the look and the image, such as size="800x600" and
+        background="white". Raises UsageError for other properties, and GpuError if the device needs GL and there is
+        none.
 
         >>> s.render(size="80x60", background="white", device="cpu")
         <meniscus.Picture: 80x60>"""
@@ -449,8 +451,8 @@ class Surface:
         """Returns a web page in which readers can rotate the surface. A notebook shows it.
 
         structure: None, or the Structure of the atoms, in the same order, such as s.structure: then the page shows the
-        names of atoms, and its readers can choose colour schemes. frame_height: the height of the page in a notebook, in CSS pixels. The
-        other parameters and the errors are those of render().
+        names of atoms, and its readers can choose colour schemes. frame_height: the height of the page in a notebook,
+        in CSS pixels. The other parameters and the errors are those of render().
 
         >>> s.show(color="teal").title
         'Surface of 4 atoms'
