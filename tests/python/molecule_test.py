@@ -138,16 +138,29 @@ class Arrays(Case):
             self.assertEqual(meniscus.read(file).file, "helix.pdb")
         self.assertEqual([s.area for s in meniscus.frames(content)], [s.area for s in meniscus.frames("helix.pdb")])
 
+    def test_models_are_frames(self):
+        rows = atoms()
+        models = [rows, [(*row[:5], 1.1 * row[5]) for row in rows], rows[:40]]
+        pathlib.Path("models.pdb").write_text("".join(
+            f"MODEL     {n}\n{pdb(model, water=False).replace('END', 'ENDMDL')}" for n, model in enumerate(models, 1)))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            expected = [meniscus.surface(meniscus.read("models.pdb", model=n)).area for n in (1, 2, 3)]
+        found = list(meniscus.frames("models.pdb"))
+        self.assertEqual(([s.area for s in found], [len(s.structure) for s in found]), (expected, [64, 64, 40]))
+        np.testing.assert_array_equal(meniscus.series("models.pdb")["area"], expected)
+        np.testing.assert_allclose(found[1].structure.positions, [row[5] for row in models[1]], atol=5.1e-4)
+
     def test_written_files_are_read_back(self):
         self.all.write("a.cif")
         back = meniscus.read("a.cif", select="all", keep_water=True)
         self.same(back, self.all)
-        odd = meniscus.Structure([[1 / 3, 0, 0], [3, 1e-7, 0], [6, 0, 0]], ["C", "O", "N"], names=["C1'", 'O5"', "_N 1"],
+        odd = meniscus.Structure([[1 / 3, 0, 0], [3, 1e-7, 0], [6, 0, 0]], ["C", "O", "N"], names=["C1'", 'O5" x', "_N 1"],
                                  residue_names="data_x", chains=["A", "", "#"], residue_numbers=[-5, 7, 7], altlocs=["", "A", "B"])
         odd.write("odd.cif")
         back = meniscus.read("odd.cif", select="all", altloc="all")
         self.same(back, odd, "positions", "elements", "residue_names", "chains", "residue_numbers", "altlocs")
-        self.assertEqual(back.names.tolist(), ["C1'", 'O5"', "_N 1"])
+        self.assertEqual(back.names.tolist(), ["C1'", 'O5" x', "_N 1"])
         text = io.BytesIO()
         self.molecule[:4].write(text, format="cif")
         self.assertIn(b"_atom_site.Cartn_x", text.getvalue())
@@ -201,10 +214,13 @@ class Scenes(Case):
             np.testing.assert_array_equal(one.render("cpu").pixels, expected)
         own = meniscus.Structure(self.molecule.positions, self.molecule.elements, radii=2.5)
         self.assertEqual(meniscus.Scene(own).radius[0].split("=")[1], "2.5")
-        folder = os.path.dirname(scene.file)
+        folder, packed = os.path.dirname(scene.file), pickle.dumps(scene)
         self.assertTrue(os.path.isdir(folder))
         del scene, one
         self.assertFalse(os.path.isdir(folder))
+        np.testing.assert_array_equal(pickle.loads(packed).render("cpu").pixels, expected)
+        np.testing.assert_array_equal(meniscus.Scene(self.all, size=(64, 48)).render("cpu").pixels, meniscus.Scene(
+            "helix.pdb", size=(64, 48), select="all", keep_water=True).render("cpu").pixels)
 
     def test_are_mappings_of_what_is_set(self):
         scene = meniscus.Scene("a.pdb", depth_cue=0.5, light=(1, 2, 3), label=["resid 1=one"])

@@ -16,7 +16,8 @@ def interruptible(function: Callable[[], Any]) -> Any:
     the library reads their arrays."""
     if threading.current_thread() is not threading.main_thread():
         return function()
-    done, results, kept = _thread.allocate_lock(), [], []
+    done, results = _thread.allocate_lock(), []
+    kept: list[Any] = []
 
     def run() -> None:
         results.append(function())
