@@ -5,7 +5,6 @@ import io
 import os
 import pathlib
 import pickle
-import signal
 import subprocess
 import sys
 import tempfile
@@ -118,6 +117,10 @@ class Arrays(Case):
         self.assertRegex(made.warnings[0], "67 atoms have no element symbol; elements were guessed")
         some = meniscus.Structure(m.positions, ["S", *[""] * 66], names=m.names, residue_names=m.residue_names)
         self.assertEqual(some.elements[:3].tolist(), ["S", "C", "C"])
+        sites = meniscus.Structure([[0, 0, 0], [3, 0, 0]], names=["OW", "MW"], residue_names="SOL", residue_numbers=1, radii=1.5)
+        self.assertEqual(pickle.loads(pickle.dumps(meniscus.surface(sites))).structure.classes.tolist(), ["water", "unclassified"])
+        with self.assertRaisesRegex(meniscus.InputError, "1 of 2 atoms are virtual sites"):
+            sites.colors("element")
         with self.assertRaisesRegex(meniscus.InputError, "1 of 2 atoms have no element.*'MW' in SOL 1"):
             meniscus.Structure([[0, 0, 0], [3, 0, 0]], names=["OW", "MW"], residue_names="SOL", residue_numbers=1)
 

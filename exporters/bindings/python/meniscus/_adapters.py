@@ -2,19 +2,15 @@
 """Makes a Structure of a molecule of another package."""
 from __future__ import annotations
 
-import copy
 import warnings
-from typing import TYPE_CHECKING, Any, Iterator, Optional
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, Optional
 
 from ._computed import surface
-from ._errors import InputError, wrong_type
-from ._packages import first_of, structure_of
-from ._sources import TAKEN_BY, Source, opened, package_of
+from ._errors import wrong_type
+from ._packages import structure_of
+from ._sources import TAKEN_BY, package_of
 from ._structure import Structure
 from ._surface import Surface
-from ._types import Rows
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

@@ -15,7 +15,7 @@ from typing import Any, Optional
 import numpy as np
 
 from ._errors import InputError, UsageError, wrong_type
-from ._types import AnyArray, Path
+from ._types import AnyArray
 
 #: Methods that convert units: of OpenMM and ParmEd, of pint, and of astropy and unyt.
 _CONVERSIONS = ("value_in_unit", "m_as", "to_value")

@@ -8,7 +8,6 @@ from typing import Callable
 import numpy as np
 
 from . import _header as header
-from ._columns import SYMBOLS
 from ._types import AnyArray, Texts
 
 _KEYS = ("group_PDB id type_symbol label_atom_id label_alt_id label_comp_id label_asym_id label_entity_id label_seq_id "

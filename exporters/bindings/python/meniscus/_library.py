@@ -9,7 +9,7 @@ import pathlib
 import platform
 import re
 import sys
-from typing import Any, Callable, Optional
+from typing import Any, Callable
 
 from . import _header as header
 from ._calls import interruptible
@@ -132,7 +132,7 @@ class Handle:
 
     def __init__(self, kind: str, make: str, *arguments: Any, long: bool = False) -> None:
         """kind: as in meniscus_KIND_release. make: the function meniscus_MAKE that creates the object. arguments: those
-        of meniscus_MAKE but for the last, which returns the object. long: as of call()."""
+        of meniscus_MAKE but for the last, which returns the object. long: see call()."""
         self.pointer: ctypes.c_void_p = ctypes.c_void_p()
         self._release: Callable[[ctypes.c_void_p], None] = getattr(_library(), f"meniscus_{kind}_release")
         call(make, *arguments, ctypes.byref(self.pointer), long=long)

@@ -13,7 +13,7 @@ from . import _library as lib
 from ._arguments import file_name, flag, listed, number, positive, text, word
 from ._arrays import texts, view
 from ._columns import NUMBERS
-from ._errors import Error, InputError, wrong_type
+from ._errors import Error, wrong_type
 from ._types import AnyArray, Hydrogens, Path, RadiiSet, UnknownElement
 
 _HYDROGENS = {"auto": header.HYDROGENS_AUTO, "keep": header.HYDROGENS_KEEP, "drop": header.HYDROGENS_DROP}

@@ -14,7 +14,7 @@ from ._structure import Structure
 
 def first_of(source: Source, radii: Optional[Any], level: int) -> Structure:
     """Returns the molecule in the first frame that is left of a source. Elements that are missing are guessed from
-    names with a warning. radii: as of Structure(). level: as of opened()."""
+    names with a warning. radii: see Structure. level: see opened()."""
     positions = next(source.frames, None)
     if positions is None:
         raise InputError("the atoms have no positions")
@@ -36,5 +36,5 @@ def first_of(source: Source, radii: Optional[Any], level: int) -> Structure:
 
 
 def structure_of(molecule: Any, radii: Optional[Any], level: int) -> Structure:
-    """Returns the current or first frame of a molecule of another package. level: as of opened()."""
+    """Returns the current or first frame of a molecule of another package. level: see opened()."""
     return first_of(opened(molecule, package_of(molecule), False, level + 1), radii, level + 1)

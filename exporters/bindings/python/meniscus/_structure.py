@@ -164,10 +164,24 @@ class Structure(Columns):
                 whole, rows = self._source
                 values = whole._column(column) if column == header.STRUCTURE_WARNINGS else whole._column(column)[rows]
                 values.flags.writeable = False
+            elif self._handle is not None:
+                values = column_of(self._handle, column)
             else:
-                values = column_of(self._library_object(), column)
+                values = self._found(column)
             self._columns[column] = values
         return self._columns[column]
+
+    def _found(self, column: int) -> AnyArray:
+        """Returns the classes or the hydropathies that the library finds. Virtual sites have none."""
+        empty = np.nan if column == header.STRUCTURE_HYDROPATHIES else _UNCLASSIFIED
+        values = np.full(self._count, empty, NUMBERS[column][0])
+        try:
+            handle = self._reread(**WHOLE)
+            values[np.asarray(column_of(handle, header.STRUCTURE_INDICES), np.int64)] = column_of(handle, column)
+        except InputError:  # because all are virtual sites
+            pass
+        values.flags.writeable = False
+        return values
 
     def _text(self, classes: Optional[AnyArray] = None) -> str:
         """Returns the molecule as mmCIF. classes: rows of CLASSES; None for atoms without a class."""
@@ -313,7 +327,8 @@ class Structure(Columns):
                              source=(whole, rows))
 
     def select(self, selection: str) -> Structure:
-        """Returns the atoms of a selection, such as "chain A and resid 10-50", in the words of read().
+        """Returns the atoms of a selection, such as "chain A and resid 10-50", in the words of read(); "index" counts the
+        atoms of this structure.
 
         Raises UsageError for an invalid selection, and InputError if it selects no atom. Words about helices and sheets
         are decided by the positions, not by the file.

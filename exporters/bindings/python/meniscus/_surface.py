@@ -20,7 +20,7 @@ from ._scene import Scene
 from ._molecule_tables import frame_of, sums_of
 from ._patches import Patches
 from ._structure import Structure
-from ._types import AnyArray, Bytes, Device, Floats, Indices, Kind, Projection, Quantity, Rows
+from ._types import AnyArray, Device, Floats, Indices, Kind, Projection, Quantity, Rows
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
