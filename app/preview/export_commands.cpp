@@ -177,10 +177,12 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   Annotations annotations;
   if (exporter.context.annotations)
     annotations = exporter.context.annotations(molecule.annotated_structure(), molecule.extras().get());
-  auto view = std::make_shared<const ExportedView>(ExportedView{
-      molecule.structure(), molecule.atoms(), molecule.balls(), molecule.coloring(state), molecule.key(state), state,
-      molecule.extras(), std::move(annotations), options.size, options.samples, options.transparent,
-      format == Format::png ? scene_of(command, around) : "", state.export_options.dots_per_inch});
+  Coloring coloring = molecule.coloring(state);
+  coloring.in_patch = molecule.patch_marks(state);
+  auto view = std::make_shared<const ExportedView>(
+      ExportedView{molecule.structure(), molecule.atoms(), molecule.balls(), std::move(coloring), molecule.key(state),
+                   state, molecule.extras(), std::move(annotations), options.size, options.samples, options.transparent,
+                   format == Format::png ? scene_of(command, around) : "", state.export_options.dots_per_inch});
   const auto write = [view, target, format, make_device](const ExportWatch& watch) {
     return written(*view, format, make_device, target, watch);
   };

@@ -26,6 +26,14 @@
 
 namespace meniscus {
 
+/// Of exported pictures, what a command does not say. Nothing: as it is shown.
+struct ExportOptions {
+  std::optional<glm::ivec2> size;  ///< pixels, with the legend
+  std::optional<int> samples;      ///< rays per pixel
+  bool transparent = false;        ///< without a background
+  double dots_per_inch = 0.0;      ///< of the printed picture; 0: not said
+};
+
 /// A figure, whatever its size. Commands change it, undo and redo replace it.
 struct PreviewFigure {
   Camera camera;
@@ -44,6 +52,8 @@ struct PreviewFigure {
   bool legend = false;
   LegendStyle legend_style;
   LetterStyle letters;
+  int samples = 4;  ///< rays per pixel of the full picture
+  ExportOptions export_options;
   std::uint64_t edition = 0;  ///< a number of its own for all that was changed, but for the camera
 
   /// What the colours are by, kinds of patch too.
@@ -60,14 +70,6 @@ struct PreviewFigure {
   double probe_reach() const { return growth_of(kind, probe_radius) + rolling_probe(kind, probe_radius); }
 };
 
-/// Of exported pictures, what a command does not say. Nothing: as it is shown.
-struct ExportOptions {
-  std::optional<glm::ivec2> size;  ///< pixels, with the legend
-  std::optional<int> samples;      ///< rays per pixel
-  bool transparent = false;        ///< without a background
-  double dots_per_inch = 0.0;      ///< of the printed picture; 0: not said
-};
-
 /// Throws RequestError for a scheme whose numbers or parts come with surfaces that a preview does not make; so
 /// for those of its rules.
 void require_previewed(const ColorScheme& color);
@@ -82,15 +84,13 @@ struct PreviewState : PreviewFigure {
   bool playing = false;
   double frames_per_second = 10.0;            ///< while playing
   glm::ivec2 size{1024, 768};                 ///< of the full picture with its legend, in pixels
-  int samples = 4;                            ///< rays per pixel of the full picture
   bool copies_apart = false;                  ///< no probe may touch two copies of the structure (Structure::instances)
   std::map<std::string, Camera> named_views;  ///< kept by the user
   std::vector<PreviewFigure> strip;           ///< scenes kept for a film, in its order
   double strip_place = 0.0;                   ///< of the strip, which was shown last
   bool plays_strip = false;                   ///< playing goes along the strip, not through the frames
-  ExportOptions export_options;
-  std::uint64_t revision = 1;  ///< grows with every change of what is seen
-  bool ended = false;          ///< a command asked to end
+  std::uint64_t revision = 1;                 ///< grows with every change of what is seen
+  bool ended = false;                         ///< a command asked to end
 
   /// Of the full picture, its legend included.
   Look full_look() const { return look_of(look, size, background, hues(), patches.has_value()); }
@@ -136,6 +136,9 @@ struct RenderedView {
 
 /// begun: the scene that the preview began with, which says what it does not change: the molecule, its run.
 Scene rendered_scene(const Scene& begun, const RenderedView& view);
+
+/// Returns a request for a look with these numbers. asked: has what is no number of a look.
+LookRequest look_request(LookRequest asked, Look look, bool outlines_patches);
 
 /// What commands change, as a scene has it; no camera. color: with the numbers of its file.
 PreviewFigure figure_of(const Scene& scene, const ColorScheme& color);

@@ -164,6 +164,7 @@ Json get_state(const CommandReader&, const Surroundings& around) {
       {"redo", around.history.redo_steps()},
       {"unsaved", !around.exporter.keeps(state)},
       {"drawn_by", around.pictures.draws_on_cpu() ? "cpu" : "gl"}};
+  reply["values"] = property_values(around);
   add_figure(state, reply);
   if (!molecule.legend_fault().empty()) reply["legend"]["fault"] = molecule.legend_fault();
   for (const auto& [name, camera] : state.named_views) reply["views"].push_back(escaped(name));
@@ -206,6 +207,7 @@ Json get_choices(const CommandReader&, const Surroundings& around) {
           {"actions", actions},
           {"presets", words_of(property_of("look.preset"))},
           {"sliders", look_sliders()},
+          {"properties", property_choices()},
           {"representations", {"sticks", "balls", "spheres", "tube", "bases", "glycans"}}};
 }
 
