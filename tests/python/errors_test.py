@@ -126,7 +126,8 @@ class Provoked(unittest.TestCase):
             lambda: mesh.save("x.ply", colors=(1, 0, 0, 0.5)), lambda: mesh.attribute("mass"), lambda: mesh.attribute("all"),
             lambda: m.write("x.xyz"), lambda: m.split("atom"), lambda: m.colors("teaal"), lambda: m.colors("kind"), lambda: m.colors("charge"),
             lambda: m.select("chain Z"), lambda: m.select("chain ("), lambda: m.select("nme CA"), lambda: m.select("charge > 0"),
-            lambda: meniscus.buried(m, "chain A", "resid 1-9"), kinds=(ValueError,))
+            lambda: meniscus.buried(m, "chain A", "resid 1-9"),
+            lambda: m[:0].select("all"), lambda: m[:0].write("x.cif"), lambda: meniscus.Scene(m[:0]), lambda: meniscus.surface(m[:0]), kinds=(ValueError,))
         self.provoke(
             lambda: read("nothing.pdb"), lambda: read("odd.pdb"), lambda: read("water.pdb"), lambda: read("unknown.cif"), lambda: read(b"x\n"),
             lambda: read(b"ATOM\n" * 1000), lambda: read(io.BytesIO(b"")), lambda: read(io.StringIO("2\n\nC 0 0\n")), lambda: read("a\0b"),

@@ -9,18 +9,24 @@ from typing import Any, Callable
 
 
 def interruptible(function: Callable[[], Any]) -> Any:
-    """Returns the result of a function, which must not raise and has to end by itself.
+    """Returns the result of a function, which has to end by itself.
 
     In the main thread another thread runs it. After Ctrl-C this function raises KeyboardInterrupt at once. The other
     thread finishes the function and drops the result. Until then it keeps the variables of all callers alive, because
     the library reads their arrays."""
     if threading.current_thread() is not threading.main_thread():
         return function()
-    done, results = _thread.allocate_lock(), []
+    done = _thread.allocate_lock()
     kept: list[Any] = []
+    result: Any = None
+    error: Any = None
 
     def run() -> None:
-        results.append(function())
+        nonlocal result, error
+        try:
+            result = function()
+        except BaseException as raised:
+            error = raised
         done.release()
         kept.clear()
 
@@ -34,4 +40,6 @@ def interruptible(function: Callable[[], Any]) -> Any:
             kept.append(frame)
             frame = frame.f_back
         raise
-    return results[0]
+    if error is not None:
+        raise error
+    return result

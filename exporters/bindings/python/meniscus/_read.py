@@ -30,7 +30,8 @@ def read(path: Union[Path, IO[Any]], *, select: Optional[str] = None, assembly: 
     water and free ions are used, too. unknown_element: what happens to atoms of unknown element: "halt" raises
     InputError, "guess" gives them a radius of 2.0 Å, "skip" ignores them.
 
-    Raises InputError if the file cannot be read, and UsageError for an invalid option or selection.
+    Raises InputError if the file cannot be read, or has no such model, assembly, atoms or radii; and UsageError for an
+    invalid option or selection.
 
     >>> len(meniscus.read("helix.pdb", select="chain A", radius={"element N": 1.6}))
     32

@@ -184,7 +184,10 @@ class Structure(Columns):
         return values
 
     def _text(self, classes: Optional[AnyArray] = None) -> str:
-        """Returns the molecule as mmCIF. classes: rows of CLASSES; None for atoms without a class."""
+        """Returns the molecule as mmCIF. classes: rows of CLASSES; None for atoms without a class. Raises InputError if
+        there are no atoms."""
+        if self._count == 0:
+            raise InputError("there are no atoms")
         if classes is None:
             classes = np.full(self._count, _UNCLASSIFIED, np.uint8)
         elements = SYMBOLS[self._column(header.STRUCTURE_ELEMENTS)]
