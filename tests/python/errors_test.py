@@ -23,6 +23,7 @@ from structure_test import atoms, cif, gro, pdb
 #: What no message may have: options, C's constants, types and functions, and fields that the package calls otherwise.
 FOREIGN = re.compile(r"(?<![\w-])--\w|\bNULL\b|MENISCUS_|(?<!\x22)meniscus_\w|\b(large_)?probe_radius\b|\batom_colors\b|sizeof|struct\b|"
                      r"standard input|/tmp/meniscus-|size_t|\bstride\b")
+PSF = "PSF\n\n 1 !NTITLE\n x\n\n 1 !NATOM\n 1 A 1 LIG C1 CT 0.0 12.011 0\n\n 0 !NBOND: bonds\n"
 SOURCES = pathlib.Path(__file__).resolve().parents[2] / "exporters/bindings/c"
 
 
@@ -35,7 +36,7 @@ class Provoked(unittest.TestCase):
         os.chdir(folder.name)
         rows = atoms()
         for name, text in (("helix.pdb", pdb(rows)), ("helix.cif", cif(rows)), ("helix.gro", gro(rows)), ("nothing.pdb", ""),
-                           ("odd.pdb", "<html>"), ("scene.json", "{"), ("water.pdb", pdb(rows[:1]).replace("ALA", "HOH")),
+                           ("odd.pdb", "<html>"), ("run.xtc", "\7\xcb"), ("top.psf", PSF), ("scene.json", "{"), ("water.pdb", pdb(rows[:1]).replace("ALA", "HOH")),
                            ("unknown.cif", cif([("Q1", "?", "LIG", "A", 1, (0, 0, 0))]))):
             pathlib.Path(name).write_text(text)
         os.mkdir("folder")
@@ -137,7 +138,10 @@ class Provoked(unittest.TestCase):
             lambda: read("helix.pdb", radii="file"), lambda: read("helix.pdb", radius={"all": -1}), lambda: read("helix.pdb", radius=["all"]),
             lambda: read("helix.pdb", radii_files="none.txt"), lambda: read("helix.pdb", radii_files="odd.pdb"),
             lambda: read("helix.pdb", radii="martini2", hydrogens="x"), lambda: read("helix.pdb", unknown_element="x"),
-            lambda: read("helix.pdb", select="radius > 1"), kinds=(ValueError,))
+            lambda: read("helix.pdb", select="radius > 1"), lambda: read("run.xtc"), lambda: read("top.psf"), kinds=(ValueError,))
+        for file in ("run.xtc", "top.psf"):
+            with self.assertRaisesRegex(meniscus.InputError, rf"{file}: .*meniscus.frames\(trajectory, topology=...\) reads"):
+                read(file)
         self.provoke(
             lambda: scene().render("cpu"), lambda: scene("helix.pdb", size="80"), lambda: scene("helix.pdb", samples=0),
             lambda: scene("helix.pdb", preset="flatt"), lambda: scene("helix.pdb", color="teaal").render("cpu"),

@@ -31,6 +31,10 @@ _WORDS = [(re.compile(words), python) for words, python in (
      'gradients of "sas_area" and "sas_volume" are of surfaces of kind "ses"; "area" and "volume" are those of others'),
     (r"a surface of MENISCUS_SES", 'a surface of kind "ses"'),
     (r"meniscus_render_scene\(\)", "a meniscus.Scene"),
+    (r"lists atoms without coordinates; add trajectory with a file that has them",
+     "lists atoms without coordinates; meniscus.frames(trajectory, topology=...) reads both"),
+    (r"(\.(?:xtc|trr|dcd|nc|ncdf|nctraj|h5md|lammpstrj)): is in none of the formats that are read .*",
+     r"\1: is a trajectory; meniscus.frames(trajectory, topology=...) reads it"),
     (r"the program's --(\w+)", r"the program's option \1"))]
 
 #: The ends of messages about files, and Python's exceptions for them.
