@@ -272,6 +272,22 @@ class Results(Case):
             self.assertLess(len(repr(thing)), 220)
         self.assertIn("1 component>", repr(s))
 
+    def test_warnings_are_of_the_line_that_called(self):
+        class Atoms:
+            __module__ = "prody.fake"
+            def getElements(self): return None
+            def getNames(self): return ["CA", "CB"]
+            def getResnames(self): return ["ALA", "ALA"]
+            def getCoords(self): return np.array([[0.0, 0, 0], [3, 0, 0]])
+            def iterCoordsets(self): return iter([self.getCoords()] * 2)
+        pathlib.Path("odd.pdb").write_text(pdb(atoms(4)).replace("           C", ""))
+        for call in (lambda: meniscus.surface(Atoms()), lambda: meniscus.from_prody(Atoms()), lambda: list(meniscus.frames(Atoms())),
+                     lambda: meniscus.series(Atoms()), lambda: meniscus.Scene(Atoms()), lambda: meniscus.read("odd.pdb"),
+                     lambda: list(meniscus.frames("odd.pdb")), lambda: meniscus.surface([[0, 0, 0], [0.1, 0, 0]], 1.0)):
+            with self.assertWarnsRegex(UserWarning, "no element (symbol|column)|nanometres") as caught:
+                call()
+            self.assertEqual(caught.filename, __file__)
+
     def test_the_from_functions_return_structures_softly(self):
         class Atoms:
             __module__ = "prody.fake"

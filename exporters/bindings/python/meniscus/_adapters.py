@@ -2,11 +2,10 @@
 """Makes a Structure of a molecule of another package."""
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING, Any, Optional
 
 from ._computed import surface
-from ._errors import wrong_type
+from ._errors import warn, wrong_type
 from ._packages import structure_of
 from ._sources import TAKEN_BY, package_of
 from ._structure import Structure
@@ -30,8 +29,8 @@ class _Taken(Structure):
         def __getattr__(self, name: str) -> Any:
             if name.startswith("_") or not hasattr(Surface, name):
                 raise AttributeError(f"a Structure has no {name!r}")
-            warnings.warn(f"the from_...() functions return a Structure; {name} is of meniscus.surface(structure)",
-                          DeprecationWarning, stacklevel=2)
+            warn(f"the from_...() functions return a Structure; {name} is of meniscus.surface(structure)",
+                 DeprecationWarning)
             if self._surface is None:
                 self._surface = surface(self, **self._options)
             return getattr(self._surface, name)
@@ -42,10 +41,10 @@ def _first(molecule: Any, package: str, radii: Optional[Any], options: SurfaceOp
     if package_of(molecule) != package:
         kind = f"{type(molecule).__module__}.{type(molecule).__qualname__}"
         raise wrong_type(f"{TAKEN_BY[package]}() does not take a {kind}")
-    structure = structure_of(molecule, radii, 3)
+    structure = structure_of(molecule, radii)
     if options:
-        warnings.warn(f"{TAKEN_BY[package]}() returns a Structure: {', '.join(options)} belongs to meniscus.surface()",
-                      FutureWarning, stacklevel=3)
+        warn(f"{TAKEN_BY[package]}() returns a Structure: {', '.join(options)} belongs to meniscus.surface()",
+             FutureWarning)
     taken = _Taken._of(structure._report, len(structure), structure._columns)
     assert isinstance(taken, _Taken)
     taken._options, taken._surface = options, None

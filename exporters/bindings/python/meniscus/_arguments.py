@@ -8,13 +8,12 @@ import operator
 import os
 import reprlib
 import sys
-import warnings
 from ctypes import Structure, c_double, c_float, c_int32
 from typing import Any, Optional
 
 import numpy as np
 
-from ._errors import InputError, UsageError, wrong_type
+from ._errors import InputError, UsageError, warn, wrong_type
 from ._types import AnyArray
 
 #: Methods that convert units: of OpenMM and ParmEd, of pint, and of astropy and unyt.
@@ -80,8 +79,8 @@ def warn_of_nanometres(positions: AnyArray) -> None:
         nearest.append(squares.min())
     middle = float(np.sqrt(np.median(nearest)))
     if middle < _CLOSEST_ATOMS:
-        warnings.warn(f"the nearest neighbours of atoms are {middle:.3g} Å away: do the positions look like nanometres? "
-                      "They have to be in Å", stacklevel=5)
+        warn(f"the nearest neighbours of atoms are {middle:.3g} Å away: do the positions look like nanometres? "
+             "They have to be in Å")
 
 
 def whole_number(name: str, value: Any) -> int:

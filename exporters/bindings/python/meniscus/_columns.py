@@ -2,13 +2,12 @@
 """The arrays of a molecule, with one row for each atom."""
 from __future__ import annotations
 
-import warnings
 from typing import Any
 
 import numpy as np
 
 from . import _header as header
-from ._errors import wrong_type
+from ._errors import warn, wrong_type
 from ._radii import atomic_numbers
 from ._types import AnyArray, Bytes, Floats, Indices, Numbers, Singles, Texts
 
@@ -61,8 +60,7 @@ class _Elements(_Column):
     def _numbers(self, other: Any) -> bool:
         if np.asarray(other).dtype.kind not in "iu":
             return False
-        warnings.warn("elements are symbols such as 'C' now; compare atomic_numbers with numbers", DeprecationWarning,
-                      stacklevel=3)
+        warn("elements are symbols such as 'C' now; compare atomic_numbers with numbers", DeprecationWarning)
         return True
 
     def __eq__(self, other: Any) -> Any:

@@ -51,7 +51,7 @@ def surface(xyz: Any, radii: Optional[Any] = None, probe: float = 1.4, *, kind: 
         ...
     meniscus.InputError: the radius of atom 0 is -1.7 Å; it has to be above 0, or leave the atom out"""
     if is_molecule(xyz):
-        xyz = structure_of(xyz, radii, 4)
+        xyz = structure_of(xyz, radii)
     if isinstance(xyz, Structure):
         return Surface(xyz.positions, xyz.radii if radii is None else radii, probe, kind, device, threads, verify, xyz)
     if isinstance(xyz, (str, bytes, os.PathLike)):

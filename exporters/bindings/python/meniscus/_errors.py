@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import errno
 import functools
+import sys
+import warnings
 from typing import Any
 
 
@@ -119,3 +121,11 @@ def wrong_type(message: str) -> Error:
 def unknown_name(message: str) -> Error:
     """Returns a UsageError about a name that does not exist, which is a KeyError and an AttributeError, too."""
     return also(UsageError, (KeyError, AttributeError), message)
+
+
+def warn(message: str, category: type[Warning] = UserWarning) -> None:
+    """Warns of something in the code that called the package."""
+    level, frame = 2, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("meniscus."):
+        level, frame = level + 1, frame.f_back
+    warnings.warn(message, category, stacklevel=level)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 def _surfaces(source: Source, radii: Optional[Any], options: SurfaceOptions) -> Iterator[Surface]:
     """Yields a new surface for each frame of the source. radii: None for those of the elements."""
-    last = surface(first_of(source, radii, 3), **options)
+    last = surface(first_of(source, radii), **options)
     yield last
     for positions in source.frames:
         last = copy.copy(last).update(positions)
@@ -53,7 +53,7 @@ def _of_molecules(molecules: Any, radii: Optional[Any], options: SurfaceOptions)
     for n, molecule in enumerate(molecules):
         if molecule is None:
             raise InputError(f"molecule {n} is None; RDKit could not read it")
-        yield from _surfaces(opened(molecule, "rdkit", True, 3), radii, options)
+        yield from _surfaces(opened(molecule, "rdkit", True), radii, options)
 
 
 def _of_run(path: Any, topology: Any, radii: Optional[Any], options: SurfaceOptions) -> Iterator[Surface]:
@@ -68,7 +68,7 @@ def _of_run(path: Any, topology: Any, radii: Optional[Any], options: SurfaceOpti
         if not os.path.exists(file):
             raise about_file(InputError, f"{name}: {os.fsdecode(file)}: No such file or directory", os.fsdecode(file))
     universe = analysis.Universe(os.fspath(topology), os.fspath(path))
-    rows, part = first_of(opened(universe, "MDAnalysis", True, 3), 1.0, 3)._usual()
+    rows, part = first_of(opened(universe, "MDAnalysis", True), 1.0)._usual()
     last = None
     for _ in universe.trajectory:
         positions = universe.atoms.positions[rows]
@@ -98,14 +98,14 @@ def frames(source: Any, *, topology: Any = None, radii: Optional[Any] = None,
     if topology is not None:
         return _of_run(source, topology, radii, options)
     if isinstance(source, (str, bytes, os.PathLike)) or is_content(source):
-        return _of_models(models_of(source, 3), radii, options)
+        return _of_models(models_of(source), radii, options)
     package = package_of(source)
     if not package:
         raise wrong_type(f"a {type(source).__module__}.{type(source).__qualname__} has no frames that can be read; "
                          f"supported are files, and molecules of {', '.join(TAKEN_BY)}")
     if package == "rdkit" and hasattr(source, "__getitem__"):
         return _of_molecules(source, radii, options)
-    return _surfaces(opened(source, package, True, 2), radii, options)
+    return _surfaces(opened(source, package, True), radii, options)
 
 
 def series(source: Any, *, topology: Any = None, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Rows:

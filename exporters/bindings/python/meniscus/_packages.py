@@ -2,19 +2,18 @@
 """Makes a Structure of a molecule of another package."""
 from __future__ import annotations
 
-import warnings
 from typing import Any, Optional
 
 import numpy as np
 
-from ._errors import InputError
+from ._errors import InputError, warn
 from ._sources import Source, opened, package_of
 from ._structure import Structure
 
 
-def first_of(source: Source, radii: Optional[Any], level: int) -> Structure:
+def first_of(source: Source, radii: Optional[Any]) -> Structure:
     """Returns the molecule in the first frame that is left of a source. Elements that are missing are guessed from
-    names with a warning. radii: see Structure. level: see opened()."""
+    names with a warning. radii: see Structure."""
     positions = next(source.frames, None)
     if positions is None:
         raise InputError("the atoms have no positions")
@@ -31,10 +30,10 @@ def first_of(source: Source, radii: Optional[Any], level: int) -> Structure:
             columns[name] = np.asarray(values).astype(np.str_)
     structure = Structure(positions, elements, radii=radii, **columns)
     for warning in structure.warnings:
-        warnings.warn(warning, stacklevel=level + 1)
+        warn(warning)
     return structure
 
 
-def structure_of(molecule: Any, radii: Optional[Any], level: int) -> Structure:
-    """Returns the current or first frame of a molecule of another package. level: see opened()."""
-    return first_of(opened(molecule, package_of(molecule), False, level + 1), radii, level + 1)
+def structure_of(molecule: Any, radii: Optional[Any]) -> Structure:
+    """Returns the current or first frame of a molecule of another package."""
+    return first_of(opened(molecule, package_of(molecule), False), radii)

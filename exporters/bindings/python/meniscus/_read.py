@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
-import warnings
 from typing import IO, Any, Iterable, Literal, Mapping, Optional, Sequence, Union
 
+from ._errors import warn
 from ._molecule_file import as_file, is_content, opened
 from ._structure import Structure
 from ._types import Hydrogens, Path, RadiiSet, UnknownElement
@@ -45,18 +45,17 @@ def read(path: Union[Path, IO[Any]], *, select: Optional[str] = None, assembly: 
                         unknown_element=unknown_element)
     structure = Structure._read(handle, os.path.basename(os.fsdecode(file)) if is_content(path) else None)
     for warning in structure.warnings:
-        warnings.warn(f"{structure.file}: {warning}", stacklevel=2)
+        warn(f"{structure.file}: {warning}")
     return structure
 
 
-def models_of(path: Union[Path, IO[Any]], level: int) -> list[Structure]:
-    """Returns each model of a file, with the atoms that read() uses. level: the number of calls between the caller of
-    the package, whom warnings are for, and this function."""
+def models_of(path: Union[Path, IO[Any]]) -> list[Structure]:
+    """Returns each model of a file, with the atoms that read() uses."""
     with as_file(path) as file:
         first, whole = opened(file), opened(file, model="all")
     name = os.path.basename(os.fsdecode(file)) if is_content(path) else None
     for warning in Structure._read(first, name).warnings:
         if "model=" in warning:  # that only one model is used
             continue
-        warnings.warn(f"{os.fsdecode(file) if name is None else name}: {warning}", stacklevel=level + 1)
+        warn(f"{os.fsdecode(file) if name is None else name}: {warning}")
     return Structure._read(whole, name).split("model")

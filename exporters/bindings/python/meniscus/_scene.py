@@ -133,7 +133,7 @@ class Scene(SceneAttributes, Mapping[str, Any]):
         if molecule is None or isinstance(molecule, (str, bytes, os.PathLike)):
             self["file"] = molecule
         elif isinstance(molecule, Structure) or is_molecule(molecule):
-            self._draw(molecule if isinstance(molecule, Structure) else structure_of(molecule, None, 2))
+            self._draw(molecule if isinstance(molecule, Structure) else structure_of(molecule, None))
         else:
             raise wrong_type(f"molecule is of the type {type(molecule).__name__}, neither a path nor a molecule")
         self.set(**values)

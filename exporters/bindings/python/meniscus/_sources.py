@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import os
-import warnings
 from typing import Any, Callable, Iterator, NamedTuple
 
 import numpy as np
 
-from ._errors import InputError, wrong_type
+from ._errors import InputError, warn, wrong_type
 
 #: The functions of _adapters.py that take the objects of each package.
 TAKEN_BY = {"MDAnalysis": "from_mdanalysis", "mdtraj": "from_mdtraj", "prody": "from_prody", "biotite": "from_biotite",
@@ -218,10 +217,9 @@ def is_molecule(value: Any) -> bool:
     return bool(package)
 
 
-def opened(molecule: Any, package: str, every: bool, level: int) -> Source:
+def opened(molecule: Any, package: str, every: bool) -> Source:
     """Returns the atoms of a molecule of a package. every: whether the source has all frames, not only the current one.
-    level: the number of calls between the caller of the package, whom a warning is for, and this function. Raises
-    InputError if the object has no atoms."""
+    Raises InputError if the object has no atoms."""
     try:
         source = _READERS[package](molecule, every)
     except (AttributeError, IndexError, TypeError) as error:
@@ -229,6 +227,5 @@ def opened(molecule: Any, package: str, every: bool, level: int) -> Source:
                          f"{error}") from error
     letters = {str(letter).strip(" .\0") for letter in source.altlocs} - {""}
     if len(letters) > 1:
-        warnings.warn(f"atoms at the alternate locations {', '.join(sorted(letters))} all count; leave all but one out",
-                      stacklevel=level + 1)
+        warn(f"atoms at the alternate locations {', '.join(sorted(letters))} all count; leave all but one out")
     return source
