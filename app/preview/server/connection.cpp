@@ -2,11 +2,11 @@
 // Reads requests and commands within limits; answers with files of the page, a refusal, replies and pictures.
 #include "app/preview/server/connection.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -177,11 +177,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
     clients_->strangers.erase(stranger_);
     if (request.method() != http::verb::get) return refuse(http::status::method_not_allowed, "only GET is supported");
     if (admission.path == "socket") return open_socket();
-    const std::string_view name = admission.path.empty() ? "index.html" : admission.path;
-    const auto files = page_files();
-    const auto file = std::ranges::find(files, name, &PageFile::path);
-    if (file == files.end()) return refuse(http::status::not_found, "there is no such page");
-    send(http::status::ok, content_type(name), file->content);
+    const std::optional<std::string> file = served_file(admission.path);
+    if (!file) return refuse(http::status::not_found, "there is no such page");
+    send(http::status::ok, content_type(admission.path), *file);
   }
 
   void open_socket() {
@@ -242,14 +240,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
 void serve_connection(boost::asio::ip::tcp::socket socket, const std::shared_ptr<Clients>& clients) {
   std::make_shared<Connection>(std::move(socket), clients)->read();
-}
-
-std::string_view content_type(std::string_view path) {
-  if (path.ends_with(".html")) return "text/html; charset=utf-8";
-  if (path.ends_with(".js")) return "text/javascript; charset=utf-8";
-  if (path.ends_with(".css")) return "text/css; charset=utf-8";
-  if (path.ends_with(".svg")) return "image/svg+xml";
-  return "text/plain; charset=utf-8";
 }
 
 }  // namespace meniscus

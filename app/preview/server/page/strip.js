@@ -6,7 +6,7 @@ const $ = (id) => document.getElementById(id);
 const kRate = 24;  // pictures a second
 
 /// Shows the kept scenes; command(word, values) changes them. Returns show(state).
-export function strip_controls(command) {
+export function strip_controls({ command }) {
   let strip = { scenes: 0, place: 0, playing: false };
   let known = -1;  // how many scenes the list shows
 
