@@ -66,7 +66,7 @@ Json PreviewSession::apply(const Json& command) {
 }
 
 std::shared_ptr<const page::PackedFrame> PreviewSession::figure(const std::function<bool()>& stop) {
-  return tables_.packed(exporter_.context.scene.value_or(Scene{}), state_, molecule_, stop);
+  return tables_.packed(state_, molecule_, stop);
 }
 
 Json PreviewSession::carry_out(const Json& json) {

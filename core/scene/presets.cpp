@@ -26,7 +26,8 @@ void take_preset(Scene& scene) {
   const std::string place =
       scene.picture.zoom_to ? scene.picture.zoom_to->text() : fmt::format("first ({})", preset.needs);
   std::string lack;
-  if (!scene.picture.zoom_to) lack = message("has no {}, which @preset {}@ shows", in_quotes(preset.needs), preset.word);
+  if (!scene.picture.zoom_to)
+    lack = message("has no {}, which @preset {}@ shows", in_quotes(preset.needs), preset.word);
   if (!lack.empty() && preset.sets("camera.zoom_to")) lack += message("; @zoom-to EXPR@ names other atoms");
   const bool has_camera = !scene.picture.camera_file.empty() || !scene.run_camera.path_file.empty();
   Scene lists;
