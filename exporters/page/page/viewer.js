@@ -278,8 +278,8 @@ class Viewer {
   async pick(x, y) {
     if (!this.caster || this.saving) return null;
     if (this.casts && this.sample < 0) { this.moving = false; const [width, height] = this.pixels(); this.draw_sample(width, height); }
-    const box = this.canvas.getBoundingClientRect();
-    const found = await this.caster.pick(Math.floor((x - box.left) * this.canvas.width / box.width), Math.floor((y - box.top) * this.canvas.height / box.height));
+    const box = this.canvas.getBoundingClientRect(), { width, height } = this.caster.canvas;
+    const found = await this.caster.pick(Math.floor((x - box.left) * width / box.width), Math.floor((y - box.top) * height / box.height));
     return found && { place: this.figure.tables?.shown[found.atom], ...found };
   }
 

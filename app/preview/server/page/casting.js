@@ -41,14 +41,14 @@ export function time_casting(viewer) {
   return { draft, rest: time_sample() * viewer.figure.samples.length };
 }
 
-const ms = (value) => value === Infinity ? "longer" : `${value < 10 ? value.toFixed(1) : Math.round(value)} ms`;
+const ms = (value) => value === Infinity ? "unknown" : `${value < 10 ? value.toFixed(1) : Math.round(value)} ms`;
 
 /// Returns who draws and why, in a sentence. times: of the browser and the program, as above.
 export function who_draws({ device, unavailable, times: { browser, program }, casts, rests }) {
   if (!device) return "The program draws: this browser has no WebGL 2.";
   if (unavailable) return unavailable;
-  const say = ({ draft, rest }) => `${ms(draft)} a draft and ${ms(rest)} at rest`;
-  if (!browser && !is_worth_timing(device, program)) return `The program draws, ${say(program)}: this browser has no graphics card (${device}).`;
+  const say = ({ draft, rest }) => `${ms(draft)} for a draft, ${ms(rest)} at rest`;
+  if (!browser && !is_worth_timing(device, program)) return `The program draws (${say(program)}): this browser has no graphics card (${device}).`;
   const who = !casts ? "The program draws" : rests ? "This browser draws" : "This browser draws while the view moves, the program at rest";
   return `${who}. This browser takes ${browser ? say(browser) : "a time not known yet"} (${device}), the program ${say(program)}.`;
 }

@@ -80,7 +80,7 @@ async function command(word, values = {}, refuse = (text) => tell(text, true)) {
   const reply = await server.ask({ command: word, ...values });
   --outstanding;
   newest = reply.revision ?? newest;
-  if (viewer?.casts && reply.revision !== undefined) follow_change(reply.revision);
+  if (viewer?.casts && word !== "camera" && reply.revision !== undefined) follow_change(reply.revision);
   note_rest();
   if (!reply.ok && reply.error) refuse(sentence_of(reply.error, word));
   else if (reply.ok && word !== "resize") forget_errors();
@@ -118,7 +118,9 @@ const has_picture = () => Boolean(shown?.full) && outstanding === 0 && shown.sta
 const is_at_rest = () => !viewer?.rests_here ? has_picture() : is_cast && due === 0 && outstanding === 0;
 function note_rest() {
   canvas.dataset.rest = String(Boolean(viewer) && is_at_rest());
-  $("pictures").hidden = Boolean(viewer?.casts) && (viewer.rests_here || !has_picture());
+  const casts = Boolean(viewer?.casts) && (viewer.rests_here || !has_picture());
+  $("pictures").hidden = casts;
+  $("labels").toggleAttribute("hidden", !casts);  // pictures of the program have theirs
 }
 
 $("take").addEventListener("click", () => server.request("control"));
@@ -258,7 +260,8 @@ function want() {
 /// Lets this browser draw, or the program, as it is due.
 function settle() {
   const casts = Boolean(device && figures > 0 && !unavailable && is_faster("draft"));
-  if (casts !== viewer.casts) viewer.show_pictures(casts ? null : pictures);
+  if (casts !== viewer.casts || !viewer.caster) viewer.show_pictures(casts ? null : pictures);
+  if (!casts) $("legend").textContent = "";  // it is of the figure that was cast
   viewer.rests_here = casts && !state.legend.on && is_faster("rest");
   $("drawn-by").textContent = who_draws({ device, unavailable, times, casts, rests: viewer.rests_here });
   note_rest();
@@ -310,7 +313,7 @@ async function show_program_picture(message, bytes) {
   show_stats(message.stats, message.full);
   // What was told while the picture was being decoded is newer.
   if (told_states === before || message.state.revision > state.revision) apply_state(message.state);
-  if ($("drawn-by").textContent === "") settle();
+  if (message.full || $("drawn-by").textContent === "") settle();
 }
 
 $("times").addEventListener("toggle", () => { $("fps").hidden = !$("times").open; });
@@ -358,9 +361,8 @@ function set_value(control, value) {
 
 /// The stage begins with the program's pictures.
 function begin(first) {
-  const { size, ...others } = { size: [first.width, first.height], origin: [0, 0, 0], labels: [], schemes: [], samples: [], number: -1 };
-  viewer = window.meniscus = new Viewer({ size, ...others, background: [1, 1, 1],
-    views: [{ camera: page_camera(first.camera), planes: [], hatching: [], opacity: 1 }] }, pictures);
+  const views = [{ camera: page_camera(first.camera), planes: [], hatching: [], opacity: 1 }];
+  viewer = window.meniscus = new Viewer({ views, size: [first.width, first.height], origin: [0, 0, 0], labels: [], schemes: [], samples: [] }, pictures);
   viewer.rests_here = false;
   viewer.rest = (whole) => { is_cast = whole; note_rest(); };
   viewer.drafted = (took) => { $("fps").textContent = a_second(1000 / took); };
