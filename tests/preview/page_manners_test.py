@@ -147,7 +147,8 @@ class PageManners(PageCase):
                 self.assertEqual(await page.evaluate(cut), [], size)
                 self.assertEqual(await page.evaluate("[...document.querySelectorAll('#panel h2')].filter((h) => "
                                                      "h.offsetParent).map((h) => h.textContent)"),
-                                 ["Surface", "Colours", "Shown", "Cut", "View", "Look", "Frames", "Film", "Times", "Write"])
+                                 ["Contents", "Surface", "Colours", "Shown", "Cut", "View", "Look", "Frames", "Film", "Times",
+                                  "Write"])
                 if size[0] > 736:
                     self.assertTrue(await page.evaluate("""[...document.querySelectorAll("#writers button")].every((one) =>
                         one.getBoundingClientRect().bottom <= window.innerHeight && one.getBoundingClientRect().top > 0)"""))
