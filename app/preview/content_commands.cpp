@@ -312,24 +312,24 @@ std::string exclusion(const Selection& selection) { return fmt::format(" and not
 
 /// Hides the surface of the selected atoms.
 void hide_surface(const Selection& selection, PreviewFigure& figure) {
-  const std::string shown = figure.show ? figure.show->text() : "all";
+  const std::string shown = figure.molecule.show ? figure.molecule.show->text() : "all";
   const bool is_list =
       shown == "all" || (shown.starts_with("all and not (") && shown.find(" or ") == std::string::npos);
-  figure.show = parse_selection((is_list ? shown : fmt::format("({})", shown)) + exclusion(selection));
+  figure.molecule.show = parse_selection((is_list ? shown : fmt::format("({})", shown)) + exclusion(selection));
 }
 
 /// Shows the surface of the selected atoms again.
 void show_surface(const Selection& selection, PreviewFigure& figure) {
-  if (std::exchange(figure.figure.hides_surface, false) || !figure.show) {
-    figure.show = selection;
+  if (std::exchange(figure.figure.hides_surface, false) || !figure.molecule.show) {
+    figure.molecule.show = selection;
     return;
   }
-  std::string shown = figure.show->text();
+  std::string shown = figure.molecule.show->text();
   const std::string part = exclusion(selection);
   if (const std::size_t at = shown.find(part); at != std::string::npos)
-    figure.show = parse_selection(shown.erase(at, part.size()));
+    figure.molecule.show = parse_selection(shown.erase(at, part.size()));
   else
-    figure.show = either(*figure.show, selection);
+    figure.molecule.show = either(*figure.molecule.show, selection);
 }
 
 /// Returns how many of the surface's atoms the expression selects, and how many of these the picture shows.
@@ -404,7 +404,7 @@ Outcome look_into(const CommandReader& command, PreviewState state, const Surrou
   std::erase_if(state.figure.cuts, [](const Cut& cut) { return cut.place == Cut::Place::before; });
   state.figure.cuts.push_back(parse_cut("before " + first.text()));
   command.naming([&] { draw_beside(selection, state, around); });
-  Scene scene = rendered_scene(context.scene.value_or(Scene{}), {state, state.size, 1, false, {}, {}, {}});
+  Scene scene = rendered_scene(state, {state.size});
   scene.picture.camera_file.clear();
   scene.picture.projection = state.camera.projection;
   scene.picture.zoom_to = first;
@@ -413,7 +413,7 @@ Outcome look_into(const CommandReader& command, PreviewState state, const Surrou
   const std::vector<bool> chosen = selection.evaluate(shown_atoms(structure));
   const auto count = static_cast<std::size_t>(std::ranges::count(chosen, true));
   if (count == 0) throw RequestError("look_into: no atom of this frame is " + in_quotes(selection.text()));
-  state.camera = context.aim(scene, state.color, structure);
+  state.camera = context.aim(scene, structure);
   state.overview = false;
   return {std::move(state), Renewal::shapes, {{"atoms", count}}};
 }
@@ -425,7 +425,7 @@ Outcome take_away(const CommandReader& command, PreviewState state, const Surrou
   if (surface_counts(selection, state, around)[1] > 0) hide_surface(selection, state);
   if (!state.figure.hides_surface && surface_counts(all, state, around)[1] == 0) {
     state.figure.hides_surface = true;
-    state.show.reset();
+    state.molecule.show.reset();
   }
   return {std::move(state), was_beside ? Renewal::shapes : Renewal::colors};
 }
@@ -436,7 +436,7 @@ Outcome bring_back(const CommandReader& command, PreviewState state, const Surro
   if (shown < count) show_surface(selection, state);
   if (count == 0) command.naming([&] { draw_beside(selection, state, around); });
   const auto [whole, seen] = surface_counts(all, state, around);
-  if (whole == seen) state.show.reset();
+  if (whole == seen) state.molecule.show.reset();
   return {std::move(state), count == 0 ? Renewal::shapes : Renewal::colors};
 }
 

@@ -22,7 +22,8 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kCamera, kShared | live)
         .excludes("camera.from"),
     text("camera.view", "--view", "SIDE",
-         "Side that faces the viewer, such as front, top or left. front: the broad side; back, bottom, right; x, "
+         "Side that faces the viewer, such as front, top or left. front: the broad side that shows more; back, bottom, "
+         "right; x, "
          "y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of @assembly@; "
          "symmetry-side: with that axis upright; open: from where the atoms of @zoom-to@ are hidden least; "
          "channel: along a channel through them. A minus sign before it shows the opposite side")
@@ -60,10 +61,10 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("1280x960; film 1920x1080, .gif 960x540")
         .in(kPicture, kShared | live | in_short_help),
     text("image.width", "--width", "LENGTH", "Width of the picture: 85mm, 8.5cm, 3.5in or 1000px")
-        .in(kPicture, kShared | in_short_help)
+        .in(kPicture, kShared | live | in_short_help)
         .excludes("image.size"),
     text("image.height", "--height", "LENGTH", "Height of the picture in the same units; auto: that of the molecule")
-        .in(kPicture, kShared)
+        .in(kPicture, kShared | live)
         .excludes("image.size"),
     text("image.margin", "--margin", "LENGTH", "Margin around the molecule of @size auto@ and @height auto@")
         .from(0, 10000)

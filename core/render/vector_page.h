@@ -52,6 +52,8 @@ struct PageLayout {
   glm::ivec2 picture_place{0}, picture_size{0};  ///< of the picture's pixels; 0: there are none
 };
 
+class PageEncoder;
+
 /// A page that is written as the rows of its pixels come. It gets its final name at the end. A pixel is 1/96 inch
 /// unless the settings give a resolution. The page is transparent unless there is a background. Its pixels are in the
 /// group "molecule". In PDF, groups are layers, and fonts are embedded as a whole, so that texts can be changed.
@@ -67,10 +69,7 @@ class PageFile {
   void commit(std::span<const PageShape> shapes);
 
  private:
-  class Encoder;
-  class SvgEncoder;
-  class PdfEncoder;
-  std::unique_ptr<Encoder> encoder_;
+  std::unique_ptr<PageEncoder> encoder_;
 };
 
 }  // namespace meniscus

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <numbers>
 #include <utility>
 
@@ -285,16 +286,30 @@ std::string still_of(const PageFigure& figure) {
 
 }  // namespace
 
-PackedFrame pack_frame(const PageFigure& figure) {
+PackedFrame pack_frame(const PageFigure& figure, Packing packing) {
   const Tables tables(figure);
   return {std::make_shared<json>(description_of(figure, tables)),
-          tables.packed(),
+          tables.packed(packing),
           figure.moment,
           {{"TITLE", markup_text(figure.title)},
            {"DESCRIPTION", markup_text(figure.description)},
            {"FACTS", facts_of(figure)},
            {"LEGEND", legend_of(figure.key)},
            {"STILL", still_of(figure)}}};
+}
+
+std::string bytes_for_page(const PackedFrame& frame, const std::set<std::string>& known) {
+  PageData data;
+  json description = *frame.description;
+  const auto put = [&](json& entry, std::size_t stride, const std::string& bytes) {
+    const std::string digest = fmt::format("{:016x}", std::hash<std::string>()(bytes));
+    entry = {nullptr, stride, digest};
+    if (!known.contains(digest)) entry[0] = data.add(bytes);
+  };
+  for (const PageTable& table : frame.tables) put(description["tables"][table.name], table.stride, table.packed);
+  put(description["names"], 1, text_of(description["names"]));
+  if (known.empty()) description["shaders"] = shaders();
+  return data.bytes(text_of(description));
 }
 
 void PageWriter::add(PackedFrame frame) {
@@ -323,7 +338,7 @@ std::size_t PageWriter::bytes() const {
   return texts + static_cast<std::size_t>(kLettersPerByte * static_cast<double>(data_.size() + described_));
 }
 
-std::string PageWriter::text() const {
+std::string PageWriter::text(const std::string& scene) const {
   json description = *first_.description;
   description["frames"] = frames_;
   description["moments"] = moments_;
@@ -334,8 +349,11 @@ std::string PageWriter::text() const {
   fill("VERSION", MENISCUS_VERSION);
   fill("POLICY", std::string(template_text(page_templates(), "policy.html")));
   fill("STYLE", fmt::format("<style>{}</style>", template_text(page_templates(), "page.css")));
-  fill("SCRIPT", fmt::format("<script>{}{}</script>", template_text(page_templates(), "first.js"),
-                             template_text(page_templates(), "second.js")));
+  std::string in_html;  // in which no "<" of a JSON text may begin a tag
+  for (const char letter : scene) in_html += letter == '<' ? std::string("\\u003c") : std::string(1, letter);
+  fill("SCRIPT",
+       fmt::format("<script type=\"application/json\" id=\"scene\">{}</script>\n<script>{}{}</script>", in_html,
+                   template_text(page_templates(), "first.js"), template_text(page_templates(), "second.js")));
   fill("BYTES", std::to_string(packed.size()));
   fill("DATA", text_of_bytes(packed));
   return filled(template_text(page_templates(), "page.html"), texts);

@@ -48,7 +48,7 @@ class ContentsSession : public SessionCase {
       figure.mark_atoms(shown);
       return read_structure(file, shown);
     };
-    context.aim = [](const Scene&, const ColorScheme&, const Structure&) {
+    context.aim = [](const Scene&, const Structure&) {
       Camera camera;
       camera.position = {0.0, 0.0, 77.0};
       return camera;

@@ -37,9 +37,9 @@ function plane_range(plane, state) {
   return { axis, sign, min: Math.floor(reach(Math.min)), max: Math.ceil(reach(Math.max)), step: 0.1, value };
 }
 
-/// Shows what the figure has, each with its controls; command(word, values) changes it. Returns show(state), and
+/// Shows what the figure has, each with its controls; command(word, values) and set(key, value) change it. Returns show(state), and
 /// forget_fault(), which takes back what was said of the atoms.
-export function figure_controls({ command, say, viewer }) {
+export function figure_controls({ command, set, say, viewer }) {
   let known = "";  // what the chips show: they are made anew when there are others, not when a slider moves
 
   const fault = (text) => {
@@ -54,8 +54,8 @@ export function figure_controls({ command, say, viewer }) {
     const act = event.submitter?.value ?? "sticks";
     if (!selection) return fault("Name some atoms first, such as: ligand");
     const [word, values] = {
-      hide: ["hide", { selection }], only: ["show", { selection }], zoom: ["zoom_to", { selection }],
-      outline: ["patches", { selection }],
+      hide: ["hide", { selection }], only: ["set", { key: "surface.show", value: selection }], zoom: ["zoom_to", { selection }],
+      outline: ["set", { key: "surface.patches", value: selection }],
       paint: ["paint", { selection, color: $("paint").value }], fade: ["opacity", { selection, opacity: 0.4 }],
       surface: ["object", { object: { selection, color: $("paint").value } }],
     }[act] ?? ["represent", { as: act, selection }];
@@ -140,12 +140,12 @@ export function figure_controls({ command, say, viewer }) {
     if (state.show !== null) {
       const what = `surface of ${state.show}`;
       list.push(element("li", {}, element("span", { textContent: what }),
-        remove_button(what, () => command("show"))));
+        remove_button(what, () => set("surface.show", null))));
     }
     if (state.patches.selection !== null) {
       const what = `patches of ${state.patches.selection}`;
       list.push(element("li", {}, element("span", { textContent: what }),
-        remove_button(what, () => command("patches"))));
+        remove_button(what, () => set("surface.patches", null))));
     }
     state.representations.forEach(({ as, selection }, n) => list.push(chip(`${as}: ${selection}`, "representations", n)));
     state.objects.forEach((object, n) => list.push(object_chip(object, n)));
@@ -198,7 +198,6 @@ export function figure_controls({ command, say, viewer }) {
       $("chips").replaceChildren(...chips(state));
       $("kept-views").replaceChildren(...views(state));
     }
-    $("surface-shown").checked = !state.surface_hidden;
     $("surface-shown").parentElement.hidden = state.representations.length + state.objects.length === 0;
     const of_all = state.opacities.find((rule) => rule.selection === undefined), cut = state.cuts[slider_cut(state)];
     if ($("opacity") !== document.activeElement) $("opacity").value = 100 * (of_all?.opacity ?? 1);

@@ -63,8 +63,8 @@ const tells_only = new Set(["pick", "export", "export_state", "cancel_export", "
 const changes_state = new Set(["key", "save_view", "forget_view", "keep_scene", "forget_scene", "play", "pause", "save"]);
 let last_change = 0;
 
-/// What an error says, without the word of its command, which is a program's and no reader's.
-const sentence_of = (error, word) => error.startsWith(`${word}: `) ? error.slice(word.length + 2) : error;
+/// What an error says, without the words of its command and its property, which are a program's and no reader's.
+const sentence_of = (error, word) => error.replace(new RegExp(`^${word}: ([a-z]+\\.[a-z_]+: )?`), "");
 
 /// Carries out a command; a refusal is said, to the controls it came from if they can tell it. Returns the reply, or
 /// null.
@@ -87,6 +87,9 @@ async function command(word, values = {}, refuse = (text) => tell(text, true)) {
   if (reply.ok && reply.revision === undefined && changes_state.has(word)) ask_state();
   return reply.ok ? reply : null;
 }
+
+/// Sets a property; if that is refused the controls show again what there is.
+const set = (key, value) => command("set", { key, value }).then((reply) => { if (!reply && state) apply_state(state); });
 
 /// Asks the program what it has, with the camera that is seen here.
 function ask(question) {
@@ -345,7 +348,7 @@ new ResizeObserver(fit).observe(stage);
 
 // State
 
-const context = { command, ask, say: (text, is_error) => tell(text, is_error), viewer: () => viewer };
+const context = { command, set, ask, say: (text, is_error) => tell(text, is_error), viewer: () => viewer };
 const figure = figure_controls(context);
 const properties = property_controls(context);
 const show_strip = strip_controls(context);
@@ -395,8 +398,7 @@ function apply_state(next) {
   document.querySelector("h1").textContent = name;
   $("file").textContent = `${next.atoms.toLocaleString("en")} atoms`;
   $("probe").disabled = $("probe-number").disabled = next.surface === "vdw";
-  set_value($("probe"), next.probe_radius);
-  set_value($("probe-number"), Number(next.probe_radius.toFixed(3)));
+  properties.show(next, set_value);
   set_value($("scheme"), next.color.scheme);
   set_value($("map"), next.color.map ?? "");
   $("map-row").hidden = $("range-row").hidden = !numbered.has(next.color.scheme);
@@ -446,17 +448,19 @@ function fill_choices(choices) {
 
 // Controls
 
-const set = (key, value) => command("set", { key, value });
 const set_probe = (radius) => { if (Number.isFinite(radius)) set("surface.probe", Math.round(radius * 1000) / 1000); };
 $("probe").addEventListener("input", (event) => set_probe(event.target.valueAsNumber));
 $("probe-number").addEventListener("change", (event) => set_probe(event.target.valueAsNumber));
 
-const set_color = (key, value) => set(key, value).then((reply) => reply ?? apply_state(state));
 $("scheme").addEventListener("change", () =>
-  set_color("surface.color", [$("scheme").value, ...state.values["surface.color"].filter((entry) => entry.includes("="))]));
-$("range").addEventListener("change", () => set_color("surface.color_range", $("range").value.trim() || null));
-$("map").addEventListener("change", () => set_color("surface.map", $("map").value || null));
-$("kinds").addEventListener("change", (event) => command("patch_kinds", { on: event.target.checked }));
+  set("surface.color", [$("scheme").value, ...state.values["surface.color"].filter((entry) => entry.includes("="))]));
+$("range").addEventListener("change", () => set("surface.color_range", $("range").value.trim() || null));
+$("map").addEventListener("change", () => set("surface.map", $("map").value || null));
+let beneath_kinds = "auto";  // the colours before kinds of patch were shown
+$("kinds").addEventListener("change", (event) => {
+  if (event.target.checked) beneath_kinds = state.values["surface.color"];
+  set("surface.color", event.target.checked ? "kind" : beneath_kinds);
+});
 $("projection").addEventListener("change", (event) => set_projection(viewer, event.target.value === "orthographic"));
 $("background").addEventListener("input", (event) => set("image.background", event.target.value));
 for (const [id, key] of [["shade", "a"], ["lines", "l"]]) $(id).addEventListener("change", () => command("press", { key }));
@@ -534,7 +538,8 @@ $("write").addEventListener("submit", async (event) => {
   follow_export();
 });
 $("open-scene").addEventListener("click", async () => {
-  const reply = await command("open", { path: `${$("export-name").value}.json` });
+  const name = $("export-name").value;
+  const reply = await command("open", { path: /\.(json|png|tiff?|jpe?g|html)$/.test(name) ? name : `${name}.json` });
   if (reply) tell(`Opened: ${reply.path}`);
 });
 
