@@ -398,7 +398,8 @@ function apply_state(next) {
   document.querySelector("h1").textContent = name;
   $("file").textContent = `${next.atoms.toLocaleString("en")} atoms`;
   $("probe").disabled = $("probe-number").disabled = next.surface === "vdw";
-  properties.show(next, set_value);
+  set_value($("probe"), next.probe_radius);
+  set_value($("probe-number"), Number(next.probe_radius.toFixed(3)));
   set_value($("scheme"), next.color.scheme);
   set_value($("map"), next.color.map ?? "");
   $("map-row").hidden = $("range-row").hidden = !numbered.has(next.color.scheme);
