@@ -111,7 +111,7 @@ class Selecting(PageCase):
                     await page.at_rest()
                     # The middle of the pixels of its colour.
                     off, count = await page.evaluate("""(() => {
-                        const canvas = document.getElementById('picture'), {width, height} = canvas;
+                        const canvas = document.getElementById('pictures'), {width, height} = canvas;
                         const {data} = canvas.getContext('2d').getImageData(0, 0, width, height);
                         const ring = document.querySelector('#rings circle');
                         const [cx, cy] = ['cx', 'cy'].map((name) => Number(ring.getAttribute(name)));
