@@ -311,7 +311,7 @@ class PageManners(PageCase):
             await self.press(page, " ")
             await page.until(f"{shown}.patch_kinds")
             self.assertFalse((await self.state(page))["playing"])
-            await page.evaluate("document.getElementById('atoms').focus()")
+            await page.evaluate("document.getElementById('by-words').open = true, document.getElementById('atoms').focus()")
             await self.press(page, "l")
             await page.until("document.getElementById('atoms').value === 'l'")
             await page.evaluate("document.activeElement.blur()")

@@ -198,6 +198,7 @@ export function figure_controls({ command, set, say, viewer }) {
       $("chips").replaceChildren(...chips(state));
       $("kept-views").replaceChildren(...views(state));
     }
+    $("surface-shown").checked = !state.surface_hidden;
     $("surface-shown").parentElement.hidden = state.representations.length + state.objects.length === 0;
     const of_all = state.opacities.find((rule) => rule.selection === undefined), cut = state.cuts[slider_cut(state)];
     if ($("opacity") !== document.activeElement) $("opacity").value = 100 * (of_all?.opacity ?? 1);

@@ -141,10 +141,11 @@ function file_camera() {
 
 function tell_camera() {
   clearTimeout(camera_timer);
-  if (!viewer || !controls) return;
-  const camera = file_camera(), text = JSON.stringify(camera);
-  if (text === told_text) return;
+  if (!viewer) return;
+  if (!controls) viewer.camera = page_camera(state.camera, viewer.camera, viewer.figure.origin);  // who looks on turns nothing
+  const camera = file_camera(), text = JSON.stringify(camera), is_told = text === told_text;
   told_text = text;
+  if (is_told || !controls) return;
   ++flights;
   command("camera", { camera }).then(() => { --flights; if (viewer.casts) want(); else tell_camera(); });
 }
@@ -397,7 +398,8 @@ function apply_state(next) {
   document.querySelector("h1").textContent = name;
   $("file").textContent = `${next.atoms.toLocaleString("en")} atoms`;
   $("probe").disabled = $("probe-number").disabled = next.surface === "vdw";
-  properties.show(next, set_value);
+  set_value($("probe"), next.probe_radius);
+  set_value($("probe-number"), Number(next.probe_radius.toFixed(3)));
   set_value($("scheme"), next.color.scheme);
   set_value($("map"), next.color.map ?? "");
   $("map-row").hidden = $("range-row").hidden = !numbered.has(next.color.scheme);

@@ -55,7 +55,7 @@ export function property_controls({ command }) {
       const value = values[key] ?? "";
       if (control === document.activeElement && control.type !== "checkbox" && control.type !== "range") continue;
       if (control.type === "checkbox") control.checked = value;
-      else if (control.type !== "color") control.value = value;
+      else if (control.type !== "color") control.value = typeof value === "number" ? Number(value.toPrecision(4)) : value;
       else if (hex_of(value)) control.value = hex_of(value);
     }
   }
