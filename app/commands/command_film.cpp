@@ -134,7 +134,7 @@ TakenProperties film_properties() {
                       "frames.chroma", "image.size", "image.samples", "image.background", "picture.any_cost",
                       "annotations.letter_size", "annotations.letter_color", "annotations.font",
                       "annotations.font_file", "output.file", "output.force", "scene.trust"},
-                     {film_need()});
+                     {film_need(), fixed_size_need()});
 }
 
 void run(const DeclaredFilm& declared) {

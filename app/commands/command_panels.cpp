@@ -208,9 +208,10 @@ void run_looks(DeclaredPanels& declared) {
 void add_looks(CLI::App& command) {
   describe(command, "  meniscus looks 1tii.pdb\n  meniscus looks complex.pdb --zoom-to 'resname ATP' -o atp.png");
   auto declared = std::make_shared<DeclaredPanels>(
-      command, TakenProperties{"molecule.file", "molecule.select", "molecule.assembly", "molecule.warnings",
-                               "molecule.quiet", "Computing", "-surface.verify", "surface.color", "camera.zoom_to",
-                               "image.size", "image.samples", "image.background", "output.file", "output.force"});
+      command, TakenProperties({"molecule.file", "molecule.select", "molecule.assembly", "molecule.warnings",
+                                "molecule.quiet", "Computing", "-surface.verify", "surface.color", "camera.zoom_to",
+                                "image.size", "image.samples", "image.background", "output.file", "output.force"},
+                               {fixed_size_need()}));
   declared->options.describe_output("Picture to write [FILE's name here, as _looks.png]", OutputName::optional);
   declared->options.option("image.size")->description("Size of the page in pixels [640x480 for each look]");
   command.callback([declared] {
@@ -233,7 +234,8 @@ void add_panels(CLI::App& command) {
       shared.with({"molecule.superpose_on", "molecule.warnings", "molecule.quiet", "annotations.letter_size",
                    "annotations.letter_color", "annotations.font", "annotations.font_file", "image.size", "image.width",
                    "image.height", "image.dpi", "image.samples", "image.background", "image.tiff_compression",
-                   "image.tiff_bits", "picture.any_cost", "output.file", "output.force", "scene.trust"}));
+                   "image.tiff_bits", "picture.any_cost", "output.file", "output.force", "scene.trust"},
+                  {fixed_size_need()}));
   PanelsCommand& state = declared->state;
   declared->options.describe_output("Picture to write: .png, .jpg, .webp, .tif, .svg, .pdf");
   PropertyOptions options(command);

@@ -66,6 +66,7 @@ void make_draft(Scene& scene) {
   for (std::optional<int>* const height :
        {&letters.all, &letters.labels, &letters.scale_bar, &letters.panel, &scene.legend.style.letters})
     if (*height) *height = std::max(**height / 2, kLeastLetter);
+  letters.border /= 2;
   LookRequest& look = scene.look;
   for (std::optional<float>* const width : {&look.silhouettes, &look.outer_lines, &look.inner_lines, &look.part_lines})
     if (*width) *width = **width / 2.0f;

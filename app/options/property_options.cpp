@@ -81,7 +81,8 @@ const TakenProperties& figure_properties() {
   static const TakenProperties taken =
       shown_properties().with({}, {{{"image.dpi"},
                                     {"image.width", "image.height"},
-                                    "the size is in pixels; add --width or --height with a length, such as 85mm"}});
+                                    "the size is in pixels; add --width or --height with a length, such as 85mm"},
+                                   fixed_size_need()});
   return taken;
 }
 
@@ -90,6 +91,13 @@ const TakenProperties& render_properties() {
       {"Surface", "Figure", "Film", "Light", "Lines", "-look.material", "Picture", "Legend", "Labels"},
       {film_need(), {{"frames.fps"}, is_film, "the output is not a film"}});
   return taken;
+}
+
+Need fixed_size_need() {
+  return {{"image.size", "image.height"},
+          [](const GivenScene& given) { return !given.scene.picture.fits; },
+          "auto is for `meniscus render`; give a size",
+          true};
 }
 
 Need film_need() {

@@ -57,6 +57,8 @@ const TakenProperties& figure_properties();
 /// Returns the properties of `meniscus render`.
 const TakenProperties& render_properties();
 
+/// Returns the condition of commands whose pictures cannot end at their molecule: the size is not `auto`.
+Need fixed_size_need();
 /// Returns the condition of options for films: the output must be a film.
 Need film_need();
 /// Returns the condition of options that turn and move frames, which have no effect on areas and volumes. Each command

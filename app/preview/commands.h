@@ -102,6 +102,9 @@ ColorScheme previewed_scheme(ColorScheme chosen, const ColorScheme& before, cons
 /// What the command "state" answers.
 Service get_state;
 
+/// Returns the selections of an atom in the picture, of its residue, and of its chain or kind of molecule.
+nlohmann::json place_selections(const Atom& atom, const ShownMolecule& molecule);
+
 // What the rows name, by file.
 Reducer orbit, pan, zoom, roll, zoom_to, center, reset_view, set_camera, save_view, recall_view, forget_view,
     show_frame, next_frame, set_key, follow_keys, play, pause, resize;  // camera_commands.cpp
@@ -113,6 +116,8 @@ Outcome next_of_strip(PreviewState state, const Surroundings& around);
 Reducer keep_scene, forget_scene, show_strip;                                             // strip_commands.cpp
 Reducer undo, redo, end_step, quit;                                                       // commands.cpp
 Translator press;                                                                         // commands.cpp
+Reducer look_into, take_away, bring_back;                                                 // content_commands.cpp
+Service get_contents, locate;                                                             // content_commands.cpp
 Service get_stats, get_choices, pick;                                                     // question_commands.cpp
 Service export_view, export_state, cancel_export, save_scene, get_scene, render_command;  // export_commands.cpp
 Reducer open_scene;                                                                       // export_commands.cpp

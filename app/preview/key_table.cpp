@@ -22,6 +22,9 @@ constexpr double kUsualSilhouettes = 1.5;  // pixels
 
 /// Keys of the program. Those that pages have, too, are in the stage's own list (exporters/page/page/page.html).
 constexpr KeyHelp kHelp[] = {
+    {"click", "select the atom; twice: its residue, three times: its chain"},
+    {"Shift and click", "select one more"},
+    {"Escape", "select nothing"},
     {"Z  Y", "undo, redo"},
     {"[  ]", "probe radius by 0.1 \xc3\x85"},
     {"1 2 3 ...", "colour scheme"},

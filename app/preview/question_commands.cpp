@@ -214,11 +214,25 @@ glm::ivec2 pixel_of(const CommandReader& command, const PreviewState& state) {
   return {command.integer("x", 0, state.size.x - 1), command.integer("y", 0, state.size.y - 1)};
 }
 
+namespace {
+
+/// Returns what a pixel shows, or an atom by its place in the picture's atoms.
+std::optional<PickedPoint> point_of(const CommandReader& command, const Surroundings& around) {
+  const ShownMolecule& molecule = around.molecule;
+  if (!command.has("place")) return around.pictures.pick(around.state, molecule, pixel_of(command, around.state));
+  const std::vector<Atom> atoms = molecule.atoms_in_view();
+  const int place = command.integer("place", 0, static_cast<int>(atoms.size()) - 1);
+  const std::uint32_t object = static_cast<std::size_t>(place) < molecule.atoms().size() ? 0 : 1;
+  return PickedPoint{static_cast<std::uint32_t>(place), {}, atoms[static_cast<std::size_t>(place)].position, object, 0};
+}
+
+}  // namespace
+
 Json pick(const CommandReader& command, const Surroundings& around) {
   const PreviewState& state = around.state;
   const ShownMolecule& molecule = around.molecule;
   const bool waits = command.flag_or(true, "wait"), area_wanted = command.flag_or(true, "area");
-  const std::optional<PickedPoint> point = around.pictures.pick(state, molecule, pixel_of(command, state));
+  const std::optional<PickedPoint> point = point_of(command, around);
   if (!point) return {{"hit", false}};
   const bool has_copies = !molecule.structure().instances.empty();
   const bool of_molecule = point->object == 0 || has_copies;
@@ -227,6 +241,7 @@ Json pick(const CommandReader& command, const Surroundings& around) {
   Json reply = atom_json(molecule.atom_in_view(point->atom));
   reply["hit"] = true;
   reply["kind"] = point->kind ? kind_word(*point->kind) : of_surface ? "cap" : "shape";
+  reply["selections"] = place_selections(molecule.atom_in_view(point->atom), molecule);
   reply["position"] = {point->position.x, point->position.y, point->position.z};
   if (has_copies) reply["copy"] = point->copy + 1;
   reply["exposed_area"] = nullptr;

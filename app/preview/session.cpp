@@ -15,6 +15,13 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// True if a cut depends on the camera.
+bool follows_view(const FigureRequest& figure) {
+  const auto is_of_view = [](const Cut& cut) { return cut.direction == glm::dvec3(0.0); };
+  const auto has_such = [&](const FigureObjectRequest& object) { return std::ranges::any_of(object.cuts, is_of_view); };
+  return std::ranges::any_of(figure.cuts, is_of_view) || std::ranges::any_of(figure.objects, has_such);
+}
+
 /// A replay waits for each export to end.
 Json recorded(Json command) {
   if (command_word(command) == "export") command.erase("wait");
@@ -58,6 +65,10 @@ Json PreviewSession::apply(const Json& command) {
   }
 }
 
+std::shared_ptr<const page::PackedFrame> PreviewSession::figure(const std::function<bool()>& stop) {
+  return tables_.packed(state_, molecule_, stop);
+}
+
 Json PreviewSession::carry_out(const Json& json) {
   const CommandReader reader(json);
   const Command& command = row_of(reader);
@@ -97,6 +108,7 @@ Json PreviewSession::become(const Command& command, const std::function<Outcome(
   pictures_.take(next.state, molecule_, next.renewal, moves);
   if (command.makes_picture()) next.reply["revision"] = ++next.state.revision;
   note(command, next);
+  if (next.renewal != Renewal::nothing || follows_view(next.state.figure)) figure_revision_ = next.state.revision;
   state_ = std::move(next.state);
   return std::move(next.reply);
 }
@@ -128,6 +140,11 @@ constexpr auto kPause = 60ms;      // of the hand, until the draft gets its full
 constexpr auto kPatience = 400ms;  // with drafts of a surface that nobody wants any more
 constexpr LiveView::Clock::duration kRest = 150ms, kLongestRest = 1500ms;
 
+/// True if another surface is wanted than the one that has been in the making since `begin`.
+bool is_unwanted(LiveView::Clock::time_point begin, const std::function<Change()>& waiting) {
+  return LiveView::Clock::now() - begin > kPatience && waiting() == Change::surface;
+}
+
 }  // namespace
 
 LiveView::LiveView(PreviewSession& session)
@@ -151,10 +168,7 @@ void LiveView::note_change() {
 
 bool LiveView::draw(Quality quality, const std::function<Change()>& waiting) {
   const Clock::time_point begin = Clock::now();
-  const auto stop = [&] {
-    if (quality != Quality::draft) return waiting() != Change::none;
-    return Clock::now() - begin > kPatience && waiting() == Change::surface;
-  };
+  const auto stop = [&] { return quality != Quality::draft ? waiting() != Change::none : is_unwanted(begin, waiting); };
   try {
     const bool whole = session_.render(quality, stop);
     if (!whole) return false;
@@ -169,6 +183,10 @@ bool LiveView::draw(Quality quality, const std::function<Change()>& waiting) {
   if (quality == Quality::plain) plain_cost_ = cost;
   if (quality == Quality::full) rest_ = std::clamp(cost, kRest, kLongestRest);
   return true;
+}
+
+std::shared_ptr<const page::PackedFrame> LiveView::figure(const std::function<Change()>& waiting) {
+  return session_.figure([begin = Clock::now(), &waiting] { return is_unwanted(begin, waiting); });
 }
 
 std::optional<Quality> LiveView::drawn() const {

@@ -18,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/preview/command_json.h"
+#include "app/preview/figure_tables.h"
 #include "app/preview/preview_state.h"
 #include "app/preview/shown_molecule.h"
 #include "app/preview/view_cache.h"
@@ -55,6 +56,11 @@ class PreviewSession {
   /// Whether atoms alone should be shown first: see ViewCache.
   bool wants_balls() const { return pictures_.wants_balls(state_, molecule_); }
   bool is_drawn(Quality quality) const { return pictures_.is_drawn(state_, quality); }
+  /// Returns the figure for pages that cast it: see FigureTables.
+  std::shared_ptr<const page::PackedFrame> figure(const std::function<bool()>& stop = {});
+  /// The revision of the state in which the figure became what it is. The camera alone changes no figure, unless a cut
+  /// follows it.
+  std::uint64_t figure_revision() const { return figure_revision_; }
   std::vector<std::uint8_t> rgba() const { return pictures_.rgba(); }
   glm::ivec2 picture_size() const { return pictures_.size(); }
 
@@ -74,10 +80,11 @@ class PreviewSession {
   PreviewState state_;
   ShownMolecule molecule_;
   ViewCache pictures_;
+  FigureTables tables_;
   Exporter exporter_;
   EditHistory history_;
   PreviewState first_;  ///< as it began
-  std::uint64_t last_edition_ = 0;
+  std::uint64_t last_edition_ = 0, figure_revision_ = 1;
   std::function<void(const nlohmann::json&)> sink_;
 };
 
@@ -102,6 +109,9 @@ class LiveView {
   /// moves, or nothing would be seen of a long drag, and is given up late, for another surface only; better pictures
   /// for any change. False: it was given up, or it cannot be drawn (fault). Throws GpuError.
   bool draw(Quality quality, const std::function<Change()>& waiting);
+  /// Returns the figure for pages that cast it; nullptr if it was given up, which it is as late as a draft. Throws what
+  /// FigureTables throws.
+  std::shared_ptr<const page::PackedFrame> figure(const std::function<Change()>& waiting);
 
   /// Without a change for so long a picture of this quality is begun. A full one is rested for as long as it may take,
   /// for it stops between samples only.

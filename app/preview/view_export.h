@@ -137,6 +137,8 @@ struct Exporter {
   std::optional<std::uint64_t> job_edition{};  ///< of the figure whose scene the job writes; nothing: it writes none
   std::uint64_t saved = 0;                     ///< the edition of the figure that a file has
   bool all_recorded = false;                   ///< a log has every command
+  /// The molecule with all atoms of its file, once something has needed them; nullptr before.
+  std::shared_ptr<const Structure> everything{};
 
   /// Whether the end of the preview loses nothing of the figure but its camera.
   bool keeps(const PreviewFigure& figure) const {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -397,6 +398,58 @@ class Window {
 };
 
 }  // namespace
+
+bool shows_more_behind(const ViewBasis& view, std::span<const Ball> balls, std::span<const std::uint32_t> group) {
+  constexpr double kAcross = 160.0, kClearly = 0.03;
+  glm::dvec2 low(std::numeric_limits<double>::max()), high(-low);
+  const auto middle_of = [&](const Ball& ball) {
+    return glm::dvec2(glm::dot(ball.center, view.right), glm::dot(ball.center, view.up));
+  };
+  for (const Ball& ball : balls) {
+    low = glm::min(low, middle_of(ball) - ball.radius);
+    high = glm::max(high, middle_of(ball) + ball.radius);
+  }
+  const double pixel = std::max(0.5, std::max(high.x - low.x, high.y - low.y) / kAcross);
+  const glm::ivec2 size = glm::ivec2((high - low) / pixel) + 1;
+  struct Pixel {
+    std::array<double, 2> depth{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+    std::array<std::uint32_t, 2> group{kCountedGroups, kCountedGroups};  // nearest from the front and from behind
+    std::uint64_t covered_by = 0;                                        // one bit per group
+  };
+  std::vector<Pixel> pixels(static_cast<std::size_t>(size.x) * size.y);
+  for (std::size_t b = 0; b < balls.size(); ++b) {
+    const glm::dvec2 middle = (middle_of(balls[b]) - low) / pixel;
+    const double radius = balls[b].radius / pixel, depth = glm::dot(balls[b].center, view.forward) / pixel;
+    const glm::ivec2 first(glm::max(middle - radius, 0.0)), last = glm::min(glm::ivec2(middle + radius), size - 1),
+                                                            own(middle);
+    for (int y = first.y; y <= last.y; ++y)
+      for (int x = first.x; x <= last.x; ++x) {
+        const glm::dvec2 from = glm::dvec2(x + 0.5, y + 0.5) - middle;
+        const double square = radius * radius - glm::dot(from, from);
+        if (square < 0.0 && glm::ivec2(x, y) != own) continue;
+        Pixel& seen = pixels[static_cast<std::size_t>(y) * size.x + x];
+        const double half = std::sqrt(std::max(square, 0.0));
+        for (const int side : {0, 1}) {
+          const double front = (side == 0 ? depth : -depth) - half;
+          if (front >= seen.depth[side]) continue;
+          seen.depth[side] = front;
+          seen.group[side] = group[b];
+        }
+        if (group[b] < kCountedGroups) seen.covered_by |= std::uint64_t{1} << group[b];
+      }
+  }
+  std::array<std::array<double, kCountedGroups + 1>, 3> area{};  // seen from the front, from behind, and alone
+  for (const Pixel& seen : pixels) {
+    for (const int side : {0, 1}) ++area[side][seen.group[side]];
+    for (std::uint64_t bits = seen.covered_by; bits != 0; bits &= bits - 1) ++area[2][std::countr_zero(bits)];
+  }
+  double gain = 0.0, most = 0.0;
+  for (std::size_t g = 0; g < kCountedGroups; ++g) {
+    gain += std::sqrt(area[1][g]) - std::sqrt(area[0][g]);
+    most += std::sqrt(area[2][g]);
+  }
+  return gain > kClearly * most;
+}
 
 OpenDepth open_depth(std::span<const Ball> seen, std::span<const Ball> all, const Camera& camera) {
   std::vector<Ball> drawn(seen.begin(), seen.end());

@@ -66,6 +66,12 @@ glm::dvec3 across(const glm::dvec3& axis) {
 
 ViewBasis opposite_of(const ViewBasis& basis) { return {-basis.right, basis.up, -basis.forward}; }
 
+/// Returns the axes of the broad side, or of the opposite one if the viewer looks rather in that direction.
+ViewBasis usual_side(const ViewedBalls& balls) {
+  const ViewBasis broad = broad_side(balls.shown);
+  return balls.forward && glm::dot(*balls.forward, broad.forward) < 0.0 ? opposite_of(broad) : broad;
+}
+
 }  // namespace
 
 ViewBasis view_basis(const ViewDirection& direction, const ViewedBalls& balls) {
@@ -91,7 +97,7 @@ ViewBasis view_basis(const ViewDirection& direction, const ViewedBalls& balls) {
     toward[direction.axis] = sign;
     return facing(toward, direction.axis == 1 ? -sign * z : y);
   }
-  const ViewBasis broad = broad_side(balls.shown);
+  const ViewBasis broad = usual_side(balls);
   if (direction.axis == 0) return facing(sign * broad.right, broad.up);
   if (direction.axis == 1) return facing(sign * broad.up, sign * broad.forward);
   return facing(-sign * broad.forward, broad.up);
@@ -228,7 +234,7 @@ std::optional<Camera> given_camera(const ViewRequest& request) {
 
 ViewBasis aimed_basis(const ViewRequest& request, const std::optional<Camera>& given, const ViewedBalls& balls) {
   if (given) return turned(view_basis(*given), request.turns);
-  if (!request.direction) return turned(broad_side(balls.shown), request.turns);
+  if (!request.direction) return turned(usual_side(balls), request.turns);
   return turned(view_basis(*request.direction, balls), request.turns);
 }
 

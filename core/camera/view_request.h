@@ -81,6 +81,8 @@ struct ViewedBalls {
   std::span<const Ball> shown;         ///< all shown balls; at least one
   std::span<const Ball> framed;        ///< balls that should fill the picture; at least one
   std::optional<glm::dvec3> symmetry;  ///< axis of an assembly, needed for directions of symmetry
+  /// The direction in which the viewer looks at the broad side, to tell it from the opposite one; nothing: towards -z.
+  std::optional<glm::dvec3> forward{};
 };
 
 /// Returns the axes of the picture from that side. The up direction is: for file axes y, but z for ±y so that +x stays

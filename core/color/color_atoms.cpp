@@ -46,7 +46,8 @@ std::vector<glm::vec3> by_chain(const Structure& structure, By by) {
 }
 
 std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& scheme) {
-  const By by = resolved_scheme(structure, scheme.by);
+  if (scheme.by == By::automatic) return colors_of(structure, resolved_scheme(structure, scheme));
+  const By by = scheme.by;
   if (by == By::chain || by == By::chain_element || by == By::chain_okabe_ito) return by_chain(structure, by);
   std::vector<glm::vec3> colors;
   colors.reserve(structure.atoms.size());

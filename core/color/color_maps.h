@@ -29,6 +29,7 @@ enum class ColorMap : std::uint8_t {
   ylorrd,
   consurf,
   rainbow,
+  pastel,
   categorical
 };
 

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -28,7 +29,9 @@ using By = ColorScheme::By;
 
 constexpr ColorSchemeMetadata kSchemes[] = {
     {"auto", By::automatic,
-     "chain, or element for small molecules; sticks, balls and spheres as chain-element. The default", ""},
+     "chain; rainbow in pastel for a single chain, element-cpk for small molecules; sticks, balls and spheres as "
+     "chain-element. The default",
+     ""},
     {"element", By::element, "chemical element in pale colours",
      "hues of element-cpk with white, so that carbon is #c8c8c8"},
     {"chain", By::chain, "chains in order of appearance, 30 colours in turn",
@@ -96,11 +99,29 @@ std::map<std::string, std::size_t> places_of_chains(const Structure& structure) 
 
 std::span<const ColorSchemeMetadata> color_schemes() { return kSchemes; }
 
-ColorScheme::By resolved_scheme(const Structure& structure, By scheme) {
-  if (scheme != By::automatic) return scheme;
+namespace {
+
+/// True if all polymers of a structure are one chain at one place.
+bool has_one_chain(const Structure& structure) {
+  std::set<std::tuple<std::int32_t, std::uint32_t, std::string_view>> chains;
+  for (const std::vector<Atom>* const atoms : {&structure.atoms, &structure.extra_atoms})
+    for (const Atom& atom : *atoms)
+      if (atom.kind == AtomClass::polymer) chains.emplace(atom.model, atom.copy, atom.chain);
+  return chains.size() == 1 &&
+         std::ranges::all_of(structure.instances, [](const Instances& placed) { return placed.motions.size() == 1; });
+}
+
+}  // namespace
+
+ColorScheme resolved_scheme(const Structure& structure, ColorScheme scheme) {
+  if (scheme.by != By::automatic) return scheme;
   const auto any = [&](auto is_of) { return std::ranges::any_of(structure.atoms, is_of); };
   const bool polymer = any([](const Atom& atom) { return atom.kind == AtomClass::polymer; });
-  return polymer || !any([](const Atom& atom) { return atom.element != 0; }) ? By::chain : By::element;
+  scheme.by = polymer || !any([](const Atom& atom) { return atom.element != 0; }) ? By::chain : By::element_cpk;
+  if (!polymer || !has_one_chain(structure)) return scheme;
+  scheme.by = By::rainbow;
+  if (!scheme.map) scheme.map = ColorMap::pastel;
+  return scheme;
 }
 
 bool ColorScheme::uses_scale() const {

@@ -125,9 +125,10 @@ struct ColorSchemeMetadata {
 /// Returns all schemes but the fixed colour, in the order of the help.
 std::span<const ColorSchemeMetadata> color_schemes();
 
-/// Returns the scheme that By::automatic means for these atoms: `chain` if some belong to a polymer or if none has a
-/// known element, else `element`. Returns any other scheme as it is.
-ColorScheme::By resolved_scheme(const Structure& structure, ColorScheme::By scheme);
+/// Returns the scheme that By::automatic means for these atoms: `rainbow` in ColorMap::pastel if all their polymers are
+/// one chain, `chain` if they are several or if no atom has a known element, else `element_cpk`. Returns any other
+/// scheme as it is.
+ColorScheme resolved_scheme(const Structure& structure, ColorScheme scheme);
 
 /// Parses "auto", "element", ..., "file", "atom" (the same as "index") or a colour that parse_color reads; nothing for
 /// any other text.

@@ -75,7 +75,7 @@ constexpr auto kTable = std::to_array<Property>({
     text("annotations.labels", "--label", "EXPR=TEXT",
          "Write TEXT at these atoms, with a line to their centre. Repeatable")
         .in(kLabels, kShared | live | repeatable | in_short_help),
-    flag("annotations.lengths", "--hide-lengths", "Write no lengths beside dashed lines")
+    flag("annotations.lengths", "--hide-lengths", "Write no lengths next to dashed lines")
         .in(kLabels, kShared | live | negated),
     flag("annotations.time_stamp", "--time-stamp", "Write the time of each frame in ps, ns or µs, or else its number")
         .in(kLabels, kShared),

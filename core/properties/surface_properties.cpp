@@ -65,9 +65,10 @@ constexpr auto kTable = std::to_array<Property>({
     flag("surface.verify", "--verify", "Compute on GPU and CPU, and report every difference").in(kDevice, in_bundle),
 
     text("surface.color", "--color", "SCHEME",
-         "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: auto (chain, or element for "
-         "small molecules), element, element-cpk (darker), chain, chain-element, chain-okabe-ito, copy (of an "
-         "assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's confidence), snfg (sugars), "
+         "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: auto (chain; along a "
+         "single chain; element-cpk for small molecules), element, element-cpk (darker), chain, chain-element, "
+         "chain-okabe-ito, copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's "
+         "confidence), snfg (sugars), "
          "bead (of Martini), kind (of patch), component; by a number: bfactor, "
          "occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), "
          "relative-accessibility, index, rainbow (along each chain), radial (for capsids). EXPR=COLOR colours some "
@@ -97,8 +98,9 @@ constexpr auto kTable = std::to_array<Property>({
         .needs("surface.color_map_file"),
     text("surface.map", "--map", "MAP",
          "Colour map for numbers, such as viridis or blue-white-red. Others: cividis, magma, red-white-blue "
-         "(default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), rainbow, "
-         "categorical (each number has its own colour). blue-white-red is the default for hydrophobicity")
+         "(default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), rainbow, pastel "
+         "(rainbow in light tones), categorical (each number has its own colour). blue-white-red is the default for "
+         "hydrophobicity")
         .initially("viridis")
         .with<&Property::label>("Colour map")
         .in(kColour, kSeen | live | of_objects | in_short_help),

@@ -178,13 +178,13 @@ class Writer {
   void panel(const std::string& text) {
     begin("panel-letter");
     const int height = heights_.panel;
-    write({text, {height / 2, panel_row(heights_)}, height, Weight::bold});
+    write({text, {from_border(height / 2), panel_row(heights_, style_)}, height, Weight::bold});
   }
 
   /// Writes the title between the letter of the panel and the time, in smaller letters if the room is too small.
   void title(const std::string& text) {
     begin("title");
-    int left = heights_.usual / 2, right = size_.x - heights_.usual / 2;
+    int left = from_border(heights_.usual / 2), right = size_.x - left;
     for (const PixelBox& box : taken_) {
       const int margin = heights_.usual;
       if (2 * box.low.x < size_.x)
@@ -198,28 +198,28 @@ class Writer {
     if (width > right - left)
       throw RequestError(message("@title@: {} is {} pixels long and has {}; make it shorter, or the picture wider",
                                  in_quotes(text), width, right - left));
-    write({text, {std::clamp((size_.x - width) / 2, left, right - width), panel_row(heights_)}, height});
+    write({text, {std::clamp((size_.x - width) / 2, left, right - width), panel_row(heights_, style_)}, height});
   }
 
   void time(const std::string& text) {
     begin("time");
-    const int em = heights_.usual;
-    write({text, {size_.x - em - fonts_.at(em).width(text), em}, em});
+    const int em = heights_.usual, row = std::max(em, style_.border + em / 2);
+    write({text, {size_.x - from_border(em) - fonts_.at(em).width(text), row}, em});
   }
 
   void scale_bar(const std::optional<double>& asked) {
     begin("scale-bar");
     const double unit = angstroms_per_pixel(camera_, molecule_size_);
     const double length = asked.value_or(round_length(0.25 * size_.x * unit));
-    const int em = heights_.scale_bar, thickness = std::max(2, em / 5),
+    const int em = heights_.scale_bar, edge = from_border(em), thickness = std::max(2, em / 5),
               pixels = static_cast<int>(std::lround(length / unit));
-    if (pixels < 1 || pixels > size_.x - 2 * em)
+    if (pixels < 1 || pixels > size_.x - 2 * edge)
       throw RequestError(
           message("@scale-bar@: {:g} Å are {} pixels of {}; give another length", length, pixels, size_.x));
-    const PixelBox bar{{em, size_.y - em - thickness}, {em + pixels, size_.y - em}};
+    const PixelBox bar{{edge, size_.y - edge - thickness}, {edge + pixels, size_.y - edge}};
     strokes_.emplace_back(bar);
     const std::string text = fmt::format("{:g} Å", length);
-    const int left = std::max(em, em + (pixels - fonts_.at(em).width(text)) / 2);
+    const int left = std::max(edge, edge + (pixels - fonts_.at(em).width(text)) / 2);
     write({text, {left, bar.low.y - em}, em});
     taken_.push_back(bar);
   }
@@ -232,7 +232,8 @@ class Writer {
     const double range = greatest - least, em = heights_.usual, line = std::max(1.0, em / 12.0);
     const int decimals = range > 0.0 ? std::clamp(static_cast<int>(std::ceil(2.0 - std::log10(range))), 0, 9) : 3;
     const auto number = [&](double value) { return fmt::format("{:.{}f}", value, decimals); };
-    const glm::dvec2 high(size_.x - em, size_.y - em),
+    const int edge = from_border(heights_.usual);
+    const glm::dvec2 high(size_.x - edge, size_.y - edge),
         low(high.x - 0.3 * size_.x, high.y - curve_height(heights_, size_));
     const auto place = [&](std::size_t n) {
       const double across =
@@ -284,8 +285,9 @@ class Writer {
          em = std::min(em - 1, 9 * em / 10)) {
       const double width = label_line(em);
       // The border of the picture is as far as letters are high, that of a strip with its own margin need not be.
-      const auto margin = [em](int strip) { return strip > 0 ? strip + em / 4 : em; };
-      ground.room = {{em, margin(strips_.top)}, {size_.x - em, size_.y - margin(strips_.bottom)}};
+      const int edge = from_border(em);
+      const auto margin = [&](int strip) { return strip > 0 ? strip + em / 4 : edge; };
+      ground.room = {{edge, margin(strips_.top)}, {size_.x - edge, size_.y - margin(strips_.bottom)}};
       ground.gap = 0.5 * em;
       ground.dot = 2.0 * width;
       for (std::size_t n = 0; n < shown.size(); ++n)
@@ -328,13 +330,18 @@ class Writer {
   }
 
   static constexpr int kLeastTitle = 8;  // pixels, the smallest title
-  static int panel_row(const LetterHeights& heights) { return heights.panel; }
+  /// Returns the row of the middles of the panel's letter and the title.
+  static int panel_row(const LetterHeights& heights, const LetterStyle& style) {
+    return std::max(heights.panel, style.border + heights.panel / 2);
+  }
   static double curve_height(const LetterHeights& heights, glm::ivec2 size) {
     return std::max(3.0 * heights.usual, 0.1 * size.y);
   }
   static double label_line(int em) { return std::max(1.0, em / 14.0); }
 
  private:
+  /// Returns the distance of a text or bar from the border: `usual`, or more on paper.
+  int from_border(int usual) const { return std::max(usual, style_.border); }
   void begin(std::string_view group) { groups_.push_back({group, strokes_.size()}); }
 
   /// Returns the pixel of a point; nothing if the picture does not have it.
@@ -398,10 +405,12 @@ double round_length(double most) {
 Strips strips_for(const StripContents& contents, const LetterStyle& letters, glm::ivec2 size) {
   const LetterHeights heights(letters, size);
   Strips strips;
-  if (contents.time) strips.top = 2 * heights.usual;
+  if (contents.time) strips.top = std::max(2 * heights.usual, letters.border + 3 * heights.usual / 2);
   if (contents.panel || contents.title)
-    strips.top = std::max(strips.top, Writer::panel_row(heights) + 3 * heights.panel / 5);
-  if (contents.curve) strips.bottom = static_cast<int>(Writer::curve_height(heights, size)) + 3 * heights.usual;
+    strips.top = std::max(strips.top, Writer::panel_row(heights, letters) + 3 * heights.panel / 5);
+  if (contents.curve)
+    strips.bottom = static_cast<int>(Writer::curve_height(heights, size)) + 2 * heights.usual +
+                    std::max(heights.usual, letters.border);
   const bool is_room_left = 2 * (size.y - strips.top - strips.bottom) >= size.y;
   return is_room_left ? strips : Strips{};
 }

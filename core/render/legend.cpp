@@ -229,6 +229,7 @@ std::vector<double> round_numbers(double low, double high, int most) {
 Legend::Legend(const ColorKey& key, glm::ivec2 picture_size, const LegendStyle& style)
     : color_(style.color),
       font_choice_(style.font),
+      border_(style.border),
       font_(style.letters.value_or(letter_height(picture_size)), Weight::regular, font_choice_),
       picture_size_(picture_size),
       molecule_size_(picture_size) {
@@ -388,7 +389,7 @@ void Legend::shift_to(glm::ivec2 place) {
 }
 
 bool Legend::lay_out_right(bool may_drop) {
-  const int em = font_.height(), room = picture_size_.y - 2 * em;
+  const int em = font_.height(), edge = std::max(em, border_), room = picture_size_.y - 2 * edge;
   std::vector<std::string> lines = wrapped(title_, font_, picture_size_.x / 4);
   if (title_.empty()) lines.clear();
   const int title_height = static_cast<int>(lines.size()) * line() + em / 2;
@@ -418,14 +419,14 @@ bool Legend::lay_out_right(bool may_drop) {
   y += per_column * line();
   int width = 0;
   for (const LegendText& text : texts_) width = std::max(width, text.place.x + font_.width(text.text));
-  molecule_size_.x = picture_size_.x - width - 2 * em;
+  molecule_size_.x = picture_size_.x - width - em - edge;
   if (molecule_size_.x < picture_size_.x / 3) return false;
   shift_to({molecule_size_.x + em, (picture_size_.y - (y - line() / 2)) / 2});
   return true;
 }
 
 bool Legend::lay_out_bottom(bool may_drop) {
-  const int em = font_.height(), room = picture_size_.x - 2 * em;
+  const int em = font_.height(), edge = std::max(em, border_), room = picture_size_.x - 2 * edge;
   int y = line() / 2;
   if (title_.empty()) y = 0;
   for (const std::string& text : wrapped(title_, font_, room)) {
@@ -444,7 +445,7 @@ bool Legend::lay_out_bottom(bool may_drop) {
   int column = 1;
   for (const Entry& entry : entries_) column = std::max(column, entry_width(entry) + em);
   const int columns = std::max(1, (room + em) / column);
-  const int rows = (picture_size_.y / 2 - y - em - line() / 2) / line();
+  const int rows = (picture_size_.y / 2 - y - edge - line() / 2) / line();
   if (!keep_entries(static_cast<std::size_t>(columns) * std::max(rows, entries_.empty() ? 0 : 1), may_drop))
     return false;
   for (std::size_t n = 0; n < entries_.size(); ++n)
@@ -453,9 +454,9 @@ bool Legend::lay_out_bottom(bool may_drop) {
   y += (static_cast<int>(entries_.size()) + columns - 1) / columns * line() + line() / 2;
   int width = 0;
   for (const LegendText& text : texts_) width = std::max(width, text.place.x + font_.width(text.text));
-  molecule_size_.y = picture_size_.y - y - em;
+  molecule_size_.y = picture_size_.y - y - edge;
   if (width > room + em || molecule_size_.y < picture_size_.y / 3) return false;
-  shift_to({em, molecule_size_.y + em / 2});
+  shift_to({edge, molecule_size_.y + em / 2});
   return true;
 }
 

@@ -41,6 +41,7 @@ struct LegendStyle {
   std::vector<std::string> names{};  ///< "A=Alpha" names the entry A Alpha
   std::optional<glm::vec3> color{};  ///< LetterStyle::color
   FontChoice font{};                 ///< LetterStyle::font
+  int border = 0;                    ///< LetterStyle::border
 };
 
 /// A legend occupies a strip at the right or at the bottom of a picture. The molecule is framed in the rest, so the
@@ -109,6 +110,7 @@ class Legend {
   std::vector<Entry> entries_;  ///< the entries that fit
   std::optional<glm::vec3> color_;
   FontChoice font_choice_;
+  int border_;
   Font font_;
   glm::ivec2 picture_size_, molecule_size_;
   std::vector<LegendText> texts_;

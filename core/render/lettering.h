@@ -94,6 +94,7 @@ struct LetterStyle {
   std::optional<int> all;          ///< height of all texts without a height of their own
   std::optional<int> labels, scale_bar, panel;
   FontChoice font{};
+  int border = 0;  ///< least distance of texts and bars from the border of the picture, pixels
 };
 
 /// Heights of all texts next to and over the molecule, pixels.

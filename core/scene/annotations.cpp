@@ -85,6 +85,7 @@ LegendStyle legend_style(const LegendStyle& requested, const LetterStyle& letter
   if (!style.letters) style.letters = letters.all;
   style.color = letters.color;
   style.font = letters.font;
+  style.border = letters.border;
   return style;
 }
 

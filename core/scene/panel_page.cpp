@@ -174,13 +174,13 @@ void PanelPage::aim(bool one_camera) {
   for (Placed& placed : panels_) {
     const Panel& panel = placed.panel;
     const ViewedAtoms seen = panel.aim.viewed(panel.figure);
-    placed.camera = view_camera(placed.layout.size, panel.given, {seen.shown, seen.framed, panel.aim.symmetry()});
+    placed.camera = view_camera(placed.layout.size, panel.given, panel.aim.viewed_balls(seen.shown, seen.framed));
     shown.insert(shown.end(), seen.shown.begin(), seen.shown.end());
     framed.insert(framed.end(), seen.framed.begin(), seen.framed.end());
   }
   if (!one_camera) return;
   const Placed& first = panels_.front();
-  const Camera camera = view_camera(first.layout.size, first.panel.given, {shown, framed, first.panel.aim.symmetry()});
+  const Camera camera = view_camera(first.layout.size, first.panel.given, first.panel.aim.viewed_balls(shown, framed));
   for (Placed& placed : panels_) placed.camera = camera;
 }
 

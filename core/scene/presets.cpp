@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/text.h"
 #include "core/scene/scene_values.h"
 
 namespace meniscus {
@@ -24,6 +25,10 @@ void take_preset(Scene& scene) {
   if (preset.settings.empty()) return;
   const std::string place =
       scene.picture.zoom_to ? scene.picture.zoom_to->text() : fmt::format("first ({})", preset.needs);
+  std::string lack;
+  if (!scene.picture.zoom_to)
+    lack = message("has no {}, which @preset {}@ shows", in_quotes(preset.needs), preset.word);
+  if (!lack.empty() && preset.sets("camera.zoom_to")) lack += message("; @zoom-to EXPR@ names other atoms");
   const bool has_camera = !scene.picture.camera_file.empty() || !scene.run_camera.path_file.empty();
   Scene lists;
   for (const PresetSetting& setting : preset.settings) {
@@ -36,6 +41,7 @@ void take_preset(Scene& scene) {
     for (std::size_t at = 0; (at = text.find('%', at)) != text.npos; at += atoms.size()) text.replace(at, 1, atoms);
     set_value(property.has(repeatable) ? lists : scene, property, std::array{text});
   }
+  for (RepresentationRequest& request : lists.figure.representations.requests) request.lack = lack;
   set_value(scene, property_of("look.preset"), std::array{std::string(preset.light)});
   MoleculeRequest& molecule = scene.molecule;
   ColorScheme &color = molecule.color, &under = lists.molecule.color;

@@ -28,7 +28,7 @@ void Representations::mark_atoms(ReadOptions& reading) const {
     throw RequestError(
         message("@instances@: copies of one surface cannot be drawn with sticks, balls or spheres; leave it out"));
   for (const RepresentationRequest& request : requests) {
-    reading.shown.push_back({shape_word(request.kind), request.atoms, draws_each_atom(request.kind)});
+    reading.shown.push_back({shape_word(request.kind), request.atoms, draws_each_atom(request.kind), request.lack});
     // It is found for all atoms of the file, because hydrogen bonds lead to residues that are not shown.
     if (request.kind == Kind::backbone) reading.secondary_structure = true;
   }
@@ -72,7 +72,7 @@ Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>&
 }
 
 ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorScheme scheme) {
-  scheme.by = resolved_scheme(structure, scheme.by);
+  scheme = resolved_scheme(structure, std::move(scheme));
   for (ColorRule& rule : scheme.rules) rule.paint = with_scale_of(structure, shown, std::move(rule.paint));
   if (!scheme.has_scale() || scheme.of_points()) return scheme;
   const ColorScale scale = color_scale(structure, scheme);
@@ -95,7 +95,10 @@ ColorScheme::By scheme_of_shapes(By scheme, Kind kind) {
   return kind == Kind::backbone ? By::chain : By::chain_element;
 }
 
+// With By::automatic the backbone of a single chain has the colours of its surface.
 ColorScheme extras_scheme(const Structure& structure, std::size_t shown, ColorScheme scheme, Kind kind) {
+  ColorScheme resolved = resolved_scheme(structure, scheme);
+  if (kind == Kind::backbone && resolved.by == By::rainbow) scheme = std::move(resolved);
   scheme.by = scheme_of_shapes(scheme.by, kind);
   if (scheme.by == By::kind || scheme.by == By::component || scheme.of_points()) scheme.by = By::element;
   scheme.opacities.clear();  // opacities apply to the surface only, which is transparent to show what is in it

@@ -20,6 +20,7 @@ struct RepresentationRequest {
   enum class Kind { sticks, balls_and_sticks, spheres, backbone, bases, sugar_symbols, hydrogen_bonds, distance };
   Kind kind = Kind::sticks;
   Selection atoms;
+  std::string lack{};  ///< message of the error if there are no such atoms; empty: the usual one
 };
 
 /// The words of kinds in scene files; each is the name of the property that requests it.

@@ -213,7 +213,8 @@ std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionReque
   const std::vector<std::uint64_t>& numbers = frames.run().numbers();
   const ViewAim aim(view, show, frames.first());
   const std::vector<Ball> shown = aim.shown(frames.first_shown()), framed = aim.framed(frames.first_shown());
-  const ViewedBalls seen{shown, framed, aim.symmetry()};
+  ViewedBalls seen = aim.viewed_balls(shown, framed);
+  seen.forward = aim.clear_side(frames.first_shown());
   const CameraCourse course(motion, frames, mean_center(framed));
 
   const ViewBasis basis = aimed_basis(view, given.still, seen);

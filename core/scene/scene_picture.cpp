@@ -155,7 +155,8 @@ Strips scene_strips(const Scene& scene, glm::ivec2 size) {
   Strips strips = strips_for(strip_contents(scene.annotations, scene.frames.is_requested()), letters, size);
   // Around a molecule that fills its picture there is no free corner.
   if (scene.picture.fits && scene.annotations.scale_bar)
-    strips.bottom = std::max(strips.bottom, 3 * LetterHeights(letters, size).scale_bar);
+    strips.bottom = std::max({strips.bottom, 3 * LetterHeights(letters, size).scale_bar,
+                              letters.border + 2 * LetterHeights(letters, size).scale_bar});
   return strips;
 }
 

@@ -167,6 +167,8 @@ void scene_values::complete_lengths(Scene& scene) {
   const glm::ivec2 size = size_by_lengths(scene);
   scene.picture.width = size.x;
   scene.picture.height = size.y;
+  constexpr double kBorder = 2.0 / 25.4;  // inches: 2 mm
+  scene.annotations.letters.border = static_cast<int>(std::lround(kBorder * scene.picture.dots_per_inch));
 }
 
 bool operator==(const Scene& one, const Scene& other) {

@@ -6,10 +6,13 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <string_view>
+#include <tuple>
 #include <unordered_map>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/camera/open_side.h"
 #include "core/queries/copies.h"
 #include "core/render/annotation.h"
 #include "core/scene/copied_atoms.h"
@@ -89,6 +92,7 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
     framed_.erase(first_extra, framed_.end());
   }
   extra_balls_ = framed_extras(structure);
+  if (request.camera_file.empty()) forward_ = clear_side(structure);
   using Axes = ViewDirection::Frame;
   if (request.direction && request.direction->frame == Axes::open && !request.zoom_to)
     throw RequestError(message("@view open@ looks at the atoms of @zoom-to@; add it"));
@@ -130,12 +134,36 @@ ViewedAtoms ViewAim::viewed(std::span<const SurfaceObject> objects) const {
 }
 
 Camera ViewAim::camera(const ViewRequest& layout, const std::optional<Camera>& given, const ViewedAtoms& seen) const {
-  return view_camera(layout, given, {seen.shown, seen.framed, symmetry_});
+  return view_camera(layout, given, viewed_balls(seen.shown, seen.framed));
 }
 
 Camera ViewAim::camera(const ViewRequest& layout, const std::optional<Camera>& given,
                        std::span<const Ball> balls) const {
-  return view_camera(layout, given, {picked(balls, shown_), picked(balls, framed_), symmetry_});
+  const std::vector<Ball> shown = picked(balls, shown_), framed = picked(balls, framed_);
+  return view_camera(layout, given, viewed_balls(shown, framed));
+}
+
+std::optional<glm::dvec3> ViewAim::clear_side(const Structure& structure) const {
+  if (!structure.instances.empty()) return {};
+  using Group = std::tuple<std::int32_t, std::uint32_t, std::string_view, std::uint32_t>;
+  std::map<Group, std::uint32_t> groups;
+  std::vector<Ball> balls;
+  std::vector<std::uint32_t> group;
+  const auto add = [&](const Atom& atom) {
+    balls.push_back({atom.position, atom.radius});
+    const bool polymer = atom.kind == AtomClass::polymer;
+    if (!polymer && atom.kind != AtomClass::ligand) return group.push_back(kCountedGroups);
+    const auto next = std::min(static_cast<std::uint32_t>(groups.size()), kCountedGroups);
+    group.push_back(
+        groups.try_emplace({atom.model, atom.copy, atom.chain, polymer ? 0 : atom.residue + 1}, next).first->second);
+  };
+  for (std::size_t a = 0; a < structure.atoms.size(); ++a)
+    if (shown_.empty() || shown_[a]) add(structure.atoms[a]);
+  for (const Atom& atom : structure.extra_atoms)
+    if (is_drawn_beside(atom)) add(atom);
+  if (groups.size() < 2) return {};
+  const ViewBasis broad = broad_side(balls);
+  return shows_more_behind(broad, balls, group) ? -broad.forward : broad.forward;
 }
 
 std::vector<Ball> ViewAim::shown(const Structure& structure) const { return standing_balls(structure, shown_); }

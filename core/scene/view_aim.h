@@ -46,7 +46,14 @@ class ViewAim {
   /// drawn in addition to the surface.
   std::vector<Ball> shown(const Structure& structure) const;
   std::vector<Ball> framed(const Structure& structure) const;
-  const std::optional<glm::dvec3>& symmetry() const { return symmetry_; }
+  /// Returns the balls with what else decides a view of them.
+  ViewedBalls viewed_balls(std::span<const Ball> shown, std::span<const Ball> framed) const {
+    return {shown, framed, symmetry_, forward_};
+  }
+  /// Returns the direction in which the viewer looks at the broad side so that more of the chains and ligands is seen
+  /// than from the opposite one (shows_more_behind), at the positions of `structure`, which must have the same atoms.
+  /// Nothing for copies and for fewer than two chains and ligands.
+  std::optional<glm::dvec3> clear_side(const Structure& structure) const;
 
  private:
   std::vector<Ball> framed_extras(const Structure& structure) const;
@@ -55,7 +62,7 @@ class ViewAim {
   std::vector<bool> frames_extra_;    ///< per atom of Structure::extra_atoms, true if it must fill the picture
   std::vector<Ball> extra_balls_;     ///< the balls of these atoms
   bool frames_all_ = true;            ///< true if no atoms were selected to fill the picture
-  std::optional<glm::dvec3> symmetry_;
+  std::optional<glm::dvec3> symmetry_, forward_;
 };
 
 /// The camera of a picture that ends at its balls, and the height that the picture should have, in pixels.

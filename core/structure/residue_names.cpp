@@ -3,6 +3,7 @@
 #include "core/structure/residue_names.h"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <set>
 #include <string_view>
@@ -10,6 +11,7 @@
 
 #include <gemmi/resinfo.hpp>
 
+#include "core/structure/residue_letters.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
@@ -62,6 +64,13 @@ std::string canonical_residue(const std::string& residue_name) {
   if (is_water_name(residue_name)) return "HOH";
   const auto found = kResidues.find(residue_name);
   return found == kResidues.end() ? residue_name : std::string(found->second);
+}
+
+char residue_letter(const std::string& residue_name) {
+  const gemmi::ResidueInfo info = gemmi::find_tabulated_residue(canonical_residue(residue_name));
+  return std::isalpha(static_cast<unsigned char>(info.one_letter_code))
+             ? static_cast<char>(std::toupper(static_cast<unsigned char>(info.one_letter_code)))
+             : 'X';
 }
 
 namespace {

@@ -17,20 +17,27 @@ namespace meniscus::page {
 /// zlib's format (RFC 1950).
 std::string deflated(std::string_view bytes);
 std::string deflated(const nlohmann::json& description);
+/// Returns a description as text, in UTF-8 whatever the encoding of its names.
+std::string text_of(const nlohmann::json& description);
 
-/// A table, deflated. The first bytes of all records come first, then the second ones, and so on: what is alike in them
-/// lies together, and deflates well.
+/// The form of a packed table.
+enum class Packing {
+  deflated,  ///< the first bytes of all records come first, then the second ones, and so on: what is alike in them lies
+             ///< together, and deflates well
+  plain      ///< the records as they are
+};
+
 struct PageTable {
   std::string name;
   std::size_t stride = 0;  ///< bytes of a record
   std::string packed;
 };
 
-PageTable packed_table(std::string_view name, std::span<const std::byte> bytes, std::size_t stride);
+PageTable packed_table(std::string_view name, std::span<const std::byte> bytes, std::size_t stride, Packing packing);
 /// T: of whole words, without padding.
 template <typename T>
-PageTable page_table(std::string_view name, const std::vector<T>& records) {
-  return packed_table(name, std::as_bytes(std::span(records)), sizeof(T));
+PageTable page_table(std::string_view name, const std::vector<T>& records, Packing packing) {
+  return packed_table(name, std::as_bytes(std::span(records)), sizeof(T), packing);
 }
 
 /// Parts, each deflated by itself, so that a page unpacks what it shows. Those that are equal are held once.

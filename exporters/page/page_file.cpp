@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <numbers>
 #include <utility>
 
@@ -285,16 +286,30 @@ std::string still_of(const PageFigure& figure) {
 
 }  // namespace
 
-PackedFrame pack_frame(const PageFigure& figure) {
+PackedFrame pack_frame(const PageFigure& figure, Packing packing) {
   const Tables tables(figure);
   return {std::make_shared<json>(description_of(figure, tables)),
-          tables.packed(),
+          tables.packed(packing),
           figure.moment,
           {{"TITLE", markup_text(figure.title)},
            {"DESCRIPTION", markup_text(figure.description)},
            {"FACTS", facts_of(figure)},
            {"LEGEND", legend_of(figure.key)},
            {"STILL", still_of(figure)}}};
+}
+
+std::string bytes_for_page(const PackedFrame& frame, const std::set<std::string>& known) {
+  PageData data;
+  json description = *frame.description;
+  const auto put = [&](json& entry, std::size_t stride, const std::string& bytes) {
+    const std::string digest = fmt::format("{:016x}", std::hash<std::string>()(bytes));
+    entry = {nullptr, stride, digest};
+    if (!known.contains(digest)) entry[0] = data.add(bytes);
+  };
+  for (const PageTable& table : frame.tables) put(description["tables"][table.name], table.stride, table.packed);
+  put(description["names"], 1, text_of(description["names"]));
+  if (known.empty()) description["shaders"] = shaders();
+  return data.bytes(text_of(description));
 }
 
 void PageWriter::add(PackedFrame frame) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,12 @@ struct PackedFrame {
 
 /// clip: at most kMostPlanes each. Throws CapacityError for a figure of more records than textures of 2048 x 8192
 /// texels hold.
-PackedFrame pack_frame(const PageFigure& figure);
+PackedFrame pack_frame(const PageFigure& figure, Packing packing = Packing::deflated);
+
+/// Returns a frame that was packed plainly, for a page that is open: PageData::bytes() of which nothing is deflated.
+/// Its description has the part, the stride and the digest of each table, and of the names of atoms, which are JSON.
+/// known: digests of what the page has already; the part of these is null. A page that has none gets the shaders, too.
+std::string bytes_for_page(const PackedFrame& frame, const std::set<std::string>& known);
 
 /// Puts a page together. The same frames give the same text.
 class PageWriter {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -148,20 +149,25 @@ bool Tables::has_marks() const {
   return std::ranges::any_of(marks_, [](std::uint32_t mark) { return mark != 0; });
 }
 
-std::vector<PageTable> Tables::packed() const {
+std::vector<PageTable> Tables::packed(Packing packing) const {
   std::vector<glm::vec4> colors = colors_;
   if (kind_)
     for (const glm::vec3& color : *kind_) colors.emplace_back(linear_from_srgb(color), 1.0f);
   std::vector<ray_cast::Primitive> primitives = scene_.primitives;
   for (std::size_t n = primitives.size(); n-- > 1;) primitives[n].first_row -= primitives[n - 1].first_row;
-  std::vector<PageTable> tables{page_table("primitives", primitives), page_table("rows", scene_.rows),
-                                page_table("colors", colors)};
+  std::vector<PageTable> tables;
+  const auto add = [&](std::string_view name, const auto& records) {
+    tables.push_back(page_table(name, records, packing));
+  };
+  add("primitives", primitives);
+  add("rows", scene_.rows);
+  add("colors", colors);
   for (std::size_t n = 0; n < figure_.more_schemes.size(); ++n)
-    tables.push_back(page_table(fmt::format("scheme_{}", n + 1), color_words(figure_.more_schemes[n])));
-  tables.push_back(page_table("marks", marks_));
-  tables.push_back(page_table("shown", shown_));
-  tables.push_back(page_table("balls", balls_));
-  if (!map_.empty()) tables.push_back(page_table("map", map_));
+    add(fmt::format("scheme_{}", n + 1), color_words(figure_.more_schemes[n]));
+  add("marks", marks_);
+  add("shown", shown_);
+  add("balls", balls_);
+  if (!map_.empty()) add("map", map_);
   return tables;
 }
 

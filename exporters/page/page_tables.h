@@ -41,7 +41,7 @@ class Tables {
   /// Returns, for each surface, the number of its first ball, the number of its first atom, and how many it has.
   const std::vector<std::array<std::size_t, 3>>& surfaces() const { return surfaces_; }
 
-  std::vector<PageTable> packed() const;
+  std::vector<PageTable> packed(Packing packing) const;
 
  private:
   void find_surfaces(std::span<const PictureObject> objects);

@@ -219,10 +219,11 @@ void check_scene(const Scene& scene) {
 std::vector<OtherColors> other_colors(const Structure& structure, const ColorScheme& requested,
                                       const std::function<void(ColorScheme&)>& measure) {
   std::vector<OtherColors> others;
+  const ColorScheme::By current = resolved_scheme(structure, requested).by;
   for (const char* const word :
        {"element", "chain", "residue", "secondary", "kind", "hydrophobicity", "bfactor", "charge", "rainbow"}) {
     ColorScheme scheme = parse_color_scheme(word).value();
-    if (scheme.by == resolved_scheme(structure, requested.by) && requested.rules.empty()) continue;
+    if (scheme.by == current && requested.rules.empty()) continue;
     try {
       if (measure) measure(scheme);
       ColorKey key = color_key(structure, scheme);
@@ -236,6 +237,12 @@ std::vector<OtherColors> other_colors(const Structure& structure, const ColorSch
 }
 
 PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& frame, const EncodeStill& encode) {
+  const SurfaceObject surface = merged(std::exchange(figure.molecule.objects, {}));
+  return scene_frame(scene, figure, surface, frame, encode, Packing::deflated);
+}
+
+PackedFrame scene_frame(const Scene& scene, const Figure& figure, const SurfaceObject& surface, const SceneFrame& frame,
+                        const EncodeStill& encode, Packing packing) {
   const std::string name = text_of_path(path_of_text(scene.molecule.file).filename());
   const std::vector<Atom> atoms = shown_atoms(figure.molecule.structure);
   PageFigure shown;
@@ -255,25 +262,22 @@ PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& fra
   shown.look = look_by(scene.molecule.color);
   shown.views = frame.views;
   shown.fades_always = scene.look.depth_cue.has_value();
-  const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
-  const SurfaceObject surface = merged(std::exchange(figure.molecule.objects, {}));
   shown.facts = facts_of(figure.molecule, surface, scene);
   shown.facts.insert(shown.facts.end(), frame.facts.begin(), frame.facts.end());
-  const std::vector<PictureObject> objects =
-      picture_objects(surface.surface, surface.coloring, scene.figure, &figure.extras, frame.camera, balls);
+  const std::vector<PictureObject> objects = picture_objects(surface.surface, surface.coloring, scene.figure,
+                                                             &figure.extras, frame.camera, surface.surface.atoms);
   place_objects(objects, surface, figure.extras, scene.figure, shown);
   const Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure, figure.extras.lengths());
   shown.labels = annotations.labels;
   shown.atoms = atoms;
-  ColorScheme scheme = figure.molecule.color;
-  scheme.by = resolved_scheme(figure.molecule.structure, scheme.by);
+  const ColorScheme scheme = resolved_scheme(figure.molecule.structure, figure.molecule.color);
   shown.scheme = scheme.by == ColorScheme::By::fixed || !scheme.rules.empty() ? "given" : scheme_word(scheme);
   add_schemes(frame.others, figure, scene.figure, surface, shown);
   for (std::size_t n = 0; n < frame.others.size(); ++n)
     if (frame.others[n].scheme.uses_scale() != scene.molecule.color.uses_scale())
       shown.more_schemes[n].look = look_by(frame.others[n].scheme);
   if (encode) shown.still = encode(small_picture(objects, frame.camera, shown.size, shown.look), shown.look);
-  return pack_frame(shown);
+  return pack_frame(shown, packing);
 }
 
 std::string scene_page(const Scene& requested) {

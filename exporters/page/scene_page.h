@@ -55,6 +55,10 @@ struct SceneFrame {
 /// picture. Throws as pack_frame() and picture_objects() do.
 PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& frame, const EncodeStill& encode);
 
+/// The same of a figure whose surface is apart from it, where it stands, one copy.
+PackedFrame scene_frame(const Scene& scene, const Figure& figure, const SurfaceObject& surface, const SceneFrame& frame,
+                        const EncodeStill& encode, Packing packing);
+
 /// The page of a scene, as `meniscus export page` makes it but for its still picture, a PNG. scene: complete(). On the
 /// CPU. Throws RequestError as check_scene() does and for a run of frames, else what reading and computing throw.
 std::string scene_page(const Scene& scene);

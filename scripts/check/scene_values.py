@@ -22,10 +22,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Literal, TypedDict, Union
+from typing import Literal, Optional, TypedDict, Union
 
 Path = Union[str, "os.PathLike[str]"]
 Text = Union[str, float]
+#: A text, or its numbers: the width and the height of a picture, or a direction.
+Numbers = Union[Text, Sequence[float]]
 '''
 TYPES = {header.VALUE_FLAG: "bool", header.VALUE_NUMBER: "float", header.VALUE_COUNT: "int", header.VALUE_TEXT: "Text",
          header.VALUE_FILE: "Path", header.VALUE_NEW_FILE: "Path", header.VALUE_CAMERA: "Path"}
@@ -83,7 +85,7 @@ def type_of(known):
     if known.type == header.VALUE_WORD:
         one = "Literal[" + ", ".join(f'"{word}"' for word in known.words) + "]"
     else:
-        one = TYPES[known.type]
+        one = "Numbers" if known.value in ("X,Y,Z", "WxH") else TYPES[known.type]
     return f"Union[{one}, Sequence[{one}]]" if known.repeatable else one
 
 
@@ -105,7 +107,10 @@ def file_text():
             ("SceneValues", "SurfaceValues", "The properties of a scene.", [p for p in known if not p.of_surface])):
         text += f'\n\nclass {name}({base}, total=False):\n    """{said}"""\n'
         text += "\n".join(line for p in chosen for line in lines_of(p)) + "\n"
-    return text
+    attributes = "; ".join(f"{p.name}: Optional[{type_of(p)}]".replace(" ", "~") for p in known if p.name not in vars(meniscus.Scene))
+    return (f'{text}\n\nclass SceneAttributes:\n    """The attributes of a Scene; None for the default."""\n' + "\n".join(
+        line.rstrip(";") for line in textwrap.wrap(attributes, 120, initial_indent="    ", subsequent_indent="    ",
+                                                   break_long_words=False)).replace("~", " ") + "\n")
 
 
 if __name__ == "__main__":

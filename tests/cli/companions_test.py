@@ -3,18 +3,14 @@
 """The surface of a file with a polymer is that of the polymer, and pictures show its ligands and ions beside it."""
 
 import json
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy
 import OpenImageIO
 
-PROGRAM = sys.argv.pop(1)
+from molecule_case import MoleculeCase, pdb
+
 SMALL = ["--size", "120x90", "--samples", "1", "--device", "cpu", "-q", "--force"]
-ATOM = "{0:<6}{1:5d} {2:>4} {3:>3} {4}{5:4d}    {6:8.3f}{7:8.3f}{8:8.3f}  1.00 10.00          {9:>2}"
 SHEET = [("ATOM", " CA", "ALA", "A", n + 1, (3.8 * (n % 6), 3.8 * (n // 6), 0.0), "C") for n in range(36)]
 LIGAND = [("HETATM", " C1", "LIG", "B", 1, (8.0, 8.0, 9.0), "C"), ("HETATM", " O1", "LIG", "B", 1, (9.2, 8.0, 9.0), "O")]
 ION = [("HETATM", "ZN", "ZN", "B", 2, (3.0, 14.0, 7.0), "ZN")]
@@ -22,27 +18,10 @@ LIGAND_COLORS = ["element-cpk", "element C=#45a878"]
 WATER = [("HETATM", " O", "HOH", "B", 3, (14.0, 3.0, 7.0), "O")]
 
 
-def pdb(rows, end="END\n"):
-    return "".join(ATOM.format(row[0], n, *row[1:5], *row[5], row[6]) + "\n" for n, row in enumerate(rows, 1)) + end
-
-
-class Companions(unittest.TestCase):
+class Companions(MoleculeCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        super().setUp()
         self.write("all.pdb", pdb(SHEET + LIGAND + ION + WATER))
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text)
-
-    def run_program(self, *words):
-        return subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=300, check=False)
-
-    def made(self, *words):
-        done = self.run_program(*words)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done
 
     def pixels(self, path):
         file = OpenImageIO.ImageInput.open(str(self.folder / path))

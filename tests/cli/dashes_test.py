@@ -4,52 +4,35 @@
 
 import json
 import re
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy
 import OpenImageIO
 
-PROGRAM = sys.argv.pop(1)
+from molecule_case import MoleculeCase, pdb
+
 SMALL = ["--size", "320x240", "--samples", "1", "--view", "z", "--preset", "flat", "-q", "--force"]
-ATOM = "{0:<6}{1:5d} {2:>4} {3:>3} {4}{5:4d}    {6:8.3f}{7:8.3f}{8:8.3f}  1.00 10.00          {9:>2}"
 
 
-def pair(distance):
+def pair(distance, end="END\n"):
     """An alcohol, and a carbonyl at this distance of its oxygen."""
     rows = [("HETATM", " C1", "LGA", "A", 1, (-0.5, -1.33, 0.0), "C"), ("HETATM", " O1", "LGA", "A", 1, (0.0, 0.0, 0.0), "O"),
             ("HETATM", " O2", "LGB", "B", 2, (distance, 0.0, 0.0), "O"),
             ("HETATM", " C2", "LGB", "B", 2, (distance + 0.7, 1.0, 0.0), "C")]
-    return [ATOM.format(row[0], n, *row[1:5], *row[5], row[6]) for n, row in enumerate(rows, 1)]
+    return pdb(rows, end)
 
 
 BONDS = ["--hide-surface", "--hydrogen-bonds", "resname LGA"]
 DASHES = 6  # of 2.8 Å, one each 0.5 Å
 
 
-class Dashes(unittest.TestCase):
+class Dashes(MoleculeCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        super().setUp()
         self.write("pair.pdb", pair(2.8))
         self.write("apart.pdb", pair(3.6))
-        self.write("models.pdb", [line for n, distance in enumerate((2.8, 3.2, 3.6), 1)
-                                  for line in (f"MODEL     {n:4d}", *pair(distance), "ENDMDL")])
-
-    def write(self, name, lines):
-        (self.folder / name).write_text("\n".join([*lines, "END", ""]))
-
-    def run_program(self, *words):
-        return subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=300, check=False)
-
-    def made(self, *words):
-        done = self.run_program(*words)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done
+        self.write("models.pdb", "".join(f"MODEL     {n:4d}\n" + pair(distance, "ENDMDL\n")
+                                         for n, distance in enumerate((2.8, 3.2, 3.6), 1)))
 
     def pixels(self, path):
         file = OpenImageIO.ImageInput.open(str(self.folder / path))

@@ -309,6 +309,42 @@ class PageTest(PageCase):
             self.assertFalse(await page.evaluate("meniscus.caster.has_layers()"))
             self.assertEqual(page.complaints, [])
 
+    async def test_distances_of_sticks(self):
+        """Between atoms of sticks, of a surface, and of both, as the file has them; meshes know of no atoms."""
+        places = {}
+        with open(UBIQUITIN) as file:
+            for row in file:
+                if row.startswith("ATOM"):
+                    places[f"{row[21]} {row[17:20]} {int(row[22:26])} {row[12:16].strip()}"] = [
+                        float(row[30 + 8 * n:38 + 8 * n]) for n in range(3)]
+        async with self.browser() as page:
+            await self.open(page, self.export(UBIQUITIN, "--select", "resid 1-40", "--sticks", "resid 48 5", "--balls", "resid 60",
+                                              "--tube", "resid 60-70"))
+            await page.at_rest(100)
+            last = "meniscus.figure.tables.shown.length - 1 - [...meniscus.figure.tables.shown.keys()].reverse().findIndex"
+            for one, other in (("A LYS 48 CB", "A LYS 48 NZ"), ("A LYS 48 NZ", "A ASN 60 CA"), ("A VAL 5 CA", "A LYS 48 NZ")):
+                for find in ("meniscus.figure.tables.shown.findIndex", last):
+                    words = await page.evaluate(f"(() => {{ const v = meniscus, find = (name) => [...v.figure.tables.shown.keys()].filter((a) =>"
+                                                f" v.atom_name(a) === name && v.caster.center_of(a)).at({-1 if find == last else 0});"
+                                                f" v.tell({{atom: find('{one}'), primitive: 0}});"
+                                                f" return v.tell({{atom: find('{other}'), primitive: 0}}); }})()")
+                    self.assertIn(f"{math.dist(places[one], places[other]):.2f} Å from {one}", words)
+            self.assertTrue(await page.evaluate("[...meniscus.figure.tables.shown.keys()].some((a) => meniscus.caster.center_of(a) === null)"))
+            # What is selected is tinted, but not in the picture that is saved.
+            read = "[...meniscus.caster.read(0, 0, ...meniscus.caster.size, 0)].reduce((sum, word) => (sum * 31 + word) >>> 0, 7)"
+            before = await page.evaluate(read)
+            plain = await self.png(page, 1, None)
+            await page.evaluate("meniscus.select([...meniscus.figure.names.atoms.keys()].slice(0, 100))")
+            await page.at_rest(100)
+            self.assertNotEqual(await page.evaluate(read), before)
+            self.assertEqual(numpy.abs(await self.png(page, 1, None) - plain).max(), 0)
+            await page.at_rest(100)
+            self.assertNotEqual(await page.evaluate(read), before)
+            await page.evaluate("meniscus.select([])")
+            await page.at_rest(100)
+            self.assertEqual(await page.evaluate(read), before)
+            self.assertEqual(page.complaints, [])
+
     async def test_what_files_say_runs_nowhere(self):
         evil = "</script><script>window.stolen=1</script><!--"
         with open(UBIQUITIN) as file:

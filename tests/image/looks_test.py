@@ -171,7 +171,8 @@ class Looks(unittest.TestCase):
         said = self.run_program("render", "1ubq.pdb", "-o", "a.png", "--preset", "gost", code=2)
         for word in [*LIGHTS, *WRITTEN_OUT]:
             self.assertIn(word, said)
-        self.run_program("render", "1ubq.pdb", "-o", "a.png", "--preset", "pocket", code=3)
+        said = self.run_program("render", "1ubq.pdb", "-o", "a.png", "--preset", "pocket", code=3)
+        self.assertIn("has no 'ligand and not glycan', which --preset pocket shows; --zoom-to EXPR names other atoms", said)
         self.assertFalse((self.folder / "a.png").exists())
 
 

@@ -173,6 +173,28 @@ class Pages(unittest.TestCase):
         done = subprocess.run([PROGRAM, "render", "a.pdb", "-o", "no_#.png", "--size", "auto", "--frames", "all"], cwd=self.folder, capture_output=True,
                               text=True)
         self.assertIn("--size auto", done.stderr)
+        for words in (["export", "povray", "a.pdb", "-o", "scene"], ["export", "blender", "a.pdb", "-o", "scene"], ["export", "page", "a.pdb", "-o", "a.html"],
+                      ["looks", "a.pdb"], ["panels", "a.json", "-o", "a.png"], ["film", "a.json", "b.json", "-o", "a.mp4"]):
+            done = subprocess.run([PROGRAM, *words, "--size", "auto"], cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2, words)
+            self.assertIn("auto is for `meniscus render`", done.stderr, words)
+
+    def test_letters_and_bars_keep_two_millimetres(self):
+        """Small letters keep them in pictures with a size on paper, and are nearer to the border in others."""
+        written = ["--letter-color", "#00ff00", "--letter-size", "6", "--panel-size", "6", "--panel", "a", "--scale-bar", "5", "--title", "title", "--label", "resid 1=first",
+                   "--projection", "orthographic", "--color", "element", "--background", "white"]
+        for paper in ([], ["--width", "32mm", "--dpi", "254"]):
+            for legend in ([], ["--legend", "--legend-place", "right"], ["--legend", "--legend-place", "below"]):
+                subprocess.run([PROGRAM, "render", "a.pdb", "-o", "border.png", "--force", "-q", "--samples", "1", "--device", "cpu",
+                                *(paper or ["--size", "320x240"]), *written, *legend], cwd=self.folder, check=True)
+                picture = pixels_of(self.folder / "border.png")
+                self.assertEqual(picture.shape[1], 320)
+                rows, columns = numpy.nonzero((picture[..., 1] > 0.6) & (picture[..., 0] < 0.4) & (picture[..., 2] < 0.4))
+                gap = min(rows[0], picture.shape[0] - 1 - rows[-1], columns.min(), picture.shape[1] - 1 - columns.max())
+                if paper:
+                    self.assertGreaterEqual(gap, 19, legend)  # 2 mm are 20 pixels
+                else:
+                    self.assertLess(gap, 10, legend)
 
     def test_tiff_files_as_publishers_ask_for(self):
         for words, bits, compression in (([], "uint16", "zip"), (["--tiff-bits", "8", "--tiff-compression", "lzw"], "uint8", "lzw"),

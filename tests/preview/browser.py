@@ -50,6 +50,19 @@ class Preview:
         self.end()
 
 
+async def receive(client, wanted):
+    """The first message that `wanted` accepts; pictures that come before it are passed by."""
+    while True:
+        data = await asyncio.wait_for(client.recv(), 30)
+        if isinstance(data, str) and wanted(json.loads(data)):
+            return json.loads(data)
+
+
+async def ask(client, command, number=1):
+    await client.send(json.dumps({"id": number, **command}))
+    return await receive(client, lambda message: message.get("id") == number)
+
+
 class Browser:
     """One page in a Chromium of its own; `async with Browser(program) as page`. options: more of the command line."""
 

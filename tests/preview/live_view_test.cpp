@@ -87,6 +87,43 @@ TEST(LivePictures, ManyAtomsAreBallsUntilTheirSurfaceIsThere) {
   EXPECT_EQ(live.at_once(), Quality::draft);
 }
 
+// The figure of a page needs the complete surface, which stays while atoms and probe stay.
+TEST(LiveFigures, TheirSurfaceIsComputedOnceAndCanBeGivenUp) {
+  const TemporaryFolder folder;
+  ReadOptions reading;
+  reading.model.all = true;
+  PreviewSession session(make_cpu_preview_renderer(), read_structure(folder.file("two.pdb", kTwoModels), reading), {},
+                         std::nullopt, folder.path());
+  int stages = 0;
+  const auto stages_after = [&](const char* command) {
+    EXPECT_TRUE(session.apply(nlohmann::json::parse(command))["ok"]) << command;
+    stages = 0;
+    EXPECT_TRUE(session.figure([&] { return ++stages == 0; })) << command;
+    return stages - 1;  // it is asked once more at the end
+  };
+  const std::uint64_t first = session.figure_revision();
+  EXPECT_GT(stages_after(R"({"command":"orbit","dx":0.1,"dy":0})"), 3);
+  EXPECT_EQ(session.figure_revision(), first);
+  EXPECT_EQ(stages_after(R"({"command":"set","key":"surface.color","value":"chain"})"), 0);
+  EXPECT_GT(session.figure_revision(), first);
+  for (const char* same :
+       {R"({"command":"set","key":"look.ambient","value":0.2})",
+        R"({"command":"set","key":"surface.show","value":"name N CA"})",
+        R"({"command":"resize","width":90,"height":80})", R"({"command":"set","key":"surface.color","value":"kind"})"})
+    EXPECT_EQ(stages_after(same), 0) << same;
+  for (const char* other :
+       {R"({"command":"set","key":"surface.probe","value":1.5})",
+        R"({"command":"set","key":"surface.kind","value":"sas"})",
+        R"({"command":"set","key":"surface.kind","value":"vdw"})", R"({"command":"frame","index":1})"})
+    EXPECT_GT(stages_after(other), 3) << other;
+  ASSERT_TRUE(session.apply({{"command", "set"}, {"key", "surface.kind"}, {"value", "ses"}})["ok"]);
+  EXPECT_FALSE(session.figure([] { return true; }));
+  EXPECT_TRUE(session.figure());
+  // For another surface it is given up late, as a draft is: this one is there by then.
+  ASSERT_TRUE(session.apply({{"command", "frame"}, {"index", 0}})["ok"]);
+  EXPECT_TRUE(LiveView(session).figure([] { return Change::surface; }));
+}
+
 TEST(LivePictures, FramesPlayInFullSizeWhenThereIsTime) {
   const TemporaryFolder folder;
   PreviewState view;

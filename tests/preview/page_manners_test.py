@@ -147,7 +147,8 @@ class PageManners(PageCase):
                 self.assertEqual(await page.evaluate(cut), [], size)
                 self.assertEqual(await page.evaluate("[...document.querySelectorAll('#panel h2')].filter((h) => "
                                                      "h.offsetParent).map((h) => h.textContent)"),
-                                 ["Surface", "Colours", "Shown", "Cut", "View", "Look", "Frames", "Film", "Times", "Write"])
+                                 ["Contents", "Surface", "Colours", "Shown", "Cut", "View", "Look", "Frames", "Film", "Times",
+                                  "Write"])
                 if size[0] > 736:
                     self.assertTrue(await page.evaluate("""[...document.querySelectorAll("#writers button")].every((one) =>
                         one.getBoundingClientRect().bottom <= window.innerHeight && one.getBoundingClientRect().top > 0)"""))
@@ -252,7 +253,7 @@ class PageManners(PageCase):
             rests = await sent("pick")
             self.assertTrue(all(pick["wait"] is False and pick["area"] is False for pick in rests), rests)
             await page.drag([(210, 210), (210, 210)])
-            await page.until("/Å²/.test(document.getElementById('picked').textContent)")
+            await page.until("/Å²/.test(document.getElementById('card').textContent)")
             clicks = (await sent("pick"))[len(rests):]
             self.assertTrue(all(pick["wait"] is False for pick in clicks), clicks)
             self.assertTrue(any(pick.get("area", True) for pick in clicks), clicks)
@@ -310,7 +311,7 @@ class PageManners(PageCase):
             await self.press(page, " ")
             await page.until(f"{shown}.patch_kinds")
             self.assertFalse((await self.state(page))["playing"])
-            await page.evaluate("document.getElementById('atoms').focus()")
+            await page.evaluate("document.getElementById('by-words').open = true, document.getElementById('atoms').focus()")
             await self.press(page, "l")
             await page.until("document.getElementById('atoms').value === 'l'")
             await page.evaluate("document.activeElement.blur()")

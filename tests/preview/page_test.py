@@ -108,8 +108,8 @@ class Page(PageCase):
         self.assertFalse(await page.evaluate("document.getElementById('tip').hidden"))
         hovered = await page.evaluate("document.querySelector('#tip strong').textContent")
         await page.drag([(210, 210), (210, 210)])
-        rows = await page.until("(rows => rows.length > 3 && rows)([...document.querySelectorAll('#picked dd')].map((row) => row.textContent))")
-        self.assertEqual(await page.evaluate("document.querySelector('#picked strong').textContent"), hovered)
+        rows = await page.until("(rows => rows.length > 3 && rows)([...document.querySelectorAll('#card dd')].map((row) => row.textContent))")
+        self.assertEqual(await page.evaluate("document.querySelector('#card h2').textContent"), hovered)
         self.assertRegex(rows[2], r"^\d+\.\d{3} Å²$")
 
     async def colour(self, page):
@@ -120,8 +120,8 @@ class Page(PageCase):
         await page.until("!document.getElementById('kinds-key').hidden")
         self.assertTrue((await self.state(page))["patch_kinds"])
         for key, value in (("ambient_occlusion", 0.8), ("silhouettes", 2), ("depth_cue", 0.25)):
-            await page.evaluate(f"""document.getElementById('{key}').value = '{value}';
-                document.getElementById('{key}').dispatchEvent(new Event('input')); 0""")
+            await page.evaluate(f"""document.getElementById('look-{key}').value = '{value}';
+                document.getElementById('look-{key}').dispatchEvent(new Event('input')); 0""")
         x, y, size = await page.evaluate("""document.getElementById('look').open = true, document.getElementById('lamp').scrollIntoView(),
             (({x, y, width}) => [x, y, width])(document.getElementById('lamp').getBoundingClientRect())""")
         await page.drag([(x + size / 2, y + size / 2), (x + 0.7 * size, y + 0.3 * size)])
@@ -184,8 +184,8 @@ class Page(PageCase):
             await page.open(preview.url)
             self.assertFalse(await page.evaluate("document.getElementById('frames').hidden"))
             await page.drag([(200, 200), (200, 200)])
-            await page.until("Boolean(document.querySelector('#picked dl'))")
-            self.assertIn("onerror", await page.evaluate("document.getElementById('picked').textContent"))
+            await page.until("Boolean(document.querySelector('#card dd'))")
+            self.assertIn("onerror", await page.evaluate("document.getElementById('card').textContent"))
             self.assertEqual(await page.evaluate("document.querySelectorAll('img, b, script:not([src], #data)').length"), 0)
             await page.click("#play")
             for frame in (2, 1):
@@ -232,8 +232,8 @@ class Page(PageCase):
             await page.click("#chips li:last-child .remove")
             await self.chips(page, 3)
             await page.evaluate("""const cut = document.getElementById('cut'); cut.value = 30;
-                cut.dispatchEvent(new Event('input')); document.getElementById('legend-on').click();
-                const preset = document.getElementById('preset'); preset.value = 'publication';
+                cut.dispatchEvent(new Event('input')); document.getElementById('legend-shown').click();
+                const preset = document.getElementById('look-preset'); preset.value = 'publication';
                 preset.dispatchEvent(new Event('change')); 0""")
             await page.until("JSON.parse(document.getElementById('picture').dataset.state).preset === 'publication'")
             state = await self.state(page)
@@ -253,16 +253,15 @@ class Page(PageCase):
             self.assertEqual(len(await self.chips(page, 2)), 2)
             await page.click("#undo")
             self.assertEqual((await self.chips(page, 3))[0], "tube: chain C")
-            # A double click centres, a kept view comes back.
+            # A click of the middle button centres, a kept view comes back.
             await page.evaluate("document.getElementById('view-name').value = 'front'; "
                                 "document.getElementById('view-form').requestSubmit(); 0")
             await page.until("document.querySelector('#kept-views .recall')?.textContent === 'front'")
             before = (await self.state(page))["camera"]
             x, y = await page.evaluate("(({left, top, width, height}) => [left + 0.36 * width, top + 0.42 * height])("
                                        "document.getElementById('picture').getBoundingClientRect())")
-            for count in (1, 2):
-                for kind in ("mousePressed", "mouseReleased"):
-                    await page.mouse(kind, x, y, button="left", clickCount=count)
+            for kind in ("mousePressed", "mouseReleased"):
+                await page.mouse(kind, x, y, button="middle", clickCount=1)
             await page.until("JSON.stringify(JSON.parse(document.getElementById('picture').dataset.state).camera.target)"
                              f" !== {json.dumps(json.dumps(before['target'], separators=(',', ':')))}")
             await page.click("#kept-views .recall")
@@ -332,8 +331,8 @@ class Page(PageCase):
             x, y = await page.evaluate("(({width, height}) => [width / 2, height / 2])"
                                        "(document.getElementById('stage').getBoundingClientRect())")
             await page.drag([(x, y), (x, y)])
-            await page.until("Boolean(document.querySelector('#picked dl'))")
-            self.assertNotIn("exposed", await page.evaluate("document.getElementById('picked').textContent"))
+            await page.until("Boolean(document.querySelector('#card dd'))")
+            self.assertNotIn("exposed", await page.evaluate("document.getElementById('card').textContent"))
             self.assertEqual(state["objects"], [{"representation": "surface", "selection": "chain C", "color": "#e69f00",
                                                  "opacity": 0.5, "clip": "depth>0.4"}])
             await self.shoot(page, "objects.png")

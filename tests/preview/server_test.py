@@ -15,25 +15,12 @@ import unittest
 
 import websockets
 
-from browser import Preview
+from browser import Preview, ask, receive
 
 PROGRAM, PAGE = sys.argv[1], sys.argv[2]
 
 ATOMS = "".join(f"ATOM  {n:5d}  C{n:<2d} UNL A   1    {3 * n:8.3f}{n:8.3f}{0:8.3f}  1.00 {n:5.2f}           C\n"
                 for n in range(1, 6))
-
-
-async def receive(client, wanted):
-    """The first message that `wanted` accepts; pictures that come before it are passed by."""
-    while True:
-        data = await asyncio.wait_for(client.recv(), 30)
-        if isinstance(data, str) and wanted(json.loads(data)):
-            return json.loads(data)
-
-
-async def ask(client, command, number=1):
-    await client.send(json.dumps({"id": number, **command}))
-    return await receive(client, lambda message: message.get("id") == number)
 
 
 async def picture(client):

@@ -131,8 +131,10 @@ class Frames(unittest.TestCase):
         images[1].symbols[3] = "N"
         with self.assertRaisesRegex(meniscus.InputError, "image 1 has other atoms"):
             list(meniscus.frames(images))
+        s = meniscus.surface(images[0], 1.7)
+        self.assertEqual(s.area, meniscus.surface(self.frames[0], 1.7).area)
         with self.assertRaisesRegex(meniscus.InputError, r"not an array; meniscus.from_ase\(\) takes it"):
-            meniscus.surface(images[0], 1.7)
+            s.update(images[0])
 
     @tried_with("rdkit")
     def test_rdkit(self):
@@ -272,8 +274,9 @@ class Units(unittest.TestCase):
                 out.write(pdb(models()))
             trajectory = module("mdtraj").load(file)
         self.looks_like_nanometres(trajectory.xyz[0])
+        self.assertAlmostEqual(meniscus.surface(trajectory, self.radii, 1.3).area / self.surface.area, 1, delta=1e-5)
         with self.assertRaisesRegex(meniscus.InputError, r"not an array; meniscus.from_mdtraj\(\) takes it"):
-            meniscus.surface(trajectory, self.radii)
+            self.surface.update(trajectory)
 
     @tried_with("MDAnalysis")
     def test_mdanalysis(self):
@@ -281,8 +284,10 @@ class Units(unittest.TestCase):
         class Atoms:
             __module__ = "MDAnalysis.fake"
             def __len__(self): return 12
-        with self.assertRaisesRegex(meniscus.InputError, r"meniscus.from_mdanalysis\(\) takes it"):
+        with self.assertRaisesRegex(meniscus.InputError, r"no atoms that from_mdanalysis\(\) takes"):
             meniscus.surface(Atoms(), self.radii)
+        with self.assertRaisesRegex(meniscus.InputError, r"meniscus.from_mdanalysis\(\) takes it"):
+            self.surface.update(Atoms())
 
     @tried_with("ase")
     def test_ase(self):

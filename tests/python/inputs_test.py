@@ -18,7 +18,7 @@ class Errors(unittest.TestCase):
             meniscus.surface(xyz, radii)
         with self.assertRaisesRegex(ValueError, "radius of atom 0 is -1.7"):
             meniscus.surface(chain(5)[0], -radii)
-        with self.assertRaisesRegex(meniscus.InputError, "probe_radius: -1 Å is negative"):
+        with self.assertRaisesRegex(meniscus.InputError, "probe: -1 Å is negative"):
             meniscus.surface(*chain(5), probe=-1.0)
         for kind in ("ses", "sas"):
             with self.assertRaisesRegex(meniscus.InputError, 'probe is 0; kind="vdw" is the surface without a probe'):
@@ -110,8 +110,8 @@ class Foreign(unittest.TestCase):
                 call()
         for call, said in ((lambda: meniscus.surface(xyz, radii, threads=1.5), "threads is 1.5, not a whole number"),
                            (lambda: meniscus.radii_of([6.5]), "atom 0: the element is 6.5, not a whole number"),
-                           (lambda: meniscus.surface(xyz, radii, probe=None), "probe_radius is None, not a number"),
-                           (lambda: meniscus.surface(xyz, radii, probe="1.4"), "probe_radius is '1.4', not a number"),
+                           (lambda: meniscus.surface(xyz, radii, probe=None), "probe is None, not a number"),
+                           (lambda: meniscus.surface(xyz, radii, probe="1.4"), "probe is '1.4', not a number"),
                            (lambda: meniscus.surface(xyz, radii, probe=1.4 + 0j), "not a number"),
                            (lambda: s.mesh([0.1]), "tolerance is .0.1., not a number")):
             with self.assertRaisesRegex(meniscus.InputError, said):
@@ -132,7 +132,7 @@ class Foreign(unittest.TestCase):
                 ("threads", lambda v: meniscus.surface([[0, 0, 0]], 1.7, threads=v)),
                 ("verify", lambda v: meniscus.surface([[0, 0, 0]], 1.7, verify=v)),
                 ("xyz", s.update), ("points", s.distance), ("of", s.gradient), ("tolerance", s.mesh),
-                ("large_probe_radius", s.pockets), ("aspect", s.camera),
+                ("large_probe", s.pockets), ("aspect", s.camera),
                 ("weights", lambda v: s.gradient("sas_area", v)),
                 ("density", lambda v: s.mesh(density=v)), ("even", lambda v: s.mesh(0.3, even=v)),
                 ("split_colors", lambda v: s.mesh(0.3, split_colors=v)),

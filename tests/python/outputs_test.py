@@ -32,7 +32,8 @@ class Pictures(unittest.TestCase):
         picture = s.render(size="100x100", preset="classic", camera=camera, colors=(1, 0, 0), device=device)
         pixels = picture.pixels
         self.assertEqual(pixels.shape, (100, 100, 4))
-        self.assertIs(np.asarray(picture), pixels)
+        self.assertTrue(np.shares_memory(np.asarray(picture), pixels))
+        np.testing.assert_array_equal(np.asarray(picture), pixels)
         self.assertAlmostEqual(pixels[..., 3].sum() / 255, math.pi * 25**2, delta=20)
         self.assertLess(pixels[50, 50, 1], 30)  # but for the highlight
         opaque = s.render(width=100, height=100, camera=camera, colors=[[0, 1, 0]], background="#0000ff", device=device)

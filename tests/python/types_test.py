@@ -20,11 +20,23 @@ smallest: float = s.distance([[0, 0, 0]]).min()
 distances, feet = s.distance([[0, 0, 0]], nearest=True)
 rows: int = feet.shape[0] + s.mesh(0.05).triangles.shape[0]
 kind: str = s.kind
-areas = [t.area for t in meniscus.frames(None, probe=1.2, kind="ses")] + [meniscus.from_rdkit(None, radii=[1.7]).area]
+areas = [t.area for t in meniscus.frames(None, probe=1.2, kind="ses")] + [meniscus.surface(meniscus.from_rdkit(None, radii=[1.7])).area]
 scene = meniscus.Scene("1ubq.cif", silhouettes="7pt", depth_cue=0.5, preset="flat", label=["resid 1=one"], legend=True)
 scene.set(size="800x600", sticks="ligand").depth_cue = 0.25
 picture: meniscus.Picture = scene.render("cpu")
-picture = s.render(size="80x60", silhouettes=1.5, background="white", colors=(1, 0, 0))
+picture = s.render(size=(80, 60), silhouettes=1.5, background="white", colors="red")
+picture.save("a.png", replace=True)
+molecule = meniscus.read(open("x.pdb", "rb"), radii="martini3")
+part: meniscus.Structure = molecule[molecule.elements == "C"].select("chain A")
+names = [atom.name for atom in molecule] + [molecule[0].name]
+sizes = [len(residue) for residue in molecule.split("residue")]
+made = meniscus.Structure(np.zeros((2, 3)), ["C", "O"], radii=1.7, names=["C1", "O1"], name="two")
+lost: float = meniscus.buried(made, "chain A", molecule.chains == "B").total
+area: float = meniscus.surface(made).areas_by("chain")["area"].sum()
+distances = s.distance([0, 0, 0])
+scene.depth_cue = None
+scene.size = (3, 4)
+colored: bool = "color" in scene and dict(scene)["color"] is not None
 '''
 BAD = {
     'meniscus.surface([[0, 0, 0]], 1.7, kind="ess")': "surface",
@@ -38,6 +50,12 @@ BAD = {
     'meniscus.read("x.pdb", hydrogens="no")': "hydrogens",
     'meniscus.surface([[0, 0, 0]], 1.7).mesh().save("x", format="step")': "format",
     'meniscus.Scene("x.pdb", silhouetes="7pt")': "silhouetes",
+    'meniscus.Scene("x.pdb").depth_cu = 3': "depth_cu",
+    'meniscus.Scene("x.pdb").depth_cue = "abc"': "float",
+    'meniscus.Scene("x.pdb").preset = "flatt"': "flatt",
+    'meniscus.read("x.pdb").element': "element",
+    'meniscus.from_mdtraj(None).area': "area",
+    'meniscus.read("x.pdb").split("atom")': "split",
     'meniscus.Scene("x.pdb", preset="flatt")': "preset",
     'meniscus.Scene("x.pdb", depth_cue="much")': "depth_cue",
     'meniscus.surface([[0, 0, 0]], 1.7).render(view="top")': "view",

@@ -53,9 +53,17 @@ void Mailbox::want_picture(ClientNumber client) {
   arrived_.notify_one();
 }
 
+void Mailbox::want_figure(ClientNumber client, std::set<std::string> known) {
+  const std::lock_guard lock(mutex_);
+  content_.wanting_figure.insert_or_assign(client, std::move(known));
+  news_ = true;
+  arrived_.notify_one();
+}
+
 void Mailbox::forget(ClientNumber client) {
   const std::lock_guard lock(mutex_);
   content_.wanting.erase(client);
+  content_.wanting_figure.erase(client);
   content_.gone.insert(client);
   news_ = true;
   arrived_.notify_one();

@@ -43,15 +43,18 @@ class Mailbox {
   Change waiting_change();
   /// The client has shown its last picture and is ready for another.
   void want_picture(ClientNumber client);
+  /// The client is ready for another figure. known: digests of the tables that it has.
+  void want_figure(ClientNumber client, std::set<std::string> known);
   /// The client has gone; its commands are still carried out.
   void forget(ClientNumber client);
   /// The network has failed; take() throws Error with this text.
   void fail(const std::string& error);
 
   struct Content {
-    std::vector<ClientCommand> commands;  ///< in order
-    std::set<ClientNumber> wanting;       ///< clients that are ready for a picture
-    std::set<ClientNumber> gone;          ///< clients that left since the last time
+    std::vector<ClientCommand> commands;                           ///< in order
+    std::set<ClientNumber> wanting;                                ///< clients that are ready for a picture
+    std::map<ClientNumber, std::set<std::string>> wanting_figure;  ///< those ready for a figure, and their tables
+    std::set<ClientNumber> gone;                                   ///< clients that left since the last time
   };
   /// Waits until something new is there or the time has come, and takes all of it.
   Content take(std::optional<std::chrono::steady_clock::time_point> until);

@@ -7,6 +7,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,6 +31,17 @@ namespace websocket = beast::websocket;
 using Json = nlohmann::json;
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
+
+/// The digests in a request for a figure, whose "has" may be left out; nothing: the message is none.
+std::optional<std::set<std::string>> tables_known_to(const Json& message) {
+  std::set<std::string> known;
+  const Json has = message.value("has", Json::array());
+  if (message.value("request", Json()) != "figure" || message.size() > 1 + message.count("has") || !has.is_array())
+    return {};
+  for (const Json& digest : has)
+    if (!digest.is_string() || !known.insert(digest).second) return {};
+  return known;
+}
 
 /// Messages that wait for a client that does not read; a page that is alive never has as many.
 constexpr std::size_t kLongestQueue = 512;
@@ -92,6 +104,7 @@ class SocketClient : public Client, public std::enable_shared_from_this<SocketCl
       message.erase(found);
     }
     if (message == Json{{"request", "picture"}}) return clients_->mailbox.want_picture(number_);
+    if (const auto known = tables_known_to(message)) return clients_->mailbox.want_figure(number_, *known);
     if (message == Json{{"request", "control"}}) return clients_->give_control(number_);
     if (!clients_->controls(number_) && !is_question(message)) return reply(id, "another page controls this preview");
     if (!clients_->mailbox.put(number_, id, std::move(message))) reply(id, "too many commands wait; send fewer");

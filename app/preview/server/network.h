@@ -38,7 +38,7 @@ class Network {
   void send_to_all(const nlohmann::json& message);
   /// The same, and to each client that comes later, until there is another one; null: none from now on.
   void announce(const nlohmann::json& message);
-  /// A message and the picture it speaks of.
+  /// A message and the picture, or the bytes of the figure, that it speaks of.
   void send_picture(ClientNumber client, const nlohmann::json& message,
                     std::shared_ptr<const std::vector<std::uint8_t>> picture);
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/png_file.h"
+#include "exporters/page/page_file.h"
 
 namespace meniscus {
 namespace {
@@ -88,10 +90,14 @@ class ServedSession {
       for (const ClientNumber client : news.gone) {
         waiting_.erase(client);
         shown_.erase(client);
+        figure_pages_.erase(client);
       }
       waiting_.merge(news.wanting);
+      for (auto& [client, known] : news.wanting_figure) figure_pages_[client].known = std::move(known);
       for (const ClientCommand& command : news.commands) carry_out(command);
       play();
+      // Of a large molecule there is something to see before its first surface.
+      if (picture_.number > 0 || waiting_.empty() || !session_.wants_balls()) show_figure();
       show();
     }
   }
@@ -107,7 +113,8 @@ class ServedSession {
 
   /// The next frame, when it is time and the pages have come along.
   void play() {
-    if (!session_.state().playing || waiting_.empty() || Clock::now() < next_frame_) return;
+    if (!session_.state().playing || (waiting_.empty() && !somebody_waits_for_figures()) || Clock::now() < next_frame_)
+      return;
     const auto pace = std::chrono::duration<double>(1.0 / session_.state().frames_per_second);
     next_frame_ = std::max(next_frame_, Clock::now() - std::chrono::seconds(1)) +
                   std::chrono::duration_cast<Clock::duration>(pace);
@@ -143,6 +150,55 @@ class ServedSession {
       shown_[client] = picture_.number;
     }
     waiting_ = std::move(still_waiting);
+  }
+
+  /// A page that casts figures itself.
+  struct FigurePage {
+    std::optional<std::set<std::string>> known{};  ///< digests of its tables; nothing: it is not ready for a figure
+    std::uint64_t shown = 0;                       ///< revision of the figure that it was sent last
+  };
+
+  bool lacks_the_figure(const FigurePage& page) const { return page.known && page.shown != session_.figure_revision(); }
+  bool somebody_lacks_the_figure() const {
+    return std::ranges::any_of(figure_pages_, [&](const auto& page) { return lacks_the_figure(page.second); });
+  }
+  bool somebody_waits_for_figures() const {
+    return std::ranges::any_of(figure_pages_, [](const auto& page) { return page.second.known.has_value(); });
+  }
+
+  /// Sends the figure to pages that cast it themselves, or says why there is none for them.
+  void show_figure() {
+    if (!somebody_lacks_the_figure() || !pack_figure()) return;
+    Json message{{"event", "figure"}, {"edition", figure_revision_}, {"revision", session_.state().revision}};
+    message["state"] = question("state");
+    if (!figure_) message["unavailable"] = escaped(figure_fault_);
+    for (auto& [client, reader] : figure_pages_) {
+      if (!lacks_the_figure(reader)) continue;
+      if (figure_) {
+        const std::string bytes = page::bytes_for_page(*figure_, *reader.known);
+        network_.send_picture(client, message,
+                              std::make_shared<const std::vector<std::uint8_t>>(bytes.begin(), bytes.end()));
+      } else {
+        network_.send(client, message);
+      }
+      reader = {{}, figure_revision_};
+    }
+  }
+
+  /// False if another surface is wanted already.
+  bool pack_figure() {
+    if (figure_revision_ == session_.figure_revision()) return true;
+    figure_.reset();
+    try {
+      figure_ = view_.figure([this] { return mailbox_.waiting_change(); });
+      if (!figure_) return false;
+    } catch (const GpuError&) {
+      throw;
+    } catch (const Error& error) {
+      figure_fault_ = error.what();
+    }
+    figure_revision_ = session_.figure_revision();
+    return true;
   }
 
   /// False if there is nothing to show: it cannot be drawn, or a newer command stopped it.
@@ -195,6 +251,8 @@ class ServedSession {
 
   std::optional<Clock::time_point> next_deadline() const {
     std::optional<Clock::time_point> deadline;
+    if (somebody_lacks_the_figure()) return Clock::now();
+    if (session_.state().playing && somebody_waits_for_figures()) deadline = next_frame_;
     if (waiting_.empty()) return deadline;
     const bool drawable = view_.fault().empty();
     if (drawable && !is_current()) return Clock::now();
@@ -210,8 +268,12 @@ class ServedSession {
   Mailbox& mailbox_;
   JpegEncoder jpeg_;
   SentPicture picture_;
-  std::set<ClientNumber> waiting_;               ///< for a picture they have not seen
-  std::map<ClientNumber, std::uint64_t> shown_;  ///< number of the picture each was sent last
+  std::set<ClientNumber> waiting_;                   ///< for a picture they have not seen
+  std::map<ClientNumber, std::uint64_t> shown_;      ///< number of the picture each was sent last
+  std::shared_ptr<const page::PackedFrame> figure_;  ///< nullptr: none yet, or pages cannot show it
+  std::string figure_fault_;                         ///< why not
+  std::uint64_t figure_revision_ = 0;                ///< 0: none yet
+  std::map<ClientNumber, FigurePage> figure_pages_;
   Clock::time_point next_frame_{};
 };
 

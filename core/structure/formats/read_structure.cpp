@@ -162,6 +162,7 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
       any = true;
     }
     if (any || scope == PositionScope::frame) continue;
+    if (!shown[bit].lack.empty()) throw InputError(path, 0, shown[bit].lack);
     throw InputError(path, 0,
                      fmt::format("none of its {} atoms is shown by {}; chains and names are case-sensitive, water "
                                  "and free ions are shown where the expression names them",

@@ -29,6 +29,7 @@ struct ShownAtoms {
   /// Selection from the same atoms as ReadOptions::selection, with the same rule for water and ions.
   Selection atoms;
   bool each_is_drawn = false;  ///< true if every atom is drawn, as by sticks and spheres; then it has no companion
+  std::string lack{};          ///< message of the error if there are none; empty: it names the option
 };
 
 /// The greatest number of ShownAtoms. Atom::shown has a bit for each of them.

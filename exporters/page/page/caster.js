@@ -6,6 +6,7 @@ const kNoPrimitive = 0xffffffff;
 const kToroidal = 1, kCylinder = 3;
 const kIsBeside = 1;    // of exporters/page/page_tables.cpp
 const kBuckets = 4096;  // of depth, front to back
+const kSelected = [1, 0.43, 0], kSelectedShare = 0.75;  // linear colour of what is selected, and its share
 
 /// A figure cannot be drawn here, in a sentence for its reader.
 class NoWebGl extends Error {}
@@ -109,7 +110,7 @@ class Caster {
   /// scheme: its place among the figure's.
   set_scheme(scheme) {
     const { own_colors, tables, schemes } = this.figure, words = scheme > 0 ? tables[`scheme_${scheme}`] : own_colors;
-    const made_of = [words, own_colors, this.hidden], is_same = made_of.every((part, n) => part === this.colors_of?.[n]);
+    const made_of = [words, own_colors, this.hidden, this.selected], is_same = made_of.every((part, n) => part === this.colors_of?.[n]);
     this.by_kind = schemes[scheme].by_kind ? 1 : 0;
     this.scheme = scheme;
     this.look = schemes[scheme].look ?? this.figure.look;
@@ -119,14 +120,30 @@ class Caster {
       words.forEach((word, n) => colors.set([...linear_from_srgb([0, 8, 16].map((bit) => ((word >> bit) & 255) / 255)),
         n < tables.shown.length ? own[4 * n + 3] : 1], 4 * n));
     for (const atom of this.hidden ?? []) colors[4 * atom + 3] = 0;
+    for (const atom of this.selected ?? [])
+      kSelected.forEach((channel, n) => { colors[4 * atom + n] += kSelectedShare * (channel - colors[4 * atom + n]); });
     this.gl.deleteTexture(this.tables.colors ?? null);
     this.tables.colors = this.table(new Uint32Array(colors.buffer));
     this.colors_of = made_of;
   }
 
+  /// Frees all that the figure takes on the device.
+  release() {
+    for (const number of [...this.ready.keys()]) this.forget(number);
+    this.gl.deleteTexture(this.tables.colors ?? null);
+    this.gl.deleteTexture(this.light.texture);
+    this.resize(1, 1);
+  }
+
   /// atoms: numbers of those that are hidden beside those that the figure hides.
   hide(atoms) {
     this.hidden = atoms;
+    this.set_scheme(this.scheme);
+  }
+
+  /// atoms: numbers of those that are tinted as selected.
+  select(atoms) {
+    this.selected = atoms;
     this.set_scheme(this.scheme);
   }
 
@@ -426,8 +443,16 @@ class Caster {
     return words;
   }
 
-  /// Where an atom is, from where the records count.
-  center_of(atom) { return [...new Float32Array(this.figure.tables.balls.buffer, 16 * atom, 3)]; }
+  /// Returns where an atom is, from where the records count; null for an atom that only meshes show.
+  center_of(atom) {
+    const { tables, light_maps: { surfaces } } = this.figure, { primitives, rows, balls } = tables;
+    const own = surfaces.find(([, first, count]) => atom >= first && atom < first + count);
+    if (own) return [...new Float32Array(balls.buffer, 16 * (own[0] + atom - own[1]), 3)];
+    for (let at = 0; at < primitives.length; at += 12)
+      if (primitives[at + 7] === 0 && primitives[at + 8] === kNoPrimitive && primitives[at + 9] === atom)
+        return [...new Float32Array(rows.buffer, 16 * primitives[at + 5], 3)];
+    return null;
+  }
 
   /// What a pixel shows: {atom, primitive, point}, or nothing.
   pick(x, y) {

@@ -51,23 +51,25 @@ function follow_pointer(viewer) {
     if (drag.wandered < kClick) return;
     viewer.move(drag.pans ? panned(viewer.camera, dx / height, dy / height) : orbited(viewer.camera, dx / height, dy / height));
   });
+  const center = async (event) => {
+    const picked = await viewer.pick(event.clientX, event.clientY);
+    if (picked) viewer.move(centered(viewer.camera, picked.point), false);
+  };
   const release = (event) => {
     pointers.delete(event.pointerId);
     if (event.type === "pointerup" && drag && drag.button === 0 && drag.wandered < kClick) {
       viewer.pick(event.clientX, event.clientY).then((found) => {
-        element("picked").textContent = viewer.tell(found);
+        if (!viewer.selects) element("picked").textContent = viewer.tell(found);
         viewer.picked?.(found, event);
       });
     }
+    if (event.type === "pointerup" && drag?.button === 1 && drag.wandered < kClick) center(event);
     if (pointers.size === 0) drag = null;
     else drag.wandered = kClick;
   };
   canvas.addEventListener("pointerup", release);
   canvas.addEventListener("pointercancel", release);
-  canvas.addEventListener("dblclick", async (event) => {
-    const picked = await viewer.pick(event.clientX, event.clientY);
-    if (picked) viewer.move(centered(viewer.camera, picked.point), false);
-  });
+  canvas.addEventListener("dblclick", (event) => { if (!viewer.selects) center(event); });
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
     const factor = Math.exp(-event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : 16) * 0.0015);

@@ -48,6 +48,7 @@ async function draw_png(viewer, size, tell) {
   const { caster, figure, effects } = viewer, page = Object.assign(document.createElement("canvas"), { width: size[0], height: size[1] });
   const context = page.getContext("2d"), camera = widened(viewer.camera, viewer.growth()), background = linear_from_srgb(viewer.background);
   const saving = viewer.saving = { stopped: false };
+  caster.select([]);
   try {
     const tiles = tiles_of(size);
     for (const [n, tile] of tiles.entries()) {
@@ -66,6 +67,7 @@ async function draw_png(viewer, size, tell) {
   } finally {
     caster.size = [0, 0];
     viewer.saving = null;
+    viewer.mark_selected();
     viewer.change();
   }
 }

@@ -18,7 +18,10 @@ class Viewer {
     this.cut = null;  // the plane of the reader's cut
     this.depth = 0;  // share of the molecule that it takes away
     this.cuts_with_view = true;
+    this.rests_here = true;  // draws the picture at rest; else drafts alone
     this.hidden = [];  // atoms
+    this.selected = new Set();  // their numbers in the names
+    this.selects = false;  // clicks select, and those that centre are of the middle button
     this.draft_scale = 1;
     this.sample = -1;  // the last one cast of the picture at rest
     this.moving = false;
@@ -40,19 +43,27 @@ class Viewer {
     element("labels").replaceChildren(...this.texts);
   }
 
-  /// Shows another figure of the same program; the camera stays.
+  /// Shows another figure, whose number no other has; the camera stays.
   show_figure(figure) {
-    const { names, labels } = this.figure, last = this.figure.number;
+    const { names, number, origin } = this.figure, shift = minus(origin, figure.origin);
     Object.assign(this.figure, figure);
     Object.assign(this, { view_number: 0, opacity: this.view.opacity, scheme: 0, background: figure.background });
+    Object.assign(this.camera = { ...this.camera }, { position: plus(this.camera.position, shift), target: plus(this.camera.target, shift) });
     this.effects = { shade: figure.has_shade, lines: figure.has_lines };
     if (names !== figure.names) this.last_picked = undefined;
-    if (labels !== figure.labels) this.write_labels();
-    if (this.caster === this.pictures) return this.start();
+    this.write_labels();
+    if (this.pictures || !this.caster) return;
     this.caster.show(this.figure);
-    if (last !== figure.number) this.caster.forget(last);
+    this.caster.forget(number);
+    this.mark_selected();
     this.set_scheme(0);
-    this.lay();
+    this.set_layers();
+  }
+
+  /// Shows what draws in place of this browser's WebGL; null: this browser casts.
+  show_pictures(pictures) {
+    this.pictures = pictures;
+    this.start();
     this.change();
   }
 
@@ -65,14 +76,17 @@ class Viewer {
     if (names !== frame.names) this.last_picked = undefined;
     if (labels !== frame.labels) this.write_labels();
     this.caster.show(frame);
+    this.mark_selected();
     this.lay();
     this.change(true);
   }
 
   start() {
+    this.caster?.release?.();
     this.caster = this.pictures ?? new LayeredCaster(this.canvas, this.figure);
     this.caster.hidden = this.hidden;
     this.caster.set_scheme(this.scheme ?? 0);
+    this.mark_selected();
     this.lay();
   }
 
@@ -123,6 +137,19 @@ class Viewer {
     this.hidden = this.atoms_beside(shown);
     this.caster.hide(this.hidden);
     this.change();
+  }
+
+  /// Shows atoms as selected. places: their numbers in the names.
+  select(places) {
+    this.selected = new Set(places);
+    this.mark_selected();
+    this.change();
+  }
+
+  mark_selected() {
+    if (!this.casts) return;
+    const { shown } = this.figure.tables;
+    this.caster.select(this.selected.size > 0 ? [...shown.keys()].filter((atom) => this.selected.has(shown[atom])) : []);
   }
 
   /// Atoms of other chains.
@@ -192,7 +219,7 @@ class Viewer {
     const [width, height] = this.pixels();
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
     try {
-      if (this.moving) this.draw_draft(width, height);
+      if (this.moving || !this.rests_here) this.draw_draft(width, height);
       else this.draw_sample(width, height);
       this.draw_labels();
     } catch (error) {
@@ -224,6 +251,7 @@ class Viewer {
     });
   }
 
+  /// Returns the milliseconds that it takes.
   draw_draft(width, height) {
     const began = performance.now(), scale = this.draft_scale;
     this.begin(Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale)));
@@ -234,6 +262,8 @@ class Viewer {
     this.draft_scale = Math.min(1, Math.max(0.125, scale * Math.sqrt(kDraft / Math.max(took, 1))));
     if (this.draft_scale > 0.8) this.draft_scale = 1;
     this.canvas.dataset.draft = took.toFixed(1);
+    this.drafted?.(took);
+    return took;
   }
 
   draw_sample(width, height) {
@@ -248,8 +278,8 @@ class Viewer {
   async pick(x, y) {
     if (!this.caster || this.saving) return null;
     if (this.casts && this.sample < 0) { this.moving = false; const [width, height] = this.pixels(); this.draw_sample(width, height); }
-    const box = this.canvas.getBoundingClientRect();
-    const found = await this.caster.pick(Math.floor((x - box.left) * this.canvas.width / box.width), Math.floor((y - box.top) * this.canvas.height / box.height));
+    const box = this.canvas.getBoundingClientRect(), { width, height } = this.caster.canvas;
+    const found = await this.caster.pick(Math.floor((x - box.left) * width / box.width), Math.floor((y - box.top) * height / box.height));
     return found && { place: this.figure.tables?.shown[found.atom], ...found };
   }
 
@@ -272,7 +302,9 @@ class Viewer {
     if (!picked) return "";
     if (picked.words) return picked.words;
     if (before === undefined || before === picked.atom) return this.words(picked);
-    const distance = length(minus(this.caster.center_of(picked.atom), this.caster.center_of(before)));
+    const places = [picked.atom, before].map((atom) => this.caster.center_of(atom));
+    if (places.includes(null)) return this.words(picked);
+    const distance = length(minus(...places));
     return `${this.words(picked)}; ${distance.toFixed(2)} Å from ${this.atom_name(before)}`;
   }
 

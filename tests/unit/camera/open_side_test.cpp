@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How deep a plane must be for some balls to be seen behind others.
+// Tests how deep a plane must be for some balls to be seen behind others, and which side of them shows more.
 #include "core/camera/open_side.h"
 
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/camera/view_request.h"
 #include "core/math/ball.h"
 
 namespace meniscus {
@@ -81,6 +83,57 @@ TEST(OpenDepth, IgnoresWhatIsBehindTheCamera) {
   add_wall(all, 80.0);
   for (const Projection projection : {Projection::orthographic, Projection::perspective})
     EXPECT_EQ(open_depth(seen, all, camera_at(60.0, projection)).seen, 1.0);
+}
+
+/// The axes of a view along -z, and its balls with their groups: a wall, and balls behind it.
+struct Walled {
+  const ViewBasis view{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+  Balls balls;
+  std::vector<std::uint32_t> group;
+
+  Walled() {
+    add_wall(balls, 0.0);
+    group.assign(balls.size(), 0);
+    add(-6.0, 1);
+  }
+  /// Adds a ball of a group at this height.
+  void add(double z, std::uint32_t of_group) {
+    balls.push_back({{1.0, 2.0, z}, 2.0});
+    group.push_back(of_group);
+  }
+  bool shows_more_behind() const { return meniscus::shows_more_behind(view, balls, group); }
+};
+
+TEST(ShowsMoreBehind, OfWhatAWallHides) {
+  Walled walled;
+  EXPECT_TRUE(walled.shows_more_behind());
+  walled.add(6.0, 2);  // as much is now in front of the wall
+  EXPECT_FALSE(walled.shows_more_behind());
+}
+
+TEST(ShowsMoreBehind, IsFalseForTheSideThatShowsMore) {
+  Walled walled;
+  for (Ball& ball : walled.balls) ball.center.z = -ball.center.z;
+  EXPECT_FALSE(walled.shows_more_behind());
+}
+
+TEST(ShowsMoreBehind, IsFalseForOneGroupAndForBallsThatDoNotCount) {
+  Walled walled;
+  walled.group.back() = kCountedGroups;
+  EXPECT_FALSE(walled.shows_more_behind());
+  walled.group.back() = 0;
+  EXPECT_FALSE(walled.shows_more_behind());
+}
+
+TEST(ShowsMoreBehind, TurnsTheUsualView) {
+  const Walled walled;
+  ViewRequest request;
+  const ViewBasis usual = aimed_basis(request, {}, {walled.balls, walled.balls, {}});
+  const ViewBasis other = aimed_basis(request, {}, {walled.balls, walled.balls, {}, -usual.forward});
+  EXPECT_EQ(other.forward, -usual.forward);
+  EXPECT_EQ(other.up, usual.up);
+  request.direction = parse_view_direction("front");
+  EXPECT_EQ(aimed_basis(request, {}, {walled.balls, walled.balls, {}, -usual.forward}).forward, other.forward);
 }
 
 }  // namespace

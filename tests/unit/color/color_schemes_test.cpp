@@ -71,13 +71,38 @@ TEST(Colors, AChainHasTheColourOfItsPlaceInTheFile) {
 
 TEST(Colors, AutoIsByChainForPolymersAndByElementForSmallMolecules) {
   Structure small = four_atoms(), protein = small, spheres = small;
-  protein.atoms[3].kind = AtomClass::polymer;
+  protein.atoms[2].kind = protein.atoms[3].kind = AtomClass::polymer;  // of chains B and A
   for (Atom& atom : spheres.atoms) atom.element = 0;
-  EXPECT_EQ(colored("auto", small).atom, colored("element", small).atom);
+  EXPECT_EQ(colored("auto", small).atom, colored("element-cpk", small).atom);
   EXPECT_EQ(colored("auto", protein).atom, colored("chain", protein).atom);
   EXPECT_EQ(colored("auto", spheres).atom, colored("chain", spheres).atom);
   EXPECT_EQ(color_key(small, {}).title, "element") << "it is the default";
   EXPECT_EQ(color_key(protein, {}).title, "chain");
+}
+
+TEST(Colors, AutoOfASingleChainRunsAlongIt) {
+  Structure structure = four_atoms();
+  for (const std::size_t n : {0, 1, 3}) {
+    structure.atoms[n].kind = AtomClass::polymer;
+    structure.atoms[n].residue = static_cast<std::uint32_t>(n);
+  }
+  ColorScheme along = scheme("rainbow");
+  along.map = ColorMap::pastel;
+  const Coloring automatic = colored("auto", structure);
+  EXPECT_EQ(automatic.atom, color_atoms(structure, along).atom);
+  EXPECT_EQ(automatic.atom[0], mapped_color(ColorMap::pastel, 0.0));
+  EXPECT_EQ(automatic.atom[1], mapped_color(ColorMap::pastel, 0.5));
+  EXPECT_EQ(automatic.atom[3], mapped_color(ColorMap::pastel, 1.0));
+  const ColorKey key = color_key(structure, {});
+  ASSERT_TRUE(key.scale);
+  EXPECT_EQ(key.scale->title, "place in the chain");
+  EXPECT_EQ(key.scale->map, ColorMap::pastel);
+  // Copies, and models, are several chains.
+  structure.instances = {{{0, 1, 2, 3}, {RigidMotion(), RigidMotion()}}};
+  EXPECT_EQ(colored("auto", structure).atom, colored("chain", structure).atom);
+  structure.instances.clear();
+  structure.atoms[3].model = 2;
+  EXPECT_EQ(colored("auto", structure).atom, colored("chain", structure).atom);
 }
 
 TEST(Colors, ChainElementShowsChainsByTheCarbonOfPolymers) {

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The socket: numbered questions with their replies, and one picture at a time.
+// The socket: numbered questions with their replies, and one picture or figure at a time.
 
 /// "open" where the server lets us in, "refused" where it has another token by now, "gone" where there is none.
 export const answers = () => fetch(location.href, { cache: "no-store" })
   .then((answer) => answer.ok ? "open" : "refused", () => "gone");
 
-/// Calls handlers[event](message) for what the server says of itself, and for "picture" with the bytes as well; asks for
-/// the next picture only when the last one is shown.
+/// Calls handlers[event](message) for what the server says of itself, and for pictures and figures with the bytes as well.
 export class Connection {
   #socket;
   #handlers;
   #open;
-  #announced = null;  // the message whose picture comes next
+  #announced = null;  // the message whose bytes come next
   #replies = new Map();
   #next = 1;
   #ended = false;
@@ -38,18 +37,14 @@ export class Connection {
   }
 
   /// Asks the server itself, which does not reply.
-  request(what) {
-    this.#socket.send(JSON.stringify({ request: what }));
+  request(what, values = {}) {
+    if (this.#socket.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify({ request: what, ...values }));
   }
 
-  async #receive(data) {
-    if (typeof data !== "string") {
-      await this.#handlers.picture(this.#announced, data);
-      if (this.#socket.readyState === WebSocket.OPEN) this.request("picture");
-      return;
-    }
+  #receive(data) {
+    if (typeof data !== "string") return this.#handlers[this.#announced.event](this.#announced, data);
     const message = JSON.parse(data);
-    if (message.event === "picture") this.#announced = message;
+    if (message.event === "picture" || (message.event === "figure" && !message.unavailable)) this.#announced = message;
     else if (message.event) this.#tell(message);
     else {
       this.#replies.get(message.id)?.(message);

@@ -72,9 +72,11 @@ export function figure_controls({ command, set, say, viewer }) {
     const opacity = $("opacity").valueAsNumber / 100, index = latest.opacities.findIndex((rule) => rule.selection === undefined);
     command("opacity", index < 0 ? { opacity } : { opacity, index });
   });
+  $("surface-shown").addEventListener("change", (event) =>
+    command("set", { key: "surface.shown", value: event.target.checked }).then((reply) => { if (!reply) event.target.checked = true; }));
   $("cap").addEventListener("change", (event) =>
-    set("surface.cap_color", event.target.value === "own" ? $("cap-color").value : event.target.value));
-  $("cap-color").addEventListener("input", (event) => set("surface.cap_color", event.target.value));
+    command("set", { key: "surface.cap_color", value: event.target.value === "own" ? $("cap-color").value : event.target.value }));
+  $("cap-color").addEventListener("input", (event) => command("set", { key: "surface.cap_color", value: event.target.value }));
   $("undo").addEventListener("click", () => command("undo"));
   $("redo").addEventListener("click", () => command("redo"));
   $("view-form").addEventListener("submit", async (event) => {
@@ -196,8 +198,8 @@ export function figure_controls({ command, set, say, viewer }) {
       $("chips").replaceChildren(...chips(state));
       $("kept-views").replaceChildren(...views(state));
     }
+    $("surface-shown").checked = !state.surface_hidden;
     $("surface-shown").parentElement.hidden = state.representations.length + state.objects.length === 0;
-    $("rims").parentElement.hidden = state.opacities.length === 0;
     const of_all = state.opacities.find((rule) => rule.selection === undefined), cut = state.cuts[slider_cut(state)];
     if ($("opacity") !== document.activeElement) $("opacity").value = 100 * (of_all?.opacity ?? 1);
     if ($("cut") !== document.activeElement && !cut) $("cut").value = 0;
@@ -207,11 +209,11 @@ export function figure_controls({ command, set, say, viewer }) {
     $("cap").value = named ? state.cap.color : "own";
     $("cap-color-row").hidden = named;
     if (state.cap.color !== "atom") $("cap-color").value = state.cap.color;
-    for (const id of ["cap", "hatching"]) $(id).parentElement.hidden = state.cuts.length === 0;
+    const of_cuts = ["cap", "surface-cap_hatching", "surface-clip_all"].map((id) => [id, state.cuts.length > 0]);
+    for (const [id, there] of [...of_cuts, ["surface-film_opacity", state.opacities.length > 0]]) if ($(id)) $(id).parentElement.hidden = !there;
     $("cap-color-row").hidden ||= state.cuts.length === 0;
     $("undo").disabled = state.undo === 0;
     $("redo").disabled = state.redo === 0;
-    for (const row of document.querySelectorAll(".of-legend")) row.hidden = !state.legend.on;
     $("legend-fault").textContent = state.legend.fault ?? "";
     $("legend-fault").hidden = !state.legend.fault;
   }

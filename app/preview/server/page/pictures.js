@@ -4,9 +4,9 @@
 const kind_text = (kind) => ["cap", "shape"].includes(kind) ? kind : `${kind} patch`;
 
 export class Pictures {
-  /// ask(command) resolves to the program's reply; state() is what the program shows.
-  constructor(canvas, ask, state) {
-    Object.assign(this, { canvas, ask, state });
+  /// ask(command) resolves to the program's reply; state() is what the program shows, origin() from where the viewer counts.
+  constructor(canvas, ask, state, origin) {
+    Object.assign(this, { canvas, ask, state, origin });
   }
 
   set_scheme() {}
@@ -15,15 +15,16 @@ export class Pictures {
   /// Of a ball around all atoms, in Å.
   get radius() { return length(minus(this.state().high, this.state().low)) / 2; }
 
-  /// Draws a picture, in the size in which it is shown.
+  /// Draws a picture, in the size in which it is shown. Returns its own width as a share of that.
   async show(blob, { width, height }) {
-    const bitmap = await createImageBitmap(blob, { colorSpaceConversion: "none" });
-    for (const canvas of [this.canvas, element("picture")])
-      if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    const bitmap = await createImageBitmap(blob, { colorSpaceConversion: "none" }), share = bitmap.width / width;
+    const { canvas } = this;
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     const context = this.canvas.getContext("2d", { alpha: false });
     context.imageSmoothingQuality = "high";
     context.drawImage(bitmap, 0, 0, width, height);
     bitmap.close();
+    return share;
   }
 
   /// What a pixel shows, as Viewer.pick() has it; also exposed_area and area_follows. more: members of the question.
@@ -33,6 +34,6 @@ export class Pictures {
     const found = await this.ask({ command: "pick", x, y, wait: false, ...more });
     if (!found.ok || !found.hit) return null;
     return { ...found, x, y, label: found.place, what: kind_text(found.kind), words: `${found.place} – ${kind_text(found.kind)}`,
-      place: found.index, point: found.position };
+      place: found.index, point: minus(found.position, this.origin()) };
   }
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the program adds to the stage: its sections, and commands from input; pictures and state from what it says.
+import { is_worth_timing, time_casting, webgl_device, who_draws } from "./casting.js";
 import { answers, Connection } from "./connection.js";
+import { contents_controls } from "./contents.js";
 import { figure_controls } from "./figure.js";
 import { follow_lamp, place_lamp } from "./lamp.js";
 import { Pictures } from "./pictures.js";
 import { property_controls } from "./properties.js";
+import { select_controls } from "./select.js";
 import { strip_controls } from "./strip.js";
 
 const $ = element;
@@ -24,7 +27,8 @@ let newest = 0;        // the revision of the latest reply
 let actions = null;    // of keys which are the page's, by their names
 
 const server = new Connection({
-  picture: show_program_picture,
+  picture: (message, bytes) => show_program_picture(message, bytes).finally(want),
+  figure: (message, bytes) => show_program_figure(message, bytes).finally(want),
   welcome: async (message) => {
     set_role(message.controls);
     server.ask({ command: "choices" }).then(fill_choices);
@@ -48,7 +52,7 @@ function place_sections() {
     if (before) $(before).before(...part.childNodes);
     else $(within).append(...part.childNodes);
   }
-  $("about").hidden = true;
+  for (const part of [$("about"), ...document.querySelectorAll(".of-pages")]) part.hidden = true;
   $("controls").hidden = false;
   $("controls").disabled = true;
   $("write").noValidate = false;
@@ -76,6 +80,7 @@ async function command(word, values = {}, refuse = (text) => tell(text, true)) {
   const reply = await server.ask({ command: word, ...values });
   --outstanding;
   newest = reply.revision ?? newest;
+  if (viewer?.casts && word !== "camera" && reply.revision !== undefined) follow_change(reply.revision);
   note_rest();
   if (!reply.ok && reply.error) refuse(sentence_of(reply.error, word));
   else if (reply.ok && word !== "resize") forget_errors();
@@ -100,9 +105,23 @@ async function ask_state() {
   apply_state(next);
 }
 
+/// The program sends a figure, if the change made another one, before it tells the state.
+async function follow_change(revision) {
+  due = revision;
+  await ask_state();
+  if (due === revision) due = 0;
+  note_rest();
+}
+
 /// At rest the stage shows, in full, what all commands came to.
-const is_at_rest = () => Boolean(shown?.full) && outstanding === 0 && shown.state.revision >= newest;
-function note_rest() { canvas.dataset.rest = String(is_at_rest()); }
+const has_picture = () => Boolean(shown?.full) && outstanding === 0 && shown.state.revision >= newest && JSON.stringify(file_camera()) === told_text;
+const is_at_rest = () => !viewer?.rests_here ? has_picture() : is_cast && due === 0 && outstanding === 0;
+function note_rest() {
+  canvas.dataset.rest = String(Boolean(viewer) && is_at_rest());
+  const casts = Boolean(viewer?.casts) && (viewer.rests_here || !has_picture());
+  $("pictures").hidden = casts;
+  $("labels").toggleAttribute("hidden", !casts);  // pictures of the program have theirs
+}
 
 $("take").addEventListener("click", () => server.request("control"));
 
@@ -111,6 +130,8 @@ $("take").addEventListener("click", () => server.request("control"));
 let told_text = "";   // the camera that both have
 let adopted = "";     // the program's, as it was told last
 let flights = 0;      // cameras without a reply
+let camera_timer = 0;
+const kCameraRest = 150;  // ms that a camera rests before it is told, where this browser draws
 
 /// The camera as files have it, in the molecule's coordinates.
 function file_camera() {
@@ -119,12 +140,14 @@ function file_camera() {
 }
 
 function tell_camera() {
-  if (!viewer || !controls) return;
-  const camera = file_camera(), text = JSON.stringify(camera);
-  if (text === told_text) return;
+  clearTimeout(camera_timer);
+  if (!viewer) return;
+  if (!controls) viewer.camera = page_camera(state.camera, viewer.camera, viewer.figure.origin);  // who looks on turns nothing
+  const camera = file_camera(), text = JSON.stringify(camera), is_told = text === told_text;
   told_text = text;
+  if (is_told || !controls) return;
   ++flights;
-  command("camera", { camera }).then(() => { --flights; tell_camera(); });
+  command("camera", { camera }).then(() => { --flights; if (viewer.casts) want(); else tell_camera(); });
 }
 
 /// Takes the program's camera, unless it has not heard of a newer one from here.
@@ -132,11 +155,16 @@ function adopt_camera({ camera, revision }) {
   const text = JSON.stringify(camera);
   if (text === adopted || flights > 0 || revision < newest || JSON.stringify(file_camera()) !== told_text) return;
   adopted = text;
-  viewer.gliding = null;
-  viewer.camera = page_camera(camera);
+  const next = page_camera(camera, viewer.camera, viewer.figure.origin);
+  $("projection").value = projection_of(next);
+  if (numbers_of(next) === numbers_of(viewer.camera)) return;
+  Object.assign(viewer, { gliding: null, camera: next });
   told_text = JSON.stringify(file_camera());
-  $("projection").value = projection_of(viewer.camera);
+  viewer.change();
 }
+
+const numbers_of = ({ position, target, up, orthographic, fov, height }) =>
+  [...position, ...target, ...up, orthographic ? -height : fov].map((x) => x.toFixed(6)).join();
 
 const page_camera = (camera, now = { fov: 30, height: 1 }, origin = [0, 0, 0]) =>
   asked_camera({ vertical_fov: now.fov, height: now.height, ...camera }, now, origin);
@@ -212,11 +240,66 @@ function allow_controls() { $("controls").disabled = !controls || !state; }
 
 // Pictures
 
-const pictures = new Pictures($("pictures"), ask, () => state);
+const pictures = new Pictures($("pictures"), ask, () => state, () => viewer.figure.origin);
+const kept = new Map();  // tables of figures, by their digests
+let device = webgl_device();  // of this browser; empty: it casts nothing
+const times = { browser: null, program: { draft: Infinity, rest: Infinity, took: 0 } };  // milliseconds, for as many pixels; took: of a draft
+let figures = 0;        // how many have come
+let unavailable = "";   // why this browser cannot cast what the program shows
+let due = 0;            // the revision of a change that may make another figure; 0: it has come
+let is_cast = false;    // is the browser's picture at rest whole?
+
+const is_faster = (what) => $("drawn").value === "browser" || ($("drawn").value === "fastest" && times.browser?.[what] < times.program[what]);
+const wants_figures = () => device && shown?.full && (is_faster("draft") || (!times.browser && $("drawn").value === "fastest" && is_worth_timing(device, times.program)));
+
+/// Asks for what is shown next.
+function want() {
+  if (!viewer?.casts || (!viewer.rests_here && !has_picture())) server.request("picture");
+  if (wants_figures()) server.request("figure", { has: [...kept.keys()] });
+}
+
+/// Lets this browser draw, or the program, as it is due.
+function settle() {
+  const casts = Boolean(device && figures > 0 && !unavailable && is_faster("draft"));
+  if (casts !== viewer.casts || !viewer.caster) viewer.show_pictures(casts ? null : pictures);
+  if (!casts) $("legend").textContent = "";  // it is of the figure that was cast
+  viewer.rests_here = casts && !state.legend.on && is_faster("rest");
+  $("drawn-by").textContent = who_draws({ device, unavailable, times, casts, rests: viewer.rests_here });
+  note_rest();
+  want();
+}
+$("drawn").addEventListener("change", settle);
+
+async function show_program_figure(message, bytes) {
+  unavailable = message.unavailable ?? "";
+  if (message.revision >= due) due = 0;
+  if (!unavailable) {
+    const figure = read_figure_bytes(new Uint8Array(bytes), kept), cuts = message.state.cuts.map((plane) => plane.match(/^depth>(.*)/)?.[1]);
+    const depths = cuts.length === figure.views[0].planes.length && cuts.some(Boolean) ? cuts.map((text) => text && Number(text)) : undefined;
+    const is_told = JSON.stringify(file_camera()) === told_text;
+    viewer.show_figure({ ...figure, number: ++figures, depths });
+    if (is_told) told_text = JSON.stringify(file_camera());  // from another origin it is rounded otherwise
+  }
+  if (message.state.revision >= state.revision) apply_state(message.state);
+  if (figures > 0 && !times.browser && $("drawn").value === "fastest") time_this_browser();
+  settle();
+}
+
+function time_this_browser() {
+  try {
+    viewer.show_pictures(null);
+    times.browser = time_casting(viewer);
+  } catch (error) {
+    if (!(error instanceof NoWebGl)) throw error;
+    device = "";
+  }
+}
 
 async function show_program_picture(message, bytes) {
   const blob = new Blob([bytes], { type: message.type }), before = told_states;
-  await pictures.show(blob, message.state);
+  if (viewer?.casts && !message.full) return;
+  const share = await pictures.show(blob, message.state), took = message.stats.frame_milliseconds + message.stats.encode_milliseconds;
+  Object.assign(times.program, message.full ? { rest: took } : { draft: took / share ** 2, took });
   if (message.balls) {
     say_working(`Computing the surface of ${message.state.atoms.toLocaleString("en")} atoms`);
   } else if (!shown || working) {
@@ -231,14 +314,16 @@ async function show_program_picture(message, bytes) {
   show_stats(message.stats, message.full);
   // What was told while the picture was being decoded is newer.
   if (told_states === before || message.state.revision > state.revision) apply_state(message.state);
+  if (message.full || $("drawn-by").textContent === "") settle();
 }
 
 $("times").addEventListener("toggle", () => { $("fps").hidden = !$("times").open; });
 
+const a_second = (fps) => `${fps < 10 ? fps.toFixed(1) : Math.round(fps)} a second`;
 let moving = "";  // pictures a second, of the last one that was not full
 function show_stats(stats, full) {
   const ms = (value) => `${value < 10 ? value.toFixed(1) : Math.round(value)} ms`;
-  if (!full && Number(canvas.dataset.pictures) > 2) moving = `${stats.fps < 10 ? stats.fps.toFixed(1) : Math.round(stats.fps)} a second`;
+  if (!full && Number(canvas.dataset.pictures) > 2) moving = a_second(stats.fps);
   const rest = full ? `full picture in ${ms(stats.frame_milliseconds)}` : "";
   $("fps").textContent = [moving, rest].filter(Boolean).join(" · ");
   const grown = stats.radii_grown_by > 0 ? [["radii grown for ties by up to", `${stats.radii_grown_by.toExponential(1)} \u00c5`]] : [];
@@ -265,8 +350,10 @@ new ResizeObserver(fit).observe(stage);
 
 const context = { command, set, ask, say: (text, is_error) => tell(text, is_error), viewer: () => viewer };
 const figure = figure_controls(context);
-const properties = property_controls(set);
+const properties = property_controls(context);
 const show_strip = strip_controls(context);
+const selection = select_controls(context);
+const show_contents = contents_controls(context, selection);
 
 /// Unless somebody is at it: what is typed, or dragged ahead of the pictures, stays.
 function set_value(control, value) {
@@ -275,12 +362,19 @@ function set_value(control, value) {
 
 /// The stage begins with the program's pictures.
 function begin(first) {
-  const { size, ...others } = { size: [first.width, first.height], origin: [0, 0, 0], labels: [], schemes: [], samples: [], number: -1 };
-  viewer = window.meniscus = new Viewer({ size, ...others, background: [1, 1, 1],
-    views: [{ camera: page_camera(first.camera), planes: [], hatching: [], opacity: 1 }] }, pictures);
-  viewer.rest = note_rest;
-  viewer.changed = () => { if (flights === 0) tell_camera(); };
-  viewer.picked = tell_of_atom;
+  const views = [{ camera: page_camera(first.camera), planes: [], hatching: [], opacity: 1 }];
+  viewer = window.meniscus = new Viewer({ views, size: [first.width, first.height], origin: [0, 0, 0], labels: [], schemes: [], samples: [] }, pictures);
+  viewer.rests_here = false;
+  viewer.rest = (whole) => { is_cast = whole; note_rest(); };
+  viewer.drafted = (took) => { $("fps").textContent = a_second(1000 / took); };
+  viewer.failed = () => { device = ""; settle(); };
+  viewer.changed = () => {
+    clearTimeout(camera_timer);
+    if (viewer.casts) camera_timer = setTimeout(tell_camera, kCameraRest);
+    else if (flights === 0) tell_camera();
+  };
+  viewer.selects = true;
+  viewer.picked = selection.click;
   told_text = JSON.stringify(file_camera());
   follow_pointer(viewer);
   follow_keys(viewer, (key) => {
@@ -304,14 +398,18 @@ function apply_state(next) {
   document.querySelector("h1").textContent = name;
   $("file").textContent = `${next.atoms.toLocaleString("en")} atoms`;
   $("probe").disabled = $("probe-number").disabled = next.surface === "vdw";
-  properties.show(next, set_value);
+  set_value($("probe"), next.probe_radius);
+  set_value($("probe-number"), Number(next.probe_radius.toFixed(3)));
   set_value($("scheme"), next.color.scheme);
   set_value($("map"), next.color.map ?? "");
   $("map-row").hidden = $("range-row").hidden = !numbered.has(next.color.scheme);
   set_value($("range"), next.color.range ?? "");
   if ($("map").options[0]) $("map").options[0].text = next.color.own_map ? "the file's" : "its own";
+  properties.show(next.values);
   figure.show(next);
   show_strip(next);
+  selection.show(next);
+  show_contents(next);
   take_wishes(next);
   $("kinds").checked = next.patch_kinds;
   $("kinds-key").hidden = !(next.patch_kinds || next.color.scheme === "kind");
@@ -342,30 +440,32 @@ function fill_choices(choices) {
   }
   $("map").add(new Option("its own", ""));
   for (const map of choices.maps) $("map").add(new Option(map, map));
-  for (const property of choices.properties)
-    if (property.slider_end) properties.add_slider(property, $("strengths"));
+  properties.fill(choices.properties);
   $("shapes").prepend(...choices.representations.map((as) =>
     Object.assign(document.createElement("button"), { name: "do", value: as, textContent: as[0].toUpperCase() + as.slice(1) })));
-  for (const preset of choices.presets) $("preset").add(new Option(preset, preset));
   $("keys").append(...rows_of(choices.keys.map(({ keys, what }) => [keys, what])));
   if (state) apply_state(state);
 }
 
 // Controls
 
+const set_probe = (radius) => { if (Number.isFinite(radius)) set("surface.probe", Math.round(radius * 1000) / 1000); };
+$("probe").addEventListener("input", (event) => set_probe(event.target.valueAsNumber));
+$("probe-number").addEventListener("change", (event) => set_probe(event.target.valueAsNumber));
+
+$("scheme").addEventListener("change", () =>
+  set("surface.color", [$("scheme").value, ...state.values["surface.color"].filter((entry) => entry.includes("="))]));
+$("range").addEventListener("change", () => set("surface.color_range", $("range").value.trim() || null));
+$("map").addEventListener("change", () => set("surface.map", $("map").value || null));
 let beneath_kinds = "auto";  // the colours before kinds of patch were shown
-const set_scheme = (scheme) => {
-  if (scheme === "kind") beneath_kinds = state.values["surface.color"];
-  set("surface.color", scheme === "kind" ? scheme : [scheme, ...state.color.rules ?? []]);  // rules colour atoms
-};
-$("scheme").addEventListener("change", (event) => set_scheme(event.target.value));
-$("range").addEventListener("change", (event) => set("surface.color_range", event.target.value.trim() || null));
-$("map").addEventListener("change", (event) => set("surface.map", event.target.value || null));
-$("kinds").addEventListener("change", (event) => event.target.checked ? set_scheme("kind") : set("surface.color", beneath_kinds));
+$("kinds").addEventListener("change", (event) => {
+  if (event.target.checked) beneath_kinds = state.values["surface.color"];
+  set("surface.color", event.target.checked ? "kind" : beneath_kinds);
+});
 $("projection").addEventListener("change", (event) => set_projection(viewer, event.target.value === "orthographic"));
 $("background").addEventListener("input", (event) => set("image.background", event.target.value));
 for (const [id, key] of [["shade", "a"], ["lines", "l"]]) $(id).addEventListener("change", () => command("press", { key }));
-follow_lamp($("lamp"), (direction) => { if (controls) set("look.light", direction.join(",")); });
+follow_lamp($("lamp"), (direction) => { if (controls) set("look.light", direction.join()); });
 $("reset").addEventListener("click", () => command("reset_view"));
 $("zoom-form").addEventListener("submit", async (event) => {
   event.preventDefault();
@@ -402,32 +502,15 @@ async function hover(event, number, more = 10) {
   if (number !== hovered || !found) return;
   const tip = $("tip"), area = found.exposed_area;
   tip.hidden = false;
-  tip.children[0].textContent = found.label;
-  tip.children[1].textContent = found.what + (typeof area === "number" ? ` · ${area.toFixed(2)} Å² exposed` : "");
+  const [label, what] = found.label ? [found.label, found.what] : viewer.words(found).split(" – ");
+  tip.children[0].textContent = label;
+  tip.children[1].textContent = (what ?? "") + (typeof area === "number" ? ` · ${area.toFixed(2)} Å² exposed` : "");
   const { left, top } = stage.getBoundingClientRect();
   const x = Math.min(event.clientX - left + 14, stage.clientWidth - tip.offsetWidth - 8);
   const y = Math.min(event.clientY - top + 16, stage.clientHeight - tip.offsetHeight - 8);
   tip.style.transform = `translate(${Math.max(x, 0)}px, ${Math.max(y, 0)}px)`;
   // Where it is cheap the area comes soon.
   if (found.area_follows && more > 0) setTimeout(() => { if (number === hovered) hover(event, number, more - 1); }, 300);
-}
-
-let clicked = 0;  // number of the latest click
-
-/// Tells of an atom at once, and of its area when that is known.
-async function tell_of_atom(found) {
-  const number = ++clicked, revision = newest;
-  while (found && number === clicked && newest === revision) {
-    found = await pictures.pick(found.x, found.y, {}) ?? found;
-    if (number !== clicked) return;
-    const area = found.area_follows ? "…" : typeof found.exposed_area === "number" ? `${found.exposed_area.toFixed(3)} Å²` : null;
-    const list = document.createElement("dl");
-    list.append(...rows_of([["what", found.what], ["element", found.element], ...(area ? [["exposed", area]] : []),
-      ["position", found.position.map((x) => x.toFixed(2)).join(", ")]]));
-    $("picked").replaceChildren(Object.assign(document.createElement("strong"), { textContent: found.label }), list);
-    if (!found.area_follows) return;
-    await new Promise((resolve) => setTimeout(resolve, 300));
-  }
 }
 
 // Writing

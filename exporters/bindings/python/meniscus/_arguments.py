@@ -8,14 +8,13 @@ import operator
 import os
 import reprlib
 import sys
-import warnings
 from ctypes import Structure, c_double, c_float, c_int32
 from typing import Any, Optional
 
 import numpy as np
 
-from ._errors import InputError, UsageError
-from ._types import AnyArray, Path
+from ._errors import InputError, UsageError, warn, wrong_type
+from ._types import AnyArray
 
 #: Methods that convert units: of OpenMM and ParmEd, of pint, and of astropy and unyt.
 _CONVERSIONS = ("value_in_unit", "m_as", "to_value")
@@ -26,7 +25,7 @@ _SAMPLE = 16
 _CLOSEST_ATOMS = 0.5
 
 #: The units of the fields of structs, as powers of Å.
-_POWERS = {"probe_radius": 1, "large_probe_radius": 1, "trim": 1, "mouth_tolerance": 1, "tolerance": 1, "height": 1,
+_POWERS = {"probe": 1, "large_probe": 1, "trim": 1, "mouth_tolerance": 1, "tolerance": 1, "height": 1,
            "min_volume": 3, "density": -2}
 
 
@@ -80,8 +79,8 @@ def warn_of_nanometres(positions: AnyArray) -> None:
         nearest.append(squares.min())
     middle = float(np.sqrt(np.median(nearest)))
     if middle < _CLOSEST_ATOMS:
-        warnings.warn(f"the nearest neighbours of atoms are {middle:.3g} Å away: do the positions look like nanometres? "
-                      "They have to be in Å", stacklevel=5)
+        warn(f"the nearest neighbours of atoms are {middle:.3g} Å away: do the positions look like nanometres? "
+             "They have to be in Å")
 
 
 def whole_number(name: str, value: Any) -> int:
@@ -90,7 +89,7 @@ def whole_number(name: str, value: Any) -> int:
     try:
         number = int(value) if isinstance(value, np.bool_) else operator.index(value)
     except TypeError:
-        raise InputError(f"{name} is {reprlib.repr(value)}, not a whole number") from None
+        raise wrong_type(f"{name} is {reprlib.repr(value)}, not a whole number") from None
     if not -2**31 <= number < 2**31:
         raise InputError(f"{name} is {reprlib.repr(number)}, which 32 bits cannot count")
     return number
@@ -114,13 +113,13 @@ def number(name: str, value: Any) -> float:
             return float(plain_value)
     except (OverflowError, TypeError, ValueError):
         pass
-    raise InputError(f"{name} is {reprlib.repr(value)}, not a number")
+    raise wrong_type(f"{name} is {reprlib.repr(value)}, not a number")
 
 
 def flag(name: str, value: Any) -> bool:
     """Returns the value as a bool. Raises InputError for anything but True, False, 1 and 0."""
     if not isinstance(value, (bool, np.bool_, int, np.integer)) or value not in (0, 1):
-        raise InputError(f"{name} is {reprlib.repr(value)}, neither True nor False")
+        raise wrong_type(f"{name} is {reprlib.repr(value)}, neither True nor False")
     return bool(value)
 
 
@@ -133,11 +132,13 @@ def listed(name: str, values: Any, what: str) -> list[Any]:
             return list(values)
     except TypeError:
         pass
-    raise InputError(f"{name} is {reprlib.repr(values)}, not a list of {what}")
+    raise wrong_type(f"{name} is {reprlib.repr(values)}, not a list of {what}")
 
 
-def file_name(name: str, path: Path) -> bytes:
+def file_name(name: str, path: Any) -> bytes:
     """Returns a path in the encoding of the system's file names. Raises InputError for a path with a zero byte."""
+    if not isinstance(path, (str, bytes, os.PathLike)):
+        raise wrong_type(f"{name} is {reprlib.repr(path)}, not a path")
     encoded = os.fsencode(path)
     if b"\0" in encoded:
         raise InputError(f"{name} {path!r} has a zero in it, which no file's name may have")
@@ -150,7 +151,7 @@ def text(name: str, value: Optional[str]) -> Optional[bytes]:
     if value is None:
         return None
     if not isinstance(value, str) or "\0" in value:
-        raise InputError(f"{name} is {reprlib.repr(value)}, not a text without zeros")
+        raise wrong_type(f"{name} is {reprlib.repr(value)}, not a text without zeros")
     return value.encode("utf-8", "surrogateescape")
 
 

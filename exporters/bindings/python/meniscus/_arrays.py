@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _header as header
 from ._arguments import plain
-from ._errors import InputError
+from ._errors import InputError, wrong_type
 from ._library import Handle, call
 from ._sources import TAKEN_BY, package_of
 from ._types import AnyArray, Floats, Texts
@@ -75,7 +75,7 @@ def real_array(values: Any, name: str, power: Optional[int] = None) -> AnyArray:
     values = plain(values, name, power)
     package = "" if isinstance(values, (np.ndarray, list, tuple)) else package_of(values)
     if package:  # numpy would iterate over such an object
-        raise InputError(f"{name} is a {package}.{type(values).__name__}, not an array; meniscus.{TAKEN_BY[package]}() "
+        raise wrong_type(f"{name} is a {package}.{type(values).__name__}, not an array; meniscus.{TAKEN_BY[package]}() "
                          "takes it")
     masked: Any = np.ma  # its functions have no type hints
     if masked.is_masked(values):
@@ -89,7 +89,7 @@ def real_array(values: Any, name: str, power: Optional[int] = None) -> AnyArray:
     if array.dtype.kind not in "fiu":
         what = {"b": "true or false", "c": "complex numbers", "U": "text", "S": "text"}.get(array.dtype.kind,
                                                                                         f"of the type {array.dtype}")
-        raise InputError(f"{name} is {what}; give real numbers")
+        raise wrong_type(f"{name} is {what}; give real numbers")
     return array
 
 
@@ -115,12 +115,3 @@ def numbers(values: Any, name: str, columns: int = 0, power: Optional[int] = Non
 def doubles(values: Any, name: str, columns: int = 0, power: Optional[int] = None) -> Floats:
     """Returns a contiguous array of doubles. Raises the errors of numbers()."""
     return np.require(numbers(values, name, columns, power)[0], np.float64, ["C", "A"])
-
-
-def atom_colors(colors: Any, atom_count: int) -> AnyArray:
-    """Returns a contiguous array of floats, (atom_count, 3), from one colour, (3,), or from one colour per atom. Raises
-    InputError for other shapes."""
-    given = real_array(colors, "colors").astype(np.float32)
-    if given.shape not in ((3,), (atom_count, 3)):
-        raise InputError(f"colors has the shape {given.shape}; it has to be (3,) or ({atom_count}, 3)")
-    return np.array(np.broadcast_to(given, (atom_count, 3)), order="C")

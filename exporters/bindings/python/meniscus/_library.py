@@ -9,15 +9,15 @@ import pathlib
 import platform
 import re
 import sys
-from typing import Any, Callable, Optional
+from typing import Any, Callable
 
 from . import _header as header
-from ._errors import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, OutputError,
-                      UsageError)
+from ._calls import interruptible
+from ._messages import error_of
 
-_EXCEPTIONS = {header.INTERNAL: InternalError, header.USAGE: UsageError, header.INPUT: InputError,
-               header.NO_GPU: GpuError, header.CAPACITY: CapacityError, header.OUTPUT: OutputError,
-               header.NOT_CLOSED: NotClosedError}
+#: The functions that may take longer than a tenth of a second, whatever the molecule.
+_LONG = frozenset(("read", "surface_pockets", "surface_mesh", "mesh_save", "render", "render_scene", "scene_page",
+                   "surface_page"))
 
 _ELF_MACHINES = {3: "i386", 62: "x86_64", 183: "arm64"}
 #: Debian packages that are not named after their library.
@@ -104,12 +104,20 @@ def _library() -> ctypes.CDLL:
     return dll
 
 
-def call(name: str, *arguments: Any) -> None:
-    """Calls meniscus_NAME and raises an error if its status is not OK. Other Python threads run during the call."""
+def call(name: str, *arguments: Any, long: bool = False) -> None:
+    """Calls meniscus_NAME and raises an error if its status is not OK. Other Python threads run during the call.
+
+    long: whether the call may take longer than a tenth of a second, so that Ctrl-C has to interrupt it."""
     dll = _library()
-    status = getattr(dll, "meniscus_" + name)(*arguments)
+    function = getattr(dll, "meniscus_" + name)
+
+    def result() -> tuple[int, bytes]:
+        status = function(*arguments)
+        return status, dll.meniscus_last_error() if status != header.OK else b""
+
+    status, message = interruptible(result) if long or name in _LONG else result()
     if status != header.OK:
-        raise _EXCEPTIONS.get(status, Error)(dll.meniscus_last_error().decode("utf-8", "replace"))
+        raise error_of(status, message.decode("utf-8", "replace"))
 
 
 def default(name: str, struct: Any) -> Any:
@@ -122,12 +130,12 @@ def default(name: str, struct: Any) -> Any:
 class Handle:
     """One reference to an object of the library, which is released when this object is deleted."""
 
-    def __init__(self, kind: str, make: str, *arguments: Any) -> None:
+    def __init__(self, kind: str, make: str, *arguments: Any, long: bool = False) -> None:
         """kind: as in meniscus_KIND_release. make: the function meniscus_MAKE that creates the object. arguments: those
-        of meniscus_MAKE but for the last, which returns the object."""
+        of meniscus_MAKE but for the last, which returns the object. long: see call()."""
         self.pointer: ctypes.c_void_p = ctypes.c_void_p()
         self._release: Callable[[ctypes.c_void_p], None] = getattr(_library(), f"meniscus_{kind}_release")
-        call(make, *arguments, ctypes.byref(self.pointer))
+        call(make, *arguments, ctypes.byref(self.pointer), long=long)
 
     def __del__(self) -> None:
         # Uses no name of this module, because Python deletes those first when it exits.

@@ -5,15 +5,19 @@ from __future__ import annotations
 import copy
 import ctypes
 import importlib
-from typing import Any, Optional, Protocol
+from typing import IO, Any, Optional, Protocol, Union
 
 import numpy as np
 
 from . import _header as header
 from . import _library as lib
 from ._arguments import file_name, flag, text
-from ._arrays import atom_colors, view
-from ._types import AnyArray, Bytes, Floats, Indices, MeshFormat, Path
+from ._arrays import view
+from ._colors import atom_colors
+from ._errors import UsageError
+from ._mesh_attributes import attribute_of
+from ._types import AnyArray, Bytes, Floats, Indices, MeshFormat, Path, Singles
+from ._written import save_by_library
 
 
 class Computed(Protocol):
@@ -152,25 +156,34 @@ class Mesh:
     def __repr__(self) -> str:
         return f"<meniscus.Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles>"
 
-    def save(self, path: Path, *, format: Optional[MeshFormat] = None, colors: Optional[Any] = None,
+    def save(self, path: Union[Path, IO[bytes]], *, format: Optional[MeshFormat] = None, colors: Optional[Any] = None,
              attributes: str = "usual", scale: float = 1.0, replace: bool = False) -> None:
         """Writes the mesh to a file, completely or not at all. Edges shorter than 0.001 Å and triangles without area in
         single precision are welded in the file.
 
-        format: "stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms", "ply", "ply-ascii", "usda", "usdz" or "py", a
-        script for PyMOL; None for that of the path's extension. colors: sRGB in [0, 1], (3,) or one per atom.
-        attributes: numbers of vertices in GLB, PLY, VTP and USD files, separated by commas. "usual" means "vdw_radii",
-        "atom_index", "ses_kind" and "ses_component"; the others are "mean_curvature", "gaussian_curvature",
-        "smooth_mean_curvature", "smooth_gaussian_curvature", "atom_area", "accessible_area", "patch_area", "open_sky"
-        and "atom_open_sky". "all" means all but the last two, and "none" none. scale: the length of 1 Å in the file.
-        replace: whether an existing file is replaced.
+        path: a path, or a binary file object. format: "stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms", "ply",
+        "ply-ascii", "usda", "usdz" or "py", a script for PyMOL; None for that of the path's extension, which file
+        objects need. colors: sRGB in [0, 1], (3,) or one per atom. attributes: numbers of vertices in GLB, PLY, VTP and
+        USD files, separated by commas. "usual" means "vdw_radii", "atom_index", "ses_kind" and "ses_component"; the
+        others are "mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature",
+        "atom_area", "accessible_area", "patch_area", "open_sky" and "atom_open_sky". "all" means all but the last two,
+        and "none" none. scale: the length of 1 Å in the file. replace: whether an existing file is replaced.
 
         Raises OutputError if the file cannot be written, or exists and is not replaced; UsageError for an unknown
         format or attribute; InputError for impossible colours; NotClosedError if "smesh" finds no point inside a
         component.
 
         >>> mesh.save("pair.ply", colors=(0.9, 0.6, 0.3))
+        >>> import io
+        >>> file = io.BytesIO()
+        >>> mesh.save(file, format="stl", colors="teal")
         """
+        if hasattr(path, "write"):
+            if format is None:
+                raise UsageError("format is missing: a file object has no extension; give a format such as \"stl\"")
+            save_by_library(path, "", lambda file: self.save(file, format=format, colors=colors, attributes=attributes,
+                                                             scale=scale))
+            return
         name = file_name("path", path)
         file = lib.default("mesh_file", header.MeshFile())
         file.format, file.attributes = text("format", format), text("attributes", attributes)
@@ -179,6 +192,16 @@ class Mesh:
             of_atoms = atom_colors(colors, len(self._surface))
             file.atom_colors = of_atoms.ctypes.data
         lib.call("mesh_save", self._handle.pointer, name, ctypes.byref(file))
+
+    def attribute(self, name: str) -> Singles:
+        """Returns numbers of the vertices, (n,), in single precision.
+
+        name: one of the attributes of save(), such as "mean_curvature" (1/Å, positive where the solid is convex),
+        "gaussian_curvature" (1/Å²), "smooth_mean_curvature" or "atom_area" (Å²). Raises UsageError for other names.
+
+        >>> round(float(mesh.attribute("mean_curvature").max()), 3)
+        0.588"""
+        return attribute_of(self, name)
 
     def to_trimesh(self) -> Any:
         """Returns a trimesh.Trimesh with "atom", "kind" and "component" in its face_attributes.

@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import atexit
 import ctypes
+import os
 import struct
 import threading
 import zlib
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import IO, Any, Optional, Union
 
 import numpy as np
 
 from . import _header as header
 from ._arguments import number, word
-from ._arrays import atom_colors, real_array
-from ._errors import InputError
+from ._arrays import real_array
+from ._colors import atom_colors
+from ._errors import InputError, UsageError, wrong_type
 from ._library import Handle, call
-from ._types import AnyArray, Bytes, Projection
+from ._types import AnyArray, Bytes, Path, Projection
+from ._written import save_bytes
 
 DEVICES = {"cpu": header.CPU, "auto": header.AUTO, "gpu": header.GPU, "software": header.SOFTWARE}
 _PROJECTIONS = {"perspective": header.PERSPECTIVE, "orthographic": header.ORTHOGRAPHIC}
@@ -90,8 +93,19 @@ class Picture(_Sealed):
     ((60, 80, 4), dtype('uint8'))"""
     pixels: Bytes
 
+    @property
+    def __array_interface__(self) -> dict[str, Any]:
+        return {**self.pixels.__array_interface__, "strides": self.pixels.strides}  # Pillow calls tobytes() then
+
     def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> AnyArray:
         return np.array(self.pixels, dtype=dtype) if copy or dtype else self.pixels
+
+    def tobytes(self) -> bytes:
+        """Returns the bytes of the pixels.
+
+        >>> len(picture.tobytes())
+        19200"""
+        return self.pixels.tobytes()
 
     def png(self) -> bytes:
         """Returns the bytes of a PNG file.
@@ -107,6 +121,17 @@ class Picture(_Sealed):
         rows[:, 1:] = self.pixels.reshape(height, 4 * width)
         return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)) +
                 chunk(b"sRGB", b"\0") + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)) + chunk(b"IEND", b""))
+
+    def save(self, path: Union[Path, IO[bytes]], *, replace: bool = False) -> None:
+        """Writes the picture as a PNG file, completely or not at all. PIL.Image.fromarray(picture) writes others.
+
+        path: a path that ends with .png, or a binary file object. replace: whether an existing file is replaced. Raises
+        OutputError if the file cannot be written, or exists and is not replaced; UsageError for other endings.
+
+        >>> picture.save("atom.png")"""
+        if isinstance(path, (str, bytes, os.PathLike)) and not os.fsdecode(path).lower().endswith(".png"):
+            raise UsageError(f"{os.fsdecode(path)!r} does not end with .png; PIL.Image.fromarray(picture) writes others")
+        save_bytes(self.png(), path, replace)
 
     _repr_png_ = png
 
@@ -139,7 +164,7 @@ def blank(scene: Handle) -> Picture:
 def of_picture(colors: Any, atom_count: int, camera: Optional[Camera]) -> tuple[Any, Optional[header.Camera]]:
     """Returns the colours of atoms and the camera as arguments of meniscus_render(); None stays None."""
     if camera is not None and not isinstance(camera, Camera):
-        raise InputError(f"camera is a {type(camera).__name__}, not a meniscus.Camera")
+        raise wrong_type(f"camera is of the type {type(camera).__name__}, not a meniscus.Camera")
     return None if colors is None else atom_colors(colors, atom_count), None if camera is None else camera._struct()
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _header as header
 from . import _library as lib
+from ._arguments import number
 from ._arrays import view
 from ._types import AnyArray, Floats, Indices, PocketKind
 
@@ -26,7 +27,9 @@ class Pocket(NamedTuple):
 
     >>> pocket = meniscus.surface(meniscus.read("helix.pdb")).pockets()[0]
     >>> round(pocket.volume, 2), round(pocket.depth, 2), len(pocket.atoms)
-    (317.02, 3.35, 60)"""
+    (317.02, 3.35, 60)
+    >>> pocket
+    <meniscus.Pocket: cavity of 317.02 Å³, 3.35 Å deep, 60 atoms>"""
     volume: float
     volume_excess: float
     area: float
@@ -53,12 +56,16 @@ class Pocket(NamedTuple):
         386.13"""
         return self.area - float(self.mouth_areas.sum())
 
+    def __repr__(self) -> str:
+        return (f"<meniscus.Pocket: {self.kind} of {self.volume:.2f} Å³, {self.depth:.2f} Å deep, {len(self.atoms)} atom"
+                f"{'s' * (len(self.atoms) != 1)}>")
+
 
 def pockets_of(surface: lib.Handle, large_probe: float, trim: float, min_volume: float,
                mouth_tolerance: float) -> list[Pocket]:
     """Returns the pockets of a surface. Parameters and errors are those of Surface.pockets()."""
     options = lib.default("pocket_options", header.PocketOptions())
-    options.large_probe_radius, options.trim = large_probe, trim
+    options.large_probe_radius, options.trim = number("large_probe", large_probe), trim
     options.min_volume, options.mouth_tolerance = min_volume, mouth_tolerance
     handle = lib.Handle("pockets", "surface_pockets", surface.pointer, ctypes.byref(options))
     rows, mouths, atoms, probes = (

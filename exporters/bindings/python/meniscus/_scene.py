@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import ctypes
+import functools
 import os
-from collections.abc import Iterator
+import shutil
+import tempfile
+import weakref
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
 
 import numpy as np
@@ -12,9 +16,14 @@ import numpy as np
 from . import _header as header
 from . import _library as lib
 from ._arguments import plain
-from ._errors import InputError, UsageError
+from ._errors import InputError, UsageError, wrong_type
+from ._packages import structure_of
 from ._page import Page, made
 from ._picture import Picture, blank, renderer
+from ._scene_molecule import values_of
+from ._scene_values import SceneAttributes
+from ._sources import is_molecule
+from ._structure import Structure
 from ._types import Device, Path
 
 if TYPE_CHECKING:
@@ -70,7 +79,9 @@ def properties() -> list[Property]:
 
 def _text_of(name: str, value: Any) -> bytes:
     """Returns a value of a property as the text that the program takes. Raises InputError for other types, for a value
-    with a unit, and for a text with a zero byte."""
+    with a unit, and for a text with a zero byte. Several numbers become "1,2,3", and those of a size "1x2"."""
+    if isinstance(value, (tuple, list, np.ndarray)):
+        return (b"x" if name in ("size", "image.size") else b",").join(_text_of(name, one) for one in value)
     if isinstance(value, (bool, np.bool_)):
         return b"true" if value else b"false"
     if isinstance(value, (str, bytes, os.PathLike)):
@@ -82,33 +93,62 @@ def _text_of(name: str, value: Any) -> bytes:
     if isinstance(number, (int, np.integer)):
         return str(int(number)).encode()
     if not isinstance(number, (float, np.floating)):
-        raise InputError(f"{name} is {value!r}, neither a text nor a number")
+        raise wrong_type(f"{name} is {value!r:.60}, neither a text nor a number")
     return repr(float(number)).encode()
+
+
+@functools.lru_cache(maxsize=None)
+def _known() -> dict[str, Property]:
+    """Returns the properties by their names and by their keys."""
+    return {name: known for known in properties() for name in (known.key, known.name)}
 
 
 #: The size in bytes of the largest page that a notebook shows for a scene; for larger ones it shows a picture.
 _LARGEST_SHOWN = 15_000_000
 
 
-class Scene:
+class Scene(SceneAttributes, Mapping[str, Any]):
     """All settings of a picture, with the defaults of the program: Scene("1ubq.cif", color="chain", legend=True).
 
-    Properties are read and set as attributes, scene.depth_cue, or by their names or keys, scene["look.depth_cue"]. None
-    means the default. A repeatable property has a list of values. An unknown name or an invalid value raises
-    UsageError, whose text begins with the name.
+    molecule: the path of a file; or a Structure or a molecule of another package, all of whose atoms are drawn, from a
+    temporary file that exists as long as the scene. Properties are read and set as attributes, scene.depth_cue, or by
+    their names or keys, scene["look.depth_cue"]. None means the default. A repeatable property has a list of values. An
+    unknown name or an invalid value raises UsageError, whose text begins with the name; an unknown name is also a
+    KeyError and an AttributeError. A scene is a mapping of the properties that are set: "color" in scene, dict(scene).
 
     >>> scene = meniscus.Scene("helix.pdb", color="chain", size="80x60")
     >>> scene["look.depth_cue"] = 0.5
     >>> scene.depth_cue, scene.color, scene.samples
-    (0.5, ['chain'], None)"""
+    (0.5, ['chain'], None)
+    >>> "depth_cue" in scene, list(scene)
+    (True, ['file', 'color', 'depth_cue', 'size'])
+    >>> meniscus.Scene(meniscus.read("helix.pdb").select("chain A"), size=(80, 60)).size
+    '80x60'"""
 
     _handle: lib.Handle
+    _molecule: Optional[Structure]  # which a temporary file holds
 
-    def __init__(self, molecule: Optional[Path] = None, /, **values: Unpack[SceneValues]) -> None:
-        object.__setattr__(self, "_handle", lib.Handle("scene", "scene_new"))
-        if molecule is not None:
+    def __init__(self, molecule: Any = None, /, **values: Unpack[SceneValues]) -> None:
+        self._hold(lib.Handle("scene", "scene_new"), None)
+        if molecule is None or isinstance(molecule, (str, bytes, os.PathLike)):
             self["file"] = molecule
+        elif isinstance(molecule, Structure) or is_molecule(molecule):
+            self._draw(molecule if isinstance(molecule, Structure) else structure_of(molecule, None))
+        else:
+            raise wrong_type(f"molecule is of the type {type(molecule).__name__}, neither a path nor a molecule")
         self.set(**values)
+
+    def _hold(self, handle: lib.Handle, molecule: Optional[Structure]) -> None:
+        object.__setattr__(self, "_handle", handle)
+        object.__setattr__(self, "_molecule", molecule)
+
+    def _draw(self, molecule: Structure) -> None:
+        """Writes a molecule to a temporary file, and sets the values that draw it."""
+        folder = tempfile.mkdtemp(prefix="meniscus-")
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+        for name, value in values_of(molecule, folder).items():
+            self[name] = value
+        object.__setattr__(self, "_molecule", molecule)
 
     @classmethod
     def read(cls, path: Path) -> Scene:
@@ -132,12 +172,13 @@ class Scene:
     @classmethod
     def _of(cls, handle: lib.Handle) -> Scene:
         scene = cls.__new__(cls)
-        object.__setattr__(scene, "_handle", handle)
+        scene._hold(handle, None)
         return scene
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickles and copies have the text of the scene file, with paths relative to the working directory."""
-        return Scene.parse, (self.json(),)
+        """Pickles and copies have the text of the scene file, with paths relative to the working directory, and the
+        molecule of a temporary file."""
+        return _again, (self.json(), self._molecule)
 
     def set(self, **values: Unpack[SceneValues]) -> Scene:
         """Sets several properties, and returns this scene. Raises UsageError for an unknown name or an invalid value.
@@ -150,7 +191,8 @@ class Scene:
 
     def __setitem__(self, name: str, value: Any) -> None:
         encoded = _text_of("name", name)
-        texts = [_text_of(name, one) for one in (value if isinstance(value, (list, tuple)) else [value]) if one is not None]
+        several = isinstance(value, (list, tuple)) and self._is_repeatable(name)
+        texts = [_text_of(name, one) for one in (value if several else [value]) if one is not None]
         lib.call("scene_set", self._handle.pointer, encoded, None)
         for text in texts:
             lib.call("scene_set", self._handle.pointer, encoded, text)
@@ -159,7 +201,7 @@ class Scene:
         texts = list(self._texts(name))
         if not texts:
             return None
-        known = next(p for p in properties() if name in (p.name, p.key))
+        known = _known()[name]
         if known.repeatable:
             return texts
         if known.type == header.VALUE_FLAG:
@@ -179,16 +221,48 @@ class Scene:
             yield os.fsdecode(text.value)
             n += 1
 
-    def __setattr__(self, name: str, value: Any) -> None:
-        self[name] = value
+    @staticmethod
+    def _is_repeatable(name: str) -> bool:
+        return name in _known() and _known()[name].repeatable
 
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):  # such as __deepcopy__
-            raise AttributeError(name)
-        try:
+    if not TYPE_CHECKING:  # type checkers know the attributes of SceneAttributes
+        def __setattr__(self, name: str, value: Any) -> None:
+            self[name] = value
+
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("_"):  # such as __deepcopy__
+                raise AttributeError(name)
             return self[name]
-        except UsageError as error:
-            raise AttributeError(str(error)) from None
+
+    # ---- a mapping of the properties that are set
+
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and name in _known() and self[name] is not None
+
+    def __iter__(self) -> Iterator[str]:
+        return (known.name for known in properties() if self[known.name] is not None)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+    def __bool__(self) -> bool:
+        return True
+
+    def __delitem__(self, name: str) -> None:
+        self[name] = None
+
+    def __eq__(self, other: object) -> bool:  # not that of a mapping, because scenes change
+        return self is other
+
+    def __hash__(self) -> int:
+        return id(self)
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """Returns the value of a property, or `default` if it is not set.
+
+        >>> scene.get("samples", 16)
+        16"""
+        return self[name] if name in self else default
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *(known.name for known in properties())]
@@ -240,4 +314,15 @@ class Scene:
         return None if self["file"] is None else self.render().png()
 
     def __repr__(self) -> str:
-        return f"<meniscus.Scene of {self['file'] or 'no molecule yet'}>"
+        file = os.path.basename(self["file"]) if self._molecule else self["file"]
+        return f"<meniscus.Scene of {file or 'no molecule yet'}>"
+
+
+def _again(json: str, molecule: Optional[Structure]) -> Scene:
+    """Returns the scene of a pickle or a copy."""
+    scene = Scene.parse(json)
+    if molecule is not None:
+        radii = scene["radius"]
+        scene._draw(molecule)
+        scene["radius"] = radii
+    return scene

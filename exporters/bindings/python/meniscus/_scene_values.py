@@ -4,22 +4,24 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Literal, TypedDict, Union
+from typing import Literal, Optional, TypedDict, Union
 
 Path = Union[str, "os.PathLike[str]"]
 Text = Union[str, float]
+#: A text, or its numbers: the width and the height of a picture, or a direction.
+Numbers = Union[Text, Sequence[float]]
 
 
 class SurfaceValues(TypedDict, total=False):
     """The properties of a picture of a surface: its look and its size."""
-    #: SCHEME: Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: auto (chain, or element for
-    #: small molecules), element, element-cpk (darker), chain, chain-element, chain-okabe-ito, copy (of an
-    #: assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's confidence), snfg
-    #: (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor, occupancy, charge,
-    #: hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), relative-accessibility, index,
-    #: rainbow (along each chain), radial (for capsids). EXPR=COLOR colours some atoms, as in 'ligand=orange';
-    #: 'ligand=orange:ATP' names them in the legend. Repeatable; the last one counts. meniscus colors explains
-    #: the schemes [auto]
+    #: SCHEME: Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: auto (chain; along a single
+    #: chain; element-cpk for small molecules), element, element-cpk (darker), chain, chain-element, chain-
+    #: okabe-ito, copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's
+    #: confidence), snfg (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor,
+    #: occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), relative-
+    #: accessibility, index, rainbow (along each chain), radial (for capsids). EXPR=COLOR colours some atoms, as
+    #: in 'ligand=orange'; 'ligand=orange:ATP' names them in the legend. Repeatable; the last one counts.
+    #: meniscus colors explains the schemes [auto]
     color: Union[Text, Sequence[Text]]
     #: WORD: Look by one word, such as ghost, pocket or ribbon. publication: shade, thin lines, colours as
     #: given; cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic:
@@ -29,7 +31,7 @@ class SurfaceValues(TypedDict, total=False):
     #: single values of a look. Where colours show numbers, light changes only their lightness [publication]
     preset: Literal["publication", "cover", "flat", "soft", "classic", "ghost", "goodsell", "pocket", "ribbon"]
     #: X,Y,Z: Direction towards the lamp, as X,Y,Z: right, up, to the viewer [-0.45,0.65,0.75]
-    light: Text
+    light: Numbers
     #: F: Strength of the lamp, 0 to 10 [1]
     light_strength: float
     #: F: Share of light that comes evenly from all sides, 0 to 1. With 1, colours are exactly those given
@@ -81,7 +83,7 @@ class SurfaceValues(TypedDict, total=False):
     projection: Literal["perspective", "orthographic"]
     #: WxH: Size of the picture in pixels; auto: as high as the molecule [1280x960; film 1920x1080, .gif
     #: 960x540]
-    size: Text
+    size: Numbers
     #: LENGTH: Width of the picture: 85mm, 8.5cm, 3.5in or 1000px
     width: Text
     #: LENGTH: Height of the picture in the same units; auto: that of the molecule
@@ -254,8 +256,9 @@ class SceneValues(SurfaceValues, total=False):
     #: 1.4 [0]
     map_offset: float
     #: MAP: Colour map for numbers, such as viridis or blue-white-red. Others: cividis, magma, red-white-blue
-    #: (default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), rainbow,
-    #: categorical (each number has its own colour). blue-white-red is the default for hydrophobicity [viridis]
+    #: (default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), rainbow, pastel
+    #: (rainbow in light tones), categorical (each number has its own colour). blue-white-red is the default for
+    #: hydrophobicity [viridis]
     map: Text
     #: FILE: File of a colour map: one colour per line, or a position and a colour. A JSON list of them is read,
     #: too
@@ -316,10 +319,11 @@ class SceneValues(SurfaceValues, total=False):
     #: FILE: Camera as JSON, or as PyMOL or ChimeraX print it. A file, or the text itself: JSON, get_view or
     #: view matrix [shows everything]
     camera: Path
-    #: SIDE: Side that faces the viewer, such as front, top or left. front: the broad side; back, bottom, right;
-    #: x, y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of assembly;
-    #: symmetry-side: with that axis upright; open: from where the atoms of zoom_to are hidden least; channel:
-    #: along a channel through them. A minus sign before it shows the opposite side [front]
+    #: SIDE: Side that faces the viewer, such as front, top or left. front: the broad side that shows more;
+    #: back, bottom, right; x, y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along
+    #: the axis of assembly; symmetry-side: with that axis upright; open: from where the atoms of zoom_to are
+    #: hidden least; channel: along a channel through them. A minus sign before it shows the opposite side
+    #: [front]
     view: Text
     #: AXISANGLE: Turn the molecule about an axis by degrees: y90, x-30, z45. x points right, y up, z to the
     #: viewer. Repeatable, applied in this order
@@ -372,7 +376,7 @@ class SceneValues(SurfaceValues, total=False):
     letter_color: Text
     #: EXPR=TEXT: Write TEXT at these atoms, with a line to their centre. Repeatable
     label: Union[Text, Sequence[Text]]
-    #: Write no lengths beside dashed lines
+    #: Write no lengths next to dashed lines
     hide_lengths: bool
     #: Write the time of each frame in ps, ns or µs, or else its number
     time_stamp: bool
@@ -401,3 +405,58 @@ class SceneValues(SurfaceValues, total=False):
     scale: float
     #: PATH: Output file or folder
     output: Path
+
+
+class SceneAttributes:
+    """The attributes of a Scene; None for the default."""
+    file: Optional[Path]; add: Optional[Union[Path, Sequence[Path]]]; superpose_on: Optional[Text]
+    model: Optional[Text]; altloc: Optional[Text]; select: Optional[Text]; keep_water: Optional[bool]
+    keep_ions: Optional[bool]; unknown_element: Optional[Literal["halt", "guess", "skip"]]
+    hydrogens: Optional[Literal["keep", "drop", "auto"]]; radii: Optional[Text]
+    radii_file: Optional[Union[Path, Sequence[Path]]]; radius: Optional[Union[Text, Sequence[Text]]]
+    assembly: Optional[Text]; instances: Optional[Literal["exact", "separate"]]
+    trajectory: Optional[Union[Path, Sequence[Path]]]; trajectory_atoms: Optional[Text]
+    trust_atom_order: Optional[bool]; frames: Optional[Text]; stride: Optional[int]; begin: Optional[Text]
+    end: Optional[Text]; repeat: Optional[int]; interpolate: Optional[int]; only: Optional[Text]
+    select_once: Optional[bool]; whole: Optional[Text]; superpose: Optional[Text]; center: Optional[Text]
+    reference: Optional[Text]; smooth: Optional[int]; fps: Optional[float]; motion_blur: Optional[int]
+    codec: Optional[Text]; crf: Optional[int]; bits: Optional[int]; chroma: Optional[int]; hide_surface: Optional[bool]
+    interface: Optional[Text]; surface: Optional[Literal["ses", "sas", "vdw"]]; probe: Optional[Text]
+    patches: Optional[Text]; min_patch: Optional[float]; by: Optional[Text]
+    cavities: Optional[Literal["keep", "drop", "only"]]; device: Optional[Text]; require_gpu: Optional[bool]
+    threads: Optional[int]; verify: Optional[bool]; color: Optional[Union[Text, Sequence[Text]]]
+    color_by_file: Optional[Path]; color_column: Optional[Text]; color_map_file: Optional[Path]
+    map_offset: Optional[float]; map: Optional[Text]; map_file: Optional[Path]; color_range: Optional[Text]
+    missing_color: Optional[Text]; color_title: Optional[Text]; color_unit: Optional[Text]
+    opacity: Optional[Union[Text, Sequence[Text]]]; film_opacity: Optional[bool]
+    clip: Optional[Union[Text, Sequence[Text]]]; clip_all: Optional[bool]; cap_color: Optional[Text]
+    cap_hatching: Optional[float]; sticks: Optional[Union[Text, Sequence[Text]]]
+    balls: Optional[Union[Text, Sequence[Text]]]; spheres: Optional[Union[Text, Sequence[Text]]]
+    tube: Optional[Union[Text, Sequence[Text]]]; bases: Optional[Union[Text, Sequence[Text]]]
+    glycans: Optional[Union[Text, Sequence[Text]]]; hydrogen_bonds: Optional[Union[Text, Sequence[Text]]]
+    distance: Optional[Union[Text, Sequence[Text]]]; bare: Optional[bool]; stick_radius: Optional[float]
+    tube_radius: Optional[float]; object: Optional[Union[Text, Sequence[Text]]]
+    preset: Optional[Literal["publication", "cover", "flat", "soft", "classic", "ghost", "goodsell", "pocket", "ribbon"]]
+    light: Optional[Numbers]; light_strength: Optional[float]; ambient: Optional[float]; roughness: Optional[float]
+    specular: Optional[float]; shininess: Optional[float]; ambient_occlusion: Optional[float]
+    ambient_occlusion_radius: Optional[float]; ambient_occlusion_rays: Optional[float]; shadows: Optional[float]
+    shadow_softness: Optional[float]; silhouettes: Optional[Text]; outer_lines: Optional[Text]
+    inner_lines: Optional[Text]; part_lines: Optional[Text]; patch_lines: Optional[Text]
+    patch_line_color: Optional[Text]; depth_cue: Optional[float]; linear_alpha: Optional[bool]
+    material: Optional[Text]; comments: Optional[bool]; camera: Optional[Path]
+    projection: Optional[Literal["perspective", "orthographic"]]; view: Optional[Text]
+    turn: Optional[Union[Text, Sequence[Text]]]; zoom_to: Optional[Text]; look_into: Optional[Text]
+    camera_path: Optional[Path]; turntable: Optional[float]; follow: Optional[Text]; size: Optional[Numbers]
+    width: Optional[Text]; height: Optional[Text]; margin: Optional[Text]; dpi: Optional[float]; samples: Optional[int]
+    background: Optional[Text]; aovs: Optional[bool]; cryptomatte: Optional[bool]
+    color_space: Optional[Literal["rec709", "acescg"]]; tiff_compression: Optional[Literal["none", "lzw", "zip"]]
+    tiff_bits: Optional[Literal["8", "16"]]; extent: Optional[Text]; legend: Optional[bool]
+    legend_file: Optional[Path]; legend_title: Optional[Text]; legend_size: Optional[Text]
+    legend_name: Optional[Union[Text, Sequence[Text]]]; legend_place: Optional[Literal["auto", "right", "below"]]
+    panel: Optional[Text]; title: Optional[Text]; scale_bar: Optional[Text]; letter_size: Optional[Text]
+    font: Optional[Text]; font_file: Optional[Path]; label_size: Optional[Text]; scale_bar_size: Optional[Text]
+    panel_size: Optional[Text]; letter_color: Optional[Text]; label: Optional[Union[Text, Sequence[Text]]]
+    hide_lengths: Optional[bool]; time_stamp: Optional[bool]; curve: Optional[Path]; curve_column: Optional[Text]
+    tolerance: Optional[float]; tolerance_pixels: Optional[float]; density: Optional[float]; even: Optional[bool]
+    format: Optional[Text]; attributes: Optional[Text]; unit: Optional[Literal["angstrom", "nanometer"]]
+    scale: Optional[float]; output: Optional[Path]

@@ -1,70 +1,224 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Molecules from files, and van der Waals radii by element."""
+"""Molecules: arrays of atoms, from files, from other packages or from arrays of the caller."""
 from __future__ import annotations
 
-import ctypes
 import os
-import warnings
-from typing import Any, Iterable, Literal, Mapping, NamedTuple, Optional, Sequence, Union
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Literal, Optional, Union, overload
 
 import numpy as np
 
 from . import _header as header
 from . import _library as lib
-from ._arguments import file_name, flag, listed, number, positive, text, whole_number, word
-from ._arrays import texts, view
-from ._errors import InputError
-from ._types import AnyArray, Bytes, Floats, Hydrogens, Indices, Numbers, Path, RadiiSet, Singles, Texts, UnknownElement
+from ._arguments import number
+from ._arrays import real_array
+from ._cif import cif_of
+from ._columns import NUMBERS, SYMBOLS, Columns
+from ._errors import InputError, also, wrong_type
+from ._molecule_file import WHOLE, Report, column_of, opened, renamed, report_of
+from ._molecule_tables import Atom, atoms_of, dataframe_of, parts_of
+from ._radii import atomic_numbers, radii_of
+from ._types import AnyArray, Floats, Path, Singles
+from ._written import written
 
-#: The dtype of the rows of each column, and its number of columns. All other columns are texts.
-_NUMBERS: dict[int, Any] = {
-    header.STRUCTURE_POSITIONS: (np.float64, 3), header.STRUCTURE_RADII: (np.float64,), header.STRUCTURE_ELEMENTS: (np.uint8,),
-    header.STRUCTURE_INDICES: (np.uint32,), header.STRUCTURE_RESIDUE_NUMBERS: (np.int32,),
-    header.STRUCTURE_RESIDUES: (np.uint32,), header.STRUCTURE_MODELS: (np.int32,), header.STRUCTURE_COPIES: (np.uint32,),
-    header.STRUCTURE_CHARGES: (np.float32,), header.STRUCTURE_B_FACTORS: (np.float32,),
-    header.STRUCTURE_OCCUPANCIES: (np.float32,), header.STRUCTURE_CLASSES: (np.uint8,),
-    header.STRUCTURE_HYDROPATHIES: (np.float64,)}
-_HYDROGENS = {"auto": header.HYDROGENS_AUTO, "keep": header.HYDROGENS_KEEP, "drop": header.HYDROGENS_DROP}
-_UNKNOWN_ELEMENTS = {"halt": header.UNKNOWN_HALT, "guess": header.UNKNOWN_GUESS, "skip": header.UNKNOWN_SKIP}
-
-
-class _Report(NamedTuple):
-    """The fields of meniscus_read_report that Structure has."""
-    file: str
-    format: str
-    radii_set: str
-    sentence: str
-    atoms: int
-    models: int
+#: The parameters of Structure() and their columns.
+_GIVEN = {"radii": header.STRUCTURE_RADII, "names": header.STRUCTURE_NAMES,
+          "residue_names": header.STRUCTURE_RESIDUE_NAMES, "residue_numbers": header.STRUCTURE_RESIDUE_NUMBERS,
+          "insertion_codes": header.STRUCTURE_INSERTION_CODES, "chains": header.STRUCTURE_CHAINS,
+          "segments": header.STRUCTURE_SEGMENTS, "altlocs": header.STRUCTURE_ALTLOCS,
+          "models": header.STRUCTURE_MODELS, "charges": header.STRUCTURE_CHARGES,
+          "b_factors": header.STRUCTURE_B_FACTORS, "occupancies": header.STRUCTURE_OCCUPANCIES}
+_UNCLASSIFIED = 4
 
 
-class Structure:
-    """The atoms of a file from which a surface is computed, which read() returns. It never changes, and all threads may
-    use it at once. Arrays have one row per atom, (n,) unless their description has another shape; arrays of numbers are
-    read-only views.
+class Structure(Columns):
+    """The atoms of a molecule: of a file, from read(); of another package, from the from_...() functions; or of arrays.
+    It never changes, and all threads may use it at once. Arrays have one row per atom, (n,) unless their description
+    has another shape; they are read-only.
+
+    positions: (n, 3) Å. elements: symbols or atomic numbers, (n,); None or "" where they are guessed from the names, as
+    read() does. radii: van der Waals radii in Å, (n,) or one for all atoms; None for those of the elements; {"C": 1.8}
+    for others of some elements; or a set of read() such as "protor". The other
+    arrays, (n,), may be None: names, residue_names, residue_numbers, insertion_codes, chains, segments, altlocs, models
+    (from 1), charges in e, b_factors in Å² and occupancies. name: the name of the molecule, which messages have. Raises
+    InputError for impossible shapes and values, and for atoms without element and radius.
+
+    A part of a molecule is a Structure, too: molecule[mask], molecule[10:20] or molecule[[3, 5]]. molecule[3] and
+    iterations give an Atom.
 
     >>> molecule = meniscus.read("helix.pdb")
     >>> molecule
-    <meniscus.Structure: helix.pdb, PDB: 65 atoms read; 1 of water left out; 64 used>"""
+    <meniscus.Structure: helix.pdb, PDB: 65 atoms read; 1 of water left out; 64 used>
+    >>> molecule[molecule.elements == "C"]
+    <meniscus.Structure: 32 of 64 atoms of helix.pdb>
+    >>> molecule[1].name, len(molecule[:8])
+    ('CA', 8)
+    >>> meniscus.Structure([[0, 0, 0], [3, 0, 0]], ["C", "O"])
+    <meniscus.Structure: 2 atoms>"""
 
-    __slots__ = ("_columns", "_handle", "_report", "__weakref__")
+    __slots__ = ("_columns", "_count", "_handle", "_report", "_source", "__weakref__")
 
-    def __init__(self, handle: Optional[lib.Handle], report: _Report, columns: dict[int, AnyArray]) -> None:
-        """columns: the columns that are known already, which are all of them if handle is None."""
-        self._handle, self._report, self._columns = handle, report, columns
+    _columns: dict[int, AnyArray]  # the columns that are known already
+    _count: int
+    _handle: Optional[lib.Handle]
+    _report: Report
+    _source: Optional[tuple[Structure, Any]]  # the molecule of which this is a part, and the rows
+
+    def __init__(self, positions: Any, elements: Any = None, *, radii: Any = None, names: Any = None,
+                 residue_names: Any = None, residue_numbers: Any = None, insertion_codes: Any = None,
+                 chains: Any = None, segments: Any = None, altlocs: Any = None, models: Any = None,
+                 charges: Any = None, b_factors: Any = None, occupancies: Any = None, name: str = "") -> None:
+        xyz = real_array(positions, "positions", 1)
+        if xyz.ndim != 2 or xyz.shape[1] != 3:
+            raise InputError(f"positions has the shape {xyz.shape}; it has to be (n, 3)")
+        given = {"radii": radii, "names": names, "residue_names": residue_names, "residue_numbers": residue_numbers,
+                 "insertion_codes": insertion_codes, "chains": chains, "segments": segments, "altlocs": altlocs,
+                 "models": models, "charges": charges, "b_factors": b_factors, "occupancies": occupancies}
+        self._count, self._handle, self._source = len(xyz), None, None
+        radii_set = radii if isinstance(radii, str) else "bondi" if radii is None else "arrays"
+        self._report = Report(name, "arrays", radii_set, f"{len(xyz)} atoms", 1)
+        self._columns = {header.STRUCTURE_POSITIONS: np.array(xyz, np.float64)}
+        for key, values in given.items():
+            by_rule = key == "radii" and isinstance(values, (str, Mapping))
+            self._columns[_GIVEN[key]] = _checked(key, _GIVEN[key], None if by_rule else values, len(xyz))
+        self._set_residues(residue_names is None)
+        self._set_elements(elements)
+        if radii is None or isinstance(radii, (str, Mapping)):
+            self._columns[header.STRUCTURE_RADII] = self._radii_by(radii)
+        for column in self._columns.values():
+            column.flags.writeable = False
+
+    @classmethod
+    def _of(cls, report: Report, count: int, columns: dict[int, AnyArray], handle: Optional[lib.Handle] = None,
+            source: Optional[tuple[Structure, Any]] = None) -> Structure:
+        structure = cls.__new__(cls)
+        structure._report, structure._count, structure._columns = report, count, columns
+        structure._handle, structure._source = handle, source
+        return structure
+
+    @classmethod
+    def _read(cls, handle: lib.Handle, name: Optional[str] = None) -> Structure:
+        """Returns the molecule of a handle. name: what `file` is, if not the path."""
+        report, count = report_of(handle)
+        return cls._of(report if name is None else report._replace(file=name), count, {}, handle)
+
+    def _set_residues(self, without: bool) -> None:
+        """Counts the residues: a new one begins where the model, chain, number, insertion code or name changes.
+
+        without: whether the atoms have no residues, so that they have no class."""
+        columns, new = self._columns, np.zeros(self._count, bool)
+        for key in (header.STRUCTURE_MODELS, header.STRUCTURE_CHAINS, header.STRUCTURE_RESIDUE_NUMBERS,
+                    header.STRUCTURE_INSERTION_CODES, header.STRUCTURE_RESIDUE_NAMES):
+            new[1:] |= columns[key][1:] != columns[key][:-1]
+        columns[header.STRUCTURE_RESIDUES] = np.cumsum(new).astype(np.uint32)
+        columns[header.STRUCTURE_INDICES] = np.arange(self._count, dtype=np.uint32)
+        columns[header.STRUCTURE_COPIES] = np.zeros(self._count, np.uint32)
+        columns[header.STRUCTURE_WARNINGS] = np.empty(0, np.str_)
+        if without:
+            columns[header.STRUCTURE_CLASSES] = np.full(self._count, _UNCLASSIFIED, np.uint8)
+
+    def _set_elements(self, elements: Any) -> None:
+        """Sets the atomic numbers. The library guesses those that are missing, if the atoms have names."""
+        columns, names = self._columns, self._columns[header.STRUCTURE_NAMES]
+        numbers = np.zeros(self._count, np.int64) if elements is None else _numbers_of(elements, self._count)
+        columns[header.STRUCTURE_ELEMENTS] = numbers.astype(np.uint8)
+        missing = np.flatnonzero(numbers == 0)
+        if not len(missing) or not (names != "").any():
+            return
+        try:
+            handle = self._reread(**WHOLE)
+        except InputError:  # because all are virtual sites
+            return
+        found = np.array(column_of(handle, header.STRUCTURE_INDICES), np.int64)
+        columns[header.STRUCTURE_ELEMENTS] = np.zeros(self._count, np.uint8)
+        columns[header.STRUCTURE_ELEMENTS][found] = column_of(handle, header.STRUCTURE_ELEMENTS)
+        columns[header.STRUCTURE_WARNINGS] = np.array(
+            [str(text) for text in column_of(handle, header.STRUCTURE_WARNINGS) if "element" in str(text)], np.str_)
+
+    def _radii_by(self, rule: Union[None, str, Mapping[str, float]]) -> Floats:
+        """Returns radii by element, of a set of read(), or by element with those of a mapping instead."""
+        numbers = self._columns[header.STRUCTURE_ELEMENTS]
+        if isinstance(rule, str):
+            handle = self._reread(**WHOLE, radii=rule)
+            if report_of(handle)[1] == self._count:
+                return np.array(column_of(handle, header.STRUCTURE_RADII))
+        if numbers.all():
+            found = radii_of(numbers.tolist())
+            for symbol, radius in (rule or {}).items() if not isinstance(rule, str) else ():
+                found[numbers == atomic_numbers([symbol])[0]] = number("radii", radius)
+            return found
+        missing, names = np.flatnonzero(numbers == 0), self._columns[header.STRUCTURE_NAMES]
+        n = int(missing[0])
+        if not (names != "").any():
+            raise InputError("some atoms have no element; give radii")
+        raise InputError(f"{len(missing)} of {self._count} atoms have no element, and no name that tells it (first: atom "
+                         f"{n}, {str(names[n])!r} in {self._columns[header.STRUCTURE_RESIDUE_NAMES][n]} "
+                         f"{self._columns[header.STRUCTURE_RESIDUE_NUMBERS][n]}); give radii, or leave such particles out")
+
+    # ---- the library's object
 
     def _column(self, column: int) -> AnyArray:
         if column not in self._columns:
-            assert self._handle is not None
-            row = _NUMBERS.get(column)
-            self._columns[column] = (view(self._handle, "structure_table", column, *row) if row else
-                                     texts(self._handle, "structure_table", column))
+            if self._source is not None:
+                whole, rows = self._source
+                values = whole._column(column) if column == header.STRUCTURE_WARNINGS else whole._column(column)[rows]
+                values.flags.writeable = False
+            elif self._handle is not None:
+                values = column_of(self._handle, column)
+            else:
+                values = self._found(column)
+            self._columns[column] = values
         return self._columns[column]
+
+    def _found(self, column: int) -> AnyArray:
+        """Returns the classes or the hydropathies that the library finds. Virtual sites have none."""
+        empty = np.nan if column == header.STRUCTURE_HYDROPATHIES else _UNCLASSIFIED
+        values = np.full(self._count, empty, NUMBERS[column][0])
+        try:
+            handle = self._reread(**WHOLE)
+            values[np.asarray(column_of(handle, header.STRUCTURE_INDICES), np.int64)] = column_of(handle, column)
+        except InputError:  # because all are virtual sites
+            pass
+        values.flags.writeable = False
+        return values
+
+    def _text(self, classes: Optional[AnyArray] = None) -> str:
+        """Returns the molecule as mmCIF. classes: rows of CLASSES; None for atoms without a class. Raises InputError if
+        there are no atoms."""
+        if self._count == 0:
+            raise InputError("there are no atoms")
+        if classes is None:
+            classes = np.full(self._count, _UNCLASSIFIED, np.uint8)
+        elements = SYMBOLS[self._column(header.STRUCTURE_ELEMENTS)]
+        return cif_of(self._column, classes, elements, os.path.basename(self.file))
+
+    def _reread(self, **options: Any) -> lib.Handle:
+        """Returns the library's object of the atoms, which it reads from a temporary file. options: those of read()."""
+        is_classified = header.STRUCTURE_CLASSES in self._columns or self._source or self._handle
+        text = self._text(np.asarray(self._column(header.STRUCTURE_CLASSES)) if is_classified else None)
+        with tempfile.TemporaryDirectory(prefix="meniscus-") as folder:
+            path = os.path.join(folder, f"{os.path.basename(self.file).split('.')[0] or 'molecule'}.cif")
+            with open(path, "w", encoding="utf-8", errors="surrogateescape") as file:
+                file.write(text)
+            with renamed(path, self.file or "the molecule"):
+                return opened(path, **options)
+
+    def _library_object(self) -> lib.Handle:
+        """Returns the library's object of these atoms, in this order. Raises InputError if it does not take all."""
+        if self._handle is None:
+            handle = self._reread(**WHOLE)
+            count = report_of(handle)[1]
+            if count != self._count:
+                raise InputError(f"{self._count - count} of {self._count} atoms are virtual sites, which have no surface; "
+                                 "leave them out")
+            self._handle = handle
+        return self._handle
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickles have all columns. Unpickling does not read the file again."""
         columns = range(header.STRUCTURE_POSITIONS, header.STRUCTURE_HYDROPATHIES + 1)
-        return _unpacked, (self._report, {column: self._column(column) for column in columns})
+        return _unpacked, (self._report, self._count, {column: np.asarray(self._column(column)) for column in columns})
 
     def __copy__(self) -> Structure:
         """Returns this object, because it never changes."""
@@ -77,7 +231,7 @@ class Structure:
 
     @property
     def file(self) -> str:
-        """The path that was passed to read().
+        """The path that was passed to read(), the name of a file object, or the name of a molecule of arrays.
 
         >>> molecule.file
         'helix.pdb'"""
@@ -85,7 +239,7 @@ class Structure:
 
     @property
     def format(self) -> str:
-        """The format of the file, such as "PDB" or "mmCIF".
+        """The format of the file, such as "PDB" or "mmCIF"; "arrays" for a molecule of arrays or of another package.
 
         >>> molecule.format
         'PDB'"""
@@ -93,7 +247,7 @@ class Structure:
 
     @property
     def radii_set(self) -> str:
-        """The set of radii: "bondi", "united", "protor" or "file", with files and overrides.
+        """The set of radii: "bondi", "united", "protor" or "file", with files and overrides; "arrays" for given radii.
 
         >>> molecule.radii_set
         'bondi'"""
@@ -124,165 +278,118 @@ class Structure:
         return [str(row) for row in self._column(header.STRUCTURE_WARNINGS)]
 
     def __len__(self) -> int:
-        return self._report.atoms
+        return self._count
 
     def __repr__(self) -> str:
+        whole = self if self._source is None else self._source[0]
+        if whole._count != self._count:
+            of = f" of {self.file}" if self.file else ""
+            return f"<meniscus.Structure: {self._count} of {whole._count} atoms{of}>"
+        if self.format == "arrays":
+            many = "s" * (self._count != 1)
+            return f"<meniscus.Structure: {self._count} atom{many}{' of ' * bool(self.file)}{self.file}>"
         return f"<meniscus.Structure: {self.file}, {self.format}: {self.report}>"
 
-    # ---- atoms
+    # ---- parts
 
-    @property
-    def positions(self) -> Floats:
-        """The positions in Å, (n, 3).
+    @overload
+    def __getitem__(self, key: Union[int, np.integer[Any]]) -> Atom: ...
+    @overload
+    def __getitem__(self, key: Union[slice, Sequence[int], AnyArray]) -> Structure: ...
 
-        >>> molecule.positions[:2].tolist()
-        [[3.1, 0.0, 0.0], [1.927, 2.428, 0.55]]"""
-        return self._column(header.STRUCTURE_POSITIONS)
+    def __getitem__(self, key: Any) -> Union[Atom, Structure]:
+        """Returns the atom of an index, or the part of a mask, a slice or an array of indices."""
+        if isinstance(key, str):
+            raise wrong_type(f"{key!r} is a text; molecule.select({key!r}) selects atoms")
+        if isinstance(key, (int, np.integer)) and not isinstance(key, (bool, np.bool_)):
+            if not -self._count <= key < self._count:
+                raise also(InputError, (IndexError,), f"there is no atom {key}; there are {self._count}")
+            return next(atoms_of(self, [int(key) % self._count]))
+        try:
+            rows = np.arange(self._count)[np.asarray(key, np.int64) if isinstance(key, list) and not key else key]
+        except IndexError as error:
+            raise also(InputError, (IndexError,), f"not rows of the {self._count} atoms: {error}") from None
+        if rows.ndim != 1:
+            raise wrong_type(f"{key!r:.60} is not a mask, a slice or a list of indices")
+        return self._rows(rows)
 
-    @property
-    def radii(self) -> Floats:
-        """The van der Waals radii in Å.
+    def _rows(self, rows: AnyArray) -> Structure:
+        whole, own = (self, rows) if self._source is None else (self._source[0], np.asarray(self._source[1])[rows])
+        columns = {} if self._source is None else {
+            key: values[rows] for key, values in self._columns.items() if key != header.STRUCTURE_WARNINGS}
+        for values in columns.values():
+            values.flags.writeable = False
+        return Structure._of(self._report, len(rows), columns, source=(whole, own))
 
-        >>> molecule.radii[:4].tolist()
-        [1.55, 1.7, 1.7, 1.52]"""
-        return self._column(header.STRUCTURE_RADII)
+    def _moved(self, positions: AnyArray) -> Structure:
+        """Returns the same atoms at other positions."""
+        xyz = np.array(positions, np.float64)
+        xyz.flags.writeable = False
+        whole, rows = self._source or (self, np.arange(self._count))
+        return Structure._of(self._report, self._count, {**self._columns, header.STRUCTURE_POSITIONS: xyz},
+                             source=(whole, rows))
 
-    @property
-    def elements(self) -> Bytes:
-        """The atomic numbers; 0 for unknown elements.
+    def select(self, selection: str) -> Structure:
+        """Returns the atoms of a selection, such as "chain A and resid 10-50", in the words of read(); "index" counts the
+        atoms of this structure.
 
-        >>> molecule.elements[:4].tolist()
-        [7, 6, 6, 8]"""
-        return self._column(header.STRUCTURE_ELEMENTS)
+        Raises UsageError for an invalid selection, and InputError if it selects no atom. Words about helices and sheets
+        are decided by the positions, not by the file.
 
-    @property
-    def indices(self) -> Indices:
-        """The indices of the atoms among all atoms of the file, from 0, as in tables and meshes of the program.
+        >>> molecule.select("chain B and name CA")
+        <meniscus.Structure: 8 of 64 atoms of helix.pdb>"""
+        if not isinstance(selection, str):
+            raise wrong_type(f"selection is of the type {type(selection).__name__}, not a text")
+        return self._rows(self._selected(selection))
 
-        >>> molecule.indices[-3:].tolist()
-        [61, 62, 63]"""
-        return self._column(header.STRUCTURE_INDICES)
+    def _selected(self, selection: str) -> AnyArray:
+        return np.array(column_of(self._reread(**{**WHOLE, "select": selection}), header.STRUCTURE_INDICES), np.int64)
 
-    @property
-    def names(self) -> Texts:
-        """The names of the atoms, such as "CA".
+    def _usual(self) -> tuple[AnyArray, Structure]:
+        """Returns the atoms that read() uses by default, with its radii: their rows, and the part."""
+        handle = self._reread()
+        rows = np.array(column_of(handle, header.STRUCTURE_INDICES), np.int64)
+        part = self._rows(rows)
+        part._columns[header.STRUCTURE_RADII] = column_of(handle, header.STRUCTURE_RADII)
+        return rows, part
 
-        >>> molecule.names[:4].tolist()
+    def _mask(self, part: Any) -> AnyArray:
+        """Returns a part as a mask, (n,). part: a selection, a mask or indices."""
+        mask = np.zeros(self._count, bool)
+        mask[self._selected(part) if isinstance(part, str) else np.asarray(part)] = True
+        return mask
+
+    def __iter__(self) -> Iterator[Atom]:
+        return atoms_of(self, range(self._count))
+
+    def split(self, by: Literal["residue", "chain", "model"] = "residue") -> list[Structure]:
+        """Returns the residues, chains or models as parts, in order of their first atoms.
+
+        >>> [len(chain) for chain in molecule.split("chain")]
+        [32, 32]
+        >>> molecule.split("residue")[0].names.tolist()
         ['N', 'CA', 'C', 'O']"""
-        return self._column(header.STRUCTURE_NAMES)
+        return [self._rows(rows) for rows in parts_of(self, by)]
 
-    @property
-    def residue_names(self) -> Texts:
-        """The names of the residues, such as "ALA".
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each atom.
 
-        >>> molecule.residue_names[::8].tolist()[:2]
-        ['ALA', 'ALA']"""
-        return self._column(header.STRUCTURE_RESIDUE_NAMES)
+        >>> import pandas
+        >>> molecule.to_dataframe().loc[1, ["name", "chain"]].tolist()
+        ['CA', 'A']"""
+        return dataframe_of(self)
 
-    @property
-    def chains(self) -> Texts:
-        """The chains, such as "A"; "A-2" in the second copy of an assembly.
+    def write(self, path: Path, *, format: Optional[Literal["cif", "pdb"]] = None, replace: bool = False) -> None:
+        """Writes the molecule as mmCIF, with all digits of the positions, or as PDB.
 
-        >>> molecule.chains[[0, -1]].tolist()
-        ['A', 'B']"""
-        return self._column(header.STRUCTURE_CHAINS)
+        format: "cif" or "pdb"; None for that of the path's extension. replace: whether an existing file is replaced.
+        Raises OutputError if the file cannot be written, or exists and is not replaced; UsageError for other formats;
+        and ImportError for PDB if the package gemmi is not installed.
 
-    @property
-    def segments(self) -> Texts:
-        """The segment identifiers of molecular dynamics programs.
-
-        >>> set(molecule.segments.tolist())
-        {''}"""
-        return self._column(header.STRUCTURE_SEGMENTS)
-
-    @property
-    def residue_numbers(self) -> Numbers:
-        """The residue numbers of the file.
-
-        >>> molecule.residue_numbers[::8].tolist()
-        [1, 3, 5, 7, 9, 11, 13, 15]"""
-        return self._column(header.STRUCTURE_RESIDUE_NUMBERS)
-
-    @property
-    def insertion_codes(self) -> Texts:
-        """The letters after residue numbers; "" where there is none.
-
-        >>> set(molecule.insertion_codes.tolist())
-        {''}"""
-        return np.char.strip(self._column(header.STRUCTURE_INSERTION_CODES))
-
-    @property
-    def altlocs(self) -> Texts:
-        """The letters of alternate locations; "" where there is none.
-
-        >>> set(molecule.altlocs.tolist())
-        {''}"""
-        return np.char.strip(self._column(header.STRUCTURE_ALTLOCS))
-
-    @property
-    def residues(self) -> Indices:
-        """The indices of the residues in the file, from 0.
-
-        >>> molecule.residues[::8].tolist()
-        [0, 2, 4, 6, 8, 10, 12, 14]"""
-        return self._column(header.STRUCTURE_RESIDUES)
-
-    @property
-    def models(self) -> Numbers:
-        """The numbers of the models, from 1.
-
-        >>> set(molecule.models.tolist())
-        {1}"""
-        return self._column(header.STRUCTURE_MODELS)
-
-    @property
-    def copies(self) -> Indices:
-        """The indices of the copies in an assembly, from 0.
-
-        >>> set(molecule.copies.tolist())
-        {0}"""
-        return self._column(header.STRUCTURE_COPIES)
-
-    @property
-    def charges(self) -> Singles:
-        """The partial charges in e; NaN where the file has none.
-
-        >>> bool(np.isnan(molecule.charges).all())
-        True"""
-        return self._column(header.STRUCTURE_CHARGES)
-
-    @property
-    def b_factors(self) -> Singles:
-        """The B-factors in Å²; NaN where the file has none.
-
-        >>> molecule.b_factors[:3].tolist()
-        [0.0, 1.0, 2.0]"""
-        return self._column(header.STRUCTURE_B_FACTORS)
-
-    @property
-    def occupancies(self) -> Singles:
-        """The occupancies, 0 to 1; NaN where the file has none.
-
-        >>> molecule.occupancies[:3].tolist()
-        [1.0, 1.0, 1.0]"""
-        return self._column(header.STRUCTURE_OCCUPANCIES)
-
-    @property
-    def classes(self) -> Texts:
-        """The classes of the atoms: "polymer", "ligand", "water" or "ion"; "unclassified" if the format has none.
-
-        >>> set(molecule.classes.tolist())
-        {'polymer'}"""
-        words = np.array(["polymer", "ligand", "water", "ion", "unclassified"])
-        return words[self._column(header.STRUCTURE_CLASSES)]
-
-    @property
-    def hydropathies(self) -> Floats:
-        """The hydropathies of the residues (Kyte & Doolittle 1982); NaN for residues that are not amino acids.
-
-        >>> molecule.hydropathies[:3].tolist()
-        [1.8, 1.8, 1.8]"""
-        return self._column(header.STRUCTURE_HYDROPATHIES)
+        >>> molecule.select("chain A").write("chain.cif")
+        >>> len(meniscus.read("chain.cif"))
+        32"""
+        written(self._text(np.asarray(self._column(header.STRUCTURE_CLASSES))), path, format, replace)
 
     def colors(self, scheme: str = "auto") -> Singles:
         """Returns the colours of the atoms by one of the program's schemes: sRGB in [0, 1], (n, 3), as render() and
@@ -290,127 +397,55 @@ class Structure:
 
         scheme: "chain", "bfactor" or another word of `meniscus colors` that colours atoms by data of the file, a name
         such as "red", or "#rrggbb". Raises UsageError for other schemes, and InputError if no atom has the number that
-        the scheme needs, or if the structure was unpickled.
+        the scheme needs.
 
         >>> molecule.colors("red")[0].tolist()
         [1.0, 0.0, 0.0]
         >>> meniscus.surface(molecule).mesh(0.1).save("helix.ply", colors=molecule.colors("residue"))"""
-        if self._handle is None:
-            raise InputError("colors: of a structure that was read, not of one that was unpickled; read the file again")
+        if not isinstance(scheme, str):
+            raise wrong_type(f"scheme is of the type {type(scheme).__name__}, not a text")
+        if self._source is not None:  # atoms keep the colours that they have in the whole molecule
+            colors: Singles = self._source[0].colors(scheme)[self._source[1]]
+            return colors
         colors = np.empty((len(self), 3), np.float32)
-        lib.call("structure_colors", self._handle.pointer, scheme.encode(), colors.ctypes.data)
+        lib.call("structure_colors", self._library_object().pointer, scheme.encode(), colors.ctypes.data)
         return colors
 
 
-def _unpacked(report: _Report, columns: dict[int, AnyArray]) -> Structure:
+def _unpacked(report: Report, count: int, columns: dict[int, AnyArray]) -> Structure:
     for column in columns.values():
         column.flags.writeable = False
-    return Structure(None, report, columns)
+    return Structure._of(report, count, columns)
 
 
-def _opened(handle: lib.Handle) -> Structure:
-    report = header.ReadReport(ctypes.sizeof(header.ReadReport))
-    lib.call("structure_report", handle.pointer, ctypes.byref(report))
-    return Structure(handle, _Report(os.fsdecode(report.file), report.format.decode(),
-                                     report.radii_set.decode("utf-8", "replace"),
-                                     report.sentence.decode("utf-8", "replace"), report.atoms, report.models), {})
+def _numbers_of(elements: Any, count: int) -> AnyArray:
+    """Returns the atomic numbers of `count` atoms; 0 for unknown elements."""
+    values = np.asarray(elements)
+    if values.shape != (count,):
+        raise InputError(f"elements has the shape {values.shape}; the number of atoms is {count}")
+    numbers = atomic_numbers(values)
+    wrong = np.flatnonzero((numbers < 0) | (numbers >= len(SYMBOLS)))
+    if len(wrong):
+        raise InputError(f"the element of atom {wrong[0]} is {numbers[wrong[0]]}, not an atomic number")
+    return numbers
 
 
-def _overrides(radius: Union[Mapping[str, float], Iterable[str], None]) -> list[str]:
-    """Returns the overrides of radii as texts "EXPR=R"."""
-    if radius is None:
-        return []
-    if isinstance(radius, str):
-        return [radius]
-    if isinstance(radius, Mapping):
-        return [f"{selection}={number('radius', value)!r}" for selection, value in radius.items()]
-    return listed("radius", radius, "texts such as 'element Zn=1.1'")
-
-
-def _c_array(texts: Sequence[bytes]) -> Any:
-    return (ctypes.c_char_p * len(texts))(*texts)
-
-
-def read(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, None] = None,
-         model: Union[int, Literal["all"]] = 1, altloc: str = "best", hydrogens: Hydrogens = "auto",
-         radii: Optional[RadiiSet] = None, radii_files: Union[Path, Sequence[Path]] = (),
-         radius: Union[Mapping[str, float], Iterable[str], None] = None, keep_water: bool = False,
-         keep_ions: bool = False, unknown_element: UnknownElement = "halt") -> Structure:
-    """Reads a molecule from a PDB, mmCIF, BinaryCIF, SDF, MOL2, PDBQT, PQR, GRO, XYZ or XYZR file, which may be
-    compressed with gzip. By default it uses the polymers of the first model with the sugars that are bound to them, or
-    all of a file without a polymer, with the most occupied conformer of each residue, but neither water nor free ions.
-    Unusual things in the file are UserWarnings.
-
-    select: a selection such as "chain A and resid 10-50", or "all" to use ligands, too. assembly: the biological assembly to build. model: the number
-    of the model, from 1, or "all" for all models as one molecule. altloc: the alternate location of each residue:
-    "best", "first", "all" or a letter. hydrogens: "keep", "drop", or "auto", which keeps them unless the radii of heavy
-    atoms include them. radii: the set of radii, "bondi", "united", "protor" or "file"; None for those of the file if it
-    has any, else "bondi". radii_files: paths of tables by residue and atom, which override the set. radius: radii in Å
-    by selection, such as {"element Zn": 1.1}. keep_water, keep_ions: whether water and free ions are used, too.
-    unknown_element: what happens to atoms of unknown element: "halt" raises InputError, "guess" gives them a radius of
-    2.0 Å, "skip" ignores them.
-
-    Raises InputError if the file cannot be read, and UsageError for an invalid option or selection.
-
-    >>> len(meniscus.read("helix.pdb", select="chain A", radius={"element N": 1.6}))
-    32
-    >>> meniscus.read("none.pdb")
-    Traceback (most recent call last):
-        ...
-    meniscus.InputError: none.pdb: cannot be read: No such file or directory"""
-    options = lib.default("read_options", header.ReadOptions())
-    options.select, options.altloc = text("select", select), text("altloc", altloc)
-    options.assembly = None if assembly is None else text("assembly", str(assembly))
-    options.radii = text("radii", radii)
-    options.model = 0 if isinstance(model, str) and model == "all" else positive("model", model)
-    options.hydrogens = word("hydrogens", hydrogens, _HYDROGENS)
-    options.unknown_element = word("unknown_element", unknown_element, _UNKNOWN_ELEMENTS)
-    options.keep_water, options.keep_ions = flag("keep_water", keep_water), flag("keep_ions", keep_ions)
-    files = ([radii_files] if isinstance(radii_files, (str, bytes, os.PathLike)) else
-             listed("radii_files", radii_files, "files"))
-    tables = _c_array([file_name("radii_files", file) for file in files])
-    overrides = _c_array([text("radius", override) or b"" for override in _overrides(radius)])
-    options.radii_files, options.radii_file_count = tables, len(tables)
-    options.radius, options.radius_count = overrides, len(overrides)
-    structure = _opened(lib.Handle("structure", "read", file_name("path", path), ctypes.byref(options)))
-    for warning in structure.warnings:
-        warnings.warn(f"{structure.file}: {warning}", stacklevel=2)
-    return structure
-
-
-def _element(symbol: str) -> int:
-    number = ctypes.c_int32()
-    lib.call("element_of_symbol", symbol.strip().encode(), ctypes.byref(number))
-    return number.value
-
-
-def _radius(element: int) -> float:
-    radius = ctypes.c_double()
-    lib.call("element_radius", element, ctypes.byref(radius), None)
-    return radius.value
-
-
-def radii_of(elements: Iterable[Union[str, int]]) -> Floats:
-    """Returns the van der Waals radii of elements in Å, (n,), by Bondi (1964, 1966) or Mantina et al. (2009); 2.0 for
-    metals without a published value.
-
-    elements: symbols or atomic numbers. Raises InputError for a symbol or number of no element.
-
-    >>> meniscus.radii_of(["C", "Zn", 8]).tolist()
-    [1.7, 1.39, 1.52]
-    >>> meniscus.radii_of(["Qq"])
-    Traceback (most recent call last):
-        ...
-    meniscus.InputError: atom 0: 'Qq' is not an element; give radii"""
-    checked: list[Union[str, int]] = [
-        element if isinstance(element, str) else whole_number(f"atom {n}: the element", element)
-        for n, element in enumerate(listed("elements", elements, "symbols or atomic numbers"))]
-    known: dict[Union[str, int], float] = {}
-    for n, element in enumerate(checked):
-        if element in known:
-            continue
-        number = _element(element) if isinstance(element, str) else element
-        if number == 0:
-            raise InputError(f"atom {n}: {str(element)!r} is not an element; give radii")
-        known[element] = _radius(number)
-    return np.array([known[element] for element in checked], dtype=np.float64)
+def _checked(name: str, column: int, values: Any, count: int) -> AnyArray:
+    """Returns a column of Structure() as a new array. values: None for the default."""
+    if column in NUMBERS:
+        dtype = np.dtype(NUMBERS[column][0])
+        if values is None:
+            return np.full(count, np.nan if dtype.kind == "f" else 1 if name == "models" else 0, dtype)
+        array = real_array(values, name, 1 if name == "radii" else None)
+        array = np.broadcast_to(array, (count,)) if array.ndim == 0 else array
+        if dtype.kind != "f" and array.dtype.kind == "f":
+            raise wrong_type(f"{name} has fractions; give whole numbers")
+    else:
+        dtype = np.dtype(np.str_)
+        array = np.asarray("" if values is None else values)
+        array = np.broadcast_to(array, (count,)) if array.ndim == 0 else array
+        if array.dtype.kind not in "UO" or (array.dtype.kind == "O" and not all(isinstance(v, str) for v in array)):
+            raise wrong_type(f"{name} has {array.dtype.type.__name__}, not texts")
+    if array.shape != (count,):
+        raise InputError(f"{name} has the shape {array.shape}; the number of atoms is {count}")
+    return np.array(array, dtype if dtype.kind != "U" else np.str_)

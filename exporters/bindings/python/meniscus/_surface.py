@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import ctypes
-import os
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union, overload
+from typing import TYPE_CHECKING, Any, Literal, Optional, Union, overload
 
 import numpy as np
 
 from . import _header as header
 from . import _library as lib
-from ._arguments import flag, warn_of_nanometres, word
+from ._arguments import flag, number, warn_of_nanometres, word
 from ._arrays import doubles, numbers, real_array, view
 from ._errors import GpuError, InputError
 from ._mesh import Mesh
@@ -18,8 +17,10 @@ from ._page import Page, made
 from ._picture import DEVICES, Camera, Picture, framed, of_picture, painted
 from ._pockets import Pocket, pockets_of
 from ._scene import Scene
+from ._molecule_tables import frame_of, sums_of
+from ._patches import Patches
 from ._structure import Structure
-from ._types import AnyArray, Bytes, Device, Floats, Indices, Kind, Projection, Quantity, Rows
+from ._types import AnyArray, Device, Floats, Indices, Kind, Projection, Quantity, Rows
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -29,24 +30,7 @@ if TYPE_CHECKING:
 _KINDS = {"ses": header.SES, "sas": header.SAS, "vdw": header.VDW}
 _GRADIENTS = {"area": header.GRADIENT_AREA, "volume": header.GRADIENT_VOLUME, "sas_area": header.GRADIENT_SAS_AREA,
               "sas_volume": header.GRADIENT_SAS_VOLUME}
-_COUNTS = [name for name, kind in header.Summary._fields_ if kind is ctypes.c_uint64]
-
-
-class Patches(NamedTuple):
-    """The analytic patches of a surface. convex, toroidal, concave and planes are structured arrays, whose rows
-    meniscus.h describes; contacts and cuts are arrays of indices, (k,), to which these rows refer.
-
-    >>> patches = meniscus.surface([[0, 0, 0], [3, 0, 0]], 1.7).patches
-    >>> len(patches.convex), len(patches.toroidal), len(patches.concave)
-    (2, 1, 0)
-    >>> patches.toroidal["atom"].tolist()
-    [[0, 1]]"""
-    convex: Rows
-    toroidal: Rows
-    concave: Rows
-    planes: Rows
-    contacts: Indices
-    cuts: Indices
+_COUNTS = [field[0] for field in header.Summary._fields_ if field[1] is ctypes.c_uint64]
 
 
 def _radii_of(radii: Any) -> AnyArray:
@@ -72,14 +56,16 @@ class Surface:
 
     >>> s = meniscus.surface([[0, 0, 0], [1.5, 0, 0], [2.3, 1.3, 0], [6, 0, 0]], [1.7, 1.7, 1.52, 1.7])
     >>> s
-    <meniscus.Surface: ses of 4 atoms, 100.83 Å², 67.39 Å³, 1 components>"""
+    <meniscus.Surface: ses of 4 atoms, 100.83 Å², 67.39 Å³, 1 component>"""
 
-    __slots__ = ("_computer", "_handle", "_kind", "_options", "_radii", "__weakref__")
+    __slots__ = ("_computer", "_handle", "_kind", "_options", "_radii", "_structure", "__weakref__")
 
     def __init__(self, xyz: Any, radii: Any, probe: float, kind: Kind, device: Device, threads: int,
-                 verify: bool) -> None:
+                 verify: bool, structure: Optional[Structure] = None) -> None:
+        self._structure = structure
         options = lib.default("options", header.Options())
-        options.probe_radius, options.threads, options.verify = probe, threads, flag("verify", verify)
+        options.probe_radius, options.threads = number("probe", probe), threads
+        options.verify = flag("verify", verify)
         options.kind = word("kind", kind, _KINDS)
         if options.probe_radius == 0 and kind != "vdw":
             raise InputError('probe is 0; kind="vdw" is the surface without a probe')
@@ -97,7 +83,8 @@ class Surface:
         radii_type = header.FLOAT if radii.dtype == np.float32 else header.DOUBLE
         atoms = header.Atoms(ctypes.sizeof(header.Atoms), len(positions), positions.ctypes.data, radii.ctypes.data,
                           positions.strides[0], 0, positions_type, radii_type, int(radii.ndim == 0), 0)
-        handle = lib.Handle("surface", "compute", self._computer.pointer, ctypes.byref(atoms))
+        handle = lib.Handle("surface", "compute", self._computer.pointer, ctypes.byref(atoms),
+                            long=len(positions) > 2000)
         warn_of_nanometres(positions)
         return handle
 
@@ -115,17 +102,20 @@ class Surface:
         wanted = self._radii if radii is None else radii
         self._handle = self._computed(xyz, wanted)
         self._radii = wanted
+        if self._structure is not None:
+            same = len(self._structure) == len(self)
+            self._structure = self._structure._moved(self.balls["center"]) if same else None
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickles have the atoms and the options. Unpickling computes the surface again, with bitwise equal results."""
-        return Surface, (np.array(self.balls["center"]), self._radii, *self._options)
+        return Surface, (np.array(self.balls["center"]), self._radii, *self._options, self._structure)
 
     def __copy__(self) -> Surface:
         """Returns a surface of the same frame without computing it again. update() of one does not change the other."""
         other = Surface.__new__(Surface)
         other._computer, other._handle, other._kind = self._computer, self._handle, self._kind
-        other._options, other._radii = self._options, self._radii
+        other._options, other._radii, other._structure = self._options, self._radii, self._structure
         return other
 
     def __deepcopy__(self, memo: Any) -> Surface:
@@ -205,6 +195,47 @@ class Surface:
 
     def __len__(self) -> int:
         return int(self._summary().atoms)
+
+    # ---- the molecule
+
+    @property
+    def structure(self) -> Optional[Structure]:
+        """The molecule that the surface is of, with the positions of this frame; None for bare positions and radii.
+
+        >>> len(meniscus.surface(meniscus.read("helix.pdb")).structure)
+        64"""
+        return self._structure
+
+    def _named(self) -> Structure:
+        if self._structure is None:
+            raise InputError("the surface is of bare positions and radii; give surface() a meniscus.Structure, which "
+                             "knows residues and chains")
+        return self._structure
+
+    def _areas(self) -> dict[str, AnyArray]:
+        return {"area": self.atom_areas, **({"sas_area": self.atom_sas_areas} if self._kind == "ses" else {})}
+
+    def areas_by(self, by: Literal["residue", "chain", "model"] = "residue") -> Rows:
+        """Returns a structured array with a row per residue, chain or model of the molecule: its names, atoms (their
+        number), area in Å² and, for kind "ses", sas_area in Å². Raises InputError if the surface is of bare atoms.
+
+        >>> helix = meniscus.surface(meniscus.read("helix.pdb"))
+        >>> rows = helix.areas_by("chain")
+        >>> rows["chain"].tolist(), rows["area"].round(2).tolist()
+        (['A', 'B'], [754.65, 754.33])"""
+        return sums_of(self._named(), by, self._areas())
+
+    def to_dataframe(self, by: Literal["atom", "residue", "chain", "model"] = "atom") -> Any:
+        """Returns a pandas.DataFrame of the areas in Å² of each atom, residue, chain or model.
+
+        >>> import pandas
+        >>> list(s.to_dataframe().columns)
+        ['area', 'sas_area']"""
+        if by != "atom":
+            table = self.areas_by(by)
+            return frame_of({name: table[name] for name in table.dtype.names or ()})
+        frame = frame_of(self._areas())
+        return frame if self._structure is None else self._structure.to_dataframe().join(frame)
 
     # ---- tables
 
@@ -325,23 +356,28 @@ class Surface:
 
     def distance(self, points: Any, *, nearest: bool = False) -> Union[Floats, tuple[Floats, Floats]]:
         """Returns the exact distances of points from the surface in Å, (m,): above 0 in the solvent, below 0 in the
-        solid.
+        solid. For one point, (3,), it is a single number.
 
-        points: (m, 3) Å. nearest: whether the nearest points of the surface, (m, 3) Å, are returned, too. Raises
-        InputError for points that are not finite.
+        points: (m, 3) or (3,) Å. nearest: whether the nearest points of the surface, (m, 3) Å, are returned, too.
+        Raises InputError for points that are not finite.
 
         >>> s.distance([[0, 0, 0], [6, 0, 3]]).round(2).tolist()
         [-1.7, 1.3]
+        >>> round(float(s.distance([6, 0, 3])), 2)
+        1.3
         >>> distances, feet = s.distance([[6, 0, 3]], nearest=True)
         >>> feet.round(2).tolist()
         [[6.0, 0.0, 1.7]]"""
-        array = doubles(points, "points", 3, power=1)
+        given = real_array(points, "points", 1)
+        array = doubles(given.reshape(1, -1) if given.ndim == 1 and len(given) == 3 else given, "points", 3)
         distances = np.empty(len(array))
         feet = np.empty((len(array), 3)) if flag("nearest", nearest) else None
         handle = self._handle
         lib.call("surface_distance", handle.pointer, len(array), array.ctypes.data, distances.ctypes.data,
-                 None if feet is None else feet.ctypes.data)
-        return distances if feet is None else (distances, feet)
+                 None if feet is None else feet.ctypes.data, long=len(array) > 10_000)
+        one = given.ndim == 1
+        result: Floats = distances.reshape(()) if one else distances
+        return result if feet is None else (result, feet[0] if one else feet)
 
     def gradient(self, of: Quantity = "area", weights: Optional[Any] = None) -> Floats:
         """Returns the exact derivative of a quantity with respect to the position of each atom, (n, 3), in Å²/Å or
@@ -364,7 +400,7 @@ class Surface:
             raise InputError(f"weights has the shape {factors.shape}; it has to be ({summary.atoms},)")
         gradient = np.empty((summary.atoms, 3))
         lib.call("surface_gradient", handle.pointer, quantity, None if factors is None else factors.ctypes.data,
-                 gradient.ctypes.data)
+                 gradient.ctypes.data, long=summary.atoms > 20_000)
         return gradient
 
     def pockets(self, large_probe: float = 4.0, *, trim: float = 1.0, min_volume: float = 30.0,
@@ -395,10 +431,11 @@ class Surface:
                **values: Unpack[SurfaceValues]) -> Picture:
         """Returns a picture of the surface with the program's look.
 
-        colors: sRGB in [0, 1], (3,) or one per atom. camera: None for that of camera(). device: "cpu", "gpu",
-        "software" (GL on the CPU), or "auto", a hardware GPU if one works, else the CPU. values: properties of a Scene
-        that concern the look and the image, such as size="800x600" and background="white". Raises UsageError for other
-        properties, and GpuError if the device needs GL and there is none.
+        colors: sRGB in [0, 1], (3,) or one per atom, (n, 3); or names such as "red" and "#rrggbb". camera: None for
+        that of camera(). device: "cpu", "gpu", "software" (GL on the CPU), or "auto", a hardware GPU if one works, else
+        the CPU. values: properties of a Scene that concern the look and the image, such as size="800x600" and
+        background="white". Raises UsageError for other properties, and GpuError if the device needs GL and there is
+        none.
 
         >>> s.render(size="80x60", background="white", device="cpu")
         <meniscus.Picture: 80x60>"""
@@ -413,18 +450,16 @@ class Surface:
              camera: Optional[Camera] = None, frame_height: int = 480, **values: Unpack[SurfaceValues]) -> Page:
         """Returns a web page in which readers can rotate the surface. A notebook shows it.
 
-        structure: None, or the Structure of the atoms, in the same order: then the page shows the names of atoms, and
-        its readers can choose colour schemes. frame_height: the height of the page in a notebook, in CSS pixels. The
-        other parameters and the errors are those of render().
+        structure: None, or the Structure of the atoms, in the same order, such as s.structure: then the page shows the
+        names of atoms, and its readers can choose colour schemes. frame_height: the height of the page in a notebook,
+        in CSS pixels. The other parameters and the errors are those of render().
 
         >>> s.show(color="teal").title
         'Surface of 4 atoms'
         >>> helix = meniscus.read("helix.pdb")
         >>> meniscus.surface(helix).show(structure=helix, colors=helix.colors("residue")).title
         'helix.pdb'"""
-        names = None if structure is None else structure._handle
-        if structure is not None and names is None:
-            raise InputError("structure: one that was read, not one that was unpickled; read the file again")
+        names = None if structure is None else structure._library_object()
         scene = Scene(**values)
         of_atoms, seen_by = of_picture(colors, len(self), camera)
         return made("surface_page", self._handle.pointer, names.pointer if names else None,
@@ -440,44 +475,4 @@ class Surface:
     def __repr__(self) -> str:
         s = self._summary()
         return (f"<meniscus.Surface: {self._kind} of {s.atoms} atoms, {s.area:.2f} Å², {s.volume:.2f} Å³, "
-                f"{s.components} components>")
-
-
-@overload
-def surface(xyz: Structure, radii: Optional[Any] = None, probe: float = 1.4, *, kind: Kind = "ses",
-            device: Device = "cpu", threads: int = 0, verify: bool = False) -> Surface: ...
-@overload
-def surface(xyz: Any, radii: Any, probe: float = 1.4, *, kind: Kind = "ses", device: Device = "cpu", threads: int = 0,
-            verify: bool = False) -> Surface: ...
-
-
-def surface(xyz: Any, radii: Optional[Any] = None, probe: float = 1.4, *, kind: Kind = "ses", device: Device = "cpu",
-            threads: int = 0, verify: bool = False) -> Surface:
-    """Computes the surface of a Structure, or of atoms with positions and radii.
-
-    xyz: a Structure of read(), or positions in Å, (n, 3). radii: van der Waals radii in Å, (n,) or one for all atoms;
-    None for those of the Structure. probe: the radius of the probe, 0.001 to 100 Å. Values with a unit of OpenMM, pint,
-    astropy or unyt are converted. A UserWarning says if positions look like nanometres.
-
-    kind: "ses" (solvent-excluded), "sas" (solvent-accessible) or "vdw" (van der Waals, without a probe). device: "cpu",
-    "gpu", "software" (GL on the CPU), or "auto", a hardware GPU if one works, else the CPU. threads: the number of CPU
-    threads; 0 for all. verify: whether the surface is also computed on the other device, and compared.
-
-    Raises InputError for impossible atoms, UsageError for invalid options, NotClosedError if the surface would not be
-    closed, GpuError if the device needs GL and there is none, and CapacityError if memory does not suffice.
-
-    >>> round(meniscus.surface([[0, 0, 0], [3, 0, 0]], [1.7, 1.52], probe=1.4).area, 2)
-    60.71
-    >>> meniscus.surface(meniscus.read("helix.pdb"), kind="sas")
-    <meniscus.Surface: sas of 64 atoms, 1721.07 Å², 3726.61 Å³, 1 components>
-    >>> meniscus.surface([[0, 0, 0]], -1.7)
-    Traceback (most recent call last):
-        ...
-    meniscus.InputError: the radius of atom 0 is -1.7 Å; it has to be above 0, or leave the atom out"""
-    if isinstance(xyz, Structure):
-        return Surface(xyz.positions, xyz.radii if radii is None else radii, probe, kind, device, threads, verify)
-    if isinstance(xyz, (str, bytes, os.PathLike)):
-        raise InputError(f"{xyz!r} is a path; meniscus.read() reads molecules: surface(meniscus.read(path))")
-    if radii is None:
-        raise InputError("radii are missing; give one for each atom, or one for all (radii_of() has those of elements)")
-    return Surface(xyz, radii, probe, kind, device, threads, verify)
+                f"{s.components} component{'s' * (s.components != 1)}>")

@@ -25,7 +25,7 @@ Projection = Literal["perspective", "orthographic"]
 Quantity = Literal["area", "volume", "sas_area", "sas_volume"]
 MeshFormat = Literal["stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms", "ply", "ply-ascii", "py", "usda", "usdz"]
 PocketKind = Literal["cavity", "pocket", "tunnel"]
-RadiiSet = Literal["bondi", "united", "protor", "file"]
+RadiiSet = Literal["bondi", "united", "protor", "martini2", "martini3", "file"]
 Hydrogens = Literal["auto", "keep", "drop"]
 UnknownElement = Literal["halt", "guess", "skip"]
 

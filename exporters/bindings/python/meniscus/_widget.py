@@ -8,7 +8,8 @@ from typing import Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
 
-from ._arrays import atom_colors, real_array
+from ._arrays import real_array
+from ._colors import atom_colors
 from ._errors import InputError
 from ._page import Page, page_of
 from ._picture import Camera

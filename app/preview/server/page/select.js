@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is selected: atoms, residues and chains that were clicked on the stage, in the list or in the sequence, and a
+// card with what can be done with them.
+import { element } from "./figure.js";
+
+const $ = (id) => document.getElementById(id);
+const kSeries = 400;                             // ms between the clicks of a double or triple click
+const kNear = 6;                                 // CSS pixels between them
+const kLevels = ["atom", "residue", "molecule"];  // selected by one, two and three clicks
+
+/// Returns where a camera of a state shows points, in pixels of a picture of this size; null for points behind it.
+function projected(points, { position, target, up, projection, vertical_fov, height }, [width, rows]) {
+  const forward = unit(minus(target, position)), right = unit(cross(forward, up)), above = cross(right, forward);
+  return points.map((point) => {
+    const from = minus(point, position), depth = dot(from, forward);
+    if (projection === "perspective" && depth <= 0) return null;
+    const half = projection === "perspective" ? depth * Math.tan(vertical_fov * Math.PI / 360) : height / 2;
+    return [width / 2 + rows / 2 * dot(from, right) / half, rows / 2 - rows / 2 * dot(from, above) / half];
+  });
+}
+
+/// Returns the selection: {click(found, event), choose(entry, adds), has(text), listen(listener), show(state)}.
+/// An entry is {selection, name, residue, molecule}: its expression, its name for people, and the expressions of the
+/// residue and the chain that it is part of. `viewer` returns what draws the stage.
+export function select_controls({ command, ask, say, viewer }) {
+  const card = $("card"), listeners = [];
+  let entries = [], series = { at: -1e9 }, state = null, located = null, key = "", latest = 0, offered = "";
+
+  const text = () => entries.length === 1 ? entries[0].selection
+    : entries.map(({ selection }) => `(${selection})`).join(" or ");
+  const has = (selection) => entries.some((entry) => entry.selection === selection);
+
+  /// Shows other entries as selected; place: where the card belongs on the stage, CSS pixels.
+  function become(next, place = null) {
+    entries = next;
+    ++latest;
+    if ($("atoms").value === offered) $("atoms").value = offered = text();
+    show_card(place);
+    locate();
+    for (const listener of listeners) listener(entries);
+  }
+
+  function choose(entry, adds, place) {
+    const others = entries.filter(({ selection }) => selection !== entry.selection);
+    if (!adds) become(has(entry.selection) && entries.length === 1 && !place ? [] : [entry], place);
+    else become(others.length < entries.length ? others : [...others, entry], place);
+  }
+
+  /// found: of Viewer.pick(), or null. Two clicks select the residue, three the chain.
+  async function click(found, event) {
+    const goes_on = event.timeStamp - series.at < kSeries &&
+      Math.hypot(event.clientX - series.x, event.clientY - series.y) < kNear;
+    series = { at: event.timeStamp, x: event.clientX, y: event.clientY, count: goes_on ? series.count % 3 + 1 : 1,
+      before: goes_on ? series.before : entries };
+    if (!found) return event.shiftKey ? undefined : become([]);
+    const pixel = found.x === undefined ? { place: found.place } : { x: found.x, y: found.y };
+    const pick = () => ask({ command: "pick", ...pixel, wait: false });
+    const { count, before } = series, told = await pick();
+    if (!told.ok || !told.hit) return;
+    const { selections, place, name } = told, residue = place.endsWith(name) ? place.slice(0, -name.length - 1) : place;
+    const names = [place, residue, selections.molecule.replace(/ and polymer$/, "")];
+    const entry = { selection: selections[kLevels[count - 1]], name: names[count - 1], ...selections };
+    if (count > 1) entries = before;
+    const box = $("stage").getBoundingClientRect();
+    choose(entry, event.shiftKey, [event.clientX - box.left, event.clientY - box.top]);
+    const number = latest;
+    for (let now = told; has(entry.selection) && number === latest; now = await pick()) {
+      tell(now);
+      if (!now.area_follows) return;
+      await new Promise((resolve) => setTimeout(resolve, 300));
+    }
+  }
+
+  function tell({ element: symbol, kind, exposed_area, area_follows, position }) {
+    const rows = [["element", symbol]];
+    if (["convex", "toroidal", "concave"].includes(kind)) rows.push(["what", `${kind} patch`]);
+    if (area_follows || exposed_area !== null) rows.push(["exposed", area_follows ? "…" : `${exposed_area.toFixed(3)} Å²`]);
+    rows.push(["position", position.map((x) => x.toFixed(2)).join(", ")]);
+    card.querySelector("dl").replaceChildren(...rows.flatMap(([term, value]) =>
+      [element("dt", { textContent: term }), element("dd", { textContent: value })]));
+  }
+
+  // The card
+
+  const colour = element("input", { type: "color", value: "#e69f00" });
+  colour.setAttribute("aria-label", "Colour of what is selected");
+  colour.addEventListener("change", () => command("paint", { selection: text(), color: colour.value }));
+  const actions = {
+    "Look into": () => command("look_into", { selection: text() }),
+    "Zoom to": () => command("zoom_to", { selection: text() }),
+    "Sticks": () => command("represent", { as: "sticks", selection: text() }),
+    "Balls": () => command("represent", { as: "balls", selection: text() }),
+    "Surface of": () => command("object", { object: { selection: text(), color: colour.value } }),
+    "See through": () => command("opacity", { selection: text(), opacity: 0.4 }),
+    "Cut before": () => command("cut", { plane: `before ${text()}` }),
+    "Hide": () => command("take_away", { selection: text() }),
+    "Distance": measure,
+  };
+  const buttons = Object.entries(actions).map(([textContent, act]) => {
+    const button = element("button", { type: "button", textContent });
+    button.addEventListener("click", act);
+    return button;
+  });
+  card.querySelector(".buttons").append(...buttons, element("label", { textContent: "Colour " }, colour));
+  card.querySelector(".plain").addEventListener("click", () => become([]));
+
+  document.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && entries.length > 0) become([]);
+  });
+
+  function show_card(place) {
+    card.hidden = entries.length === 0;
+    if (card.hidden) return;
+    card.querySelector("h2").textContent = entries.map(({ name }) => name).join("; ");
+    card.querySelector("dl").replaceChildren();
+    const distance = buttons.at(-1);
+    distance.disabled = entries.length < 2;
+    distance.title = distance.disabled ? "Select another with Shift and a click first" : "Between the last two";
+    const { clientWidth, clientHeight } = $("stage"), [x, y] = place ?? [clientWidth, 0];
+    card.style.left = `${Math.max(8, Math.min(x + 16, clientWidth - card.offsetWidth - 8))}px`;
+    card.style.top = `${Math.max(8, Math.min(y + 16, clientHeight - card.offsetHeight - 8))}px`;
+  }
+
+  /// Draws a dashed line between the last two entries, and says how long it is.
+  async function measure() {
+    const [from, to] = entries.slice(-2);
+    const drawn = await command("object", { object: { representation: "distance", selection: `${from.selection} to ${to.selection}` } });
+    if (!drawn) return;
+    const sides = await Promise.all([from, to].map(({ selection }) => ask({ command: "locate", selection })));
+    const [near, far] = sides.map(({ points }) => points);
+    const lengths = near.flatMap((a) => far.map((b) => Math.hypot(...minus(a, b))));
+    if (lengths.length > 0) say(`${Math.min(...lengths).toFixed(2)} Å from ${from.name} to ${to.name}`);
+  }
+
+  // On the stage
+
+  async function locate() {
+    const number = latest;
+    const found = entries.length > 0 ? await ask({ command: "locate", selection: text() }) : { ok: true, points: [], places: [] };
+    if (number !== latest || !found.ok) return;
+    located = found;
+    if (viewer().casts) viewer().select(found.places.flatMap(([first, count]) => Array.from({ length: count }, (_, n) => first + n)));
+    draw();
+  }
+
+  /// Rings around the atoms, where pictures of the program are shown.
+  function draw() {
+    const { width = 1, height = 1 } = state ?? {}, svg = $("rings");
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    const places = state && located && !viewer().casts ? projected(located.points, state.camera, located.picture ?? [width, height]) : [];
+    svg.replaceChildren(...places.filter(Boolean).map(([x, y]) => {
+      const ring = document.createElementNS("http://www.w3.org/2000/svg", "circle");
+      for (const [name, value] of [["cx", x.toFixed(1)], ["cy", y.toFixed(1)], ["r", located.points.length > 60 ? 3 : 6]]) ring.setAttribute(name, value);
+      return ring;
+    }));
+  }
+
+  /// Shows the selection in a state's picture; atoms may have other places in it than before.
+  function show(next) {
+    state = next;
+    const places = JSON.stringify([next.frame, next.width, next.height, next.legend, next.representations, next.objects]);
+    if (places !== key && entries.length > 0) locate();
+    key = places;
+    draw();
+  }
+
+  return { click, choose, has, listen: (listener) => listeners.push(listener), show };
+}

