@@ -19,6 +19,7 @@
 #include "app/options/command_tree.h"
 #include "app/options/named_files.h"
 #include "app/options/property_options.h"
+#include "app/options/storyboard_file.h"
 #include "app/process/program_main.h"
 #include "core/base/binary_file.h"
 #include "core/base/error.h"
@@ -451,6 +452,7 @@ std::string scene_text_for(const Scene& scene, const std::string& path, std::spa
 
 std::string read_scene_text(const std::string& file) {
   constexpr std::size_t kLargestScene = std::size_t{16} << 20;  // bytes
+  if (std::optional<std::string> scene = scene_of_storyboard(file)) return *std::move(scene);
   std::string text = png_note(file, kSceneNote).value_or("");
   if (!text.empty()) return text;
   if (is_png(file))

@@ -50,7 +50,7 @@ bool is_question(const nlohmann::json& command) {
   const std::string word = command_word(command);
   if (word == "pick") return command.value("wait", nlohmann::json()) == false;
   return word == "state" || word == "stats" || word == "choices" || word == "scene" || word == "render_command" ||
-         word == "export_state";
+         word == "export_state" || word == "films";
 }
 
 Change change_of(const nlohmann::json& command) {

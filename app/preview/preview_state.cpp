@@ -2,6 +2,8 @@
 // Remembers figures for undo and redo, and turns what is shown into a scene and back.
 #include "app/preview/preview_state.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
@@ -89,6 +91,14 @@ void take_colors(const RenderedView& view, MoleculeRequest& molecule) {
 }
 
 }  // namespace
+
+std::uint64_t KeptScene::held(double rate) const {
+  return std::max<std::uint64_t>(static_cast<std::uint64_t>(std::llround(hold * rate)), 1);
+}
+
+std::uint64_t KeptScene::between(double rate) const {
+  return static_cast<std::uint64_t>(std::llround(transition * rate));
+}
 
 Scene rendered_scene(const Scene& begun, const RenderedView& view) {
   const PreviewFigure& figure = view.figure;

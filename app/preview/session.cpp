@@ -90,6 +90,7 @@ Json PreviewSession::become(const Command& command, const std::function<Outcome(
       next = reduce(std::move(next.state));
     }
   }
+  if (state_.plays_strip && command.pauses_film()) next.state.playing = next.state.plays_strip = false;
   if (next.frames_all && next.state.overview) next.state.camera = molecule_.overview(next.state);
   pictures_.take(next.state, molecule_, next.renewal, moves);
   if (command.makes_picture()) next.reply["revision"] = ++next.state.revision;
@@ -182,7 +183,7 @@ Quality LiveView::at_once() const {
   if (!drawn() && session_.wants_balls()) return Quality::balls;
   if (!session_.state().playing || !draft_cost_) return Quality::draft;
   constexpr int kMostLikely = 3;  // drafts of a quarter of the pixels that a plain picture takes
-  const std::chrono::duration<double> frame(0.8 / session_.state().frames_per_second);
+  const std::chrono::duration<double> frame(0.8 / session_.state().rate());
   return plain_cost_.value_or(kMostLikely * *draft_cost_) < frame ? Quality::plain : Quality::draft;
 }
 
