@@ -136,7 +136,7 @@ void run_paper(BenchCommand& command) {
 
 void run(BenchCommand& command) {
   if (command.paper) return run_paper(command);
-  command.scene.molecule.surface.drawn = !command.numbers;
+  if (command.numbers) command.scene.molecule.surface.planes = ClipPlanes::left_out;
   Progress progress(progress_on_stderr(command), "bench",
                     command.files.size() * static_cast<std::size_t>(command.runs));
   std::vector<Row> rows;

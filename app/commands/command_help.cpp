@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus help NAME`: shows a page of the manual, or the help of a command; writes man pages.
+// `meniscus help NAME`: shows a page of the manual, the help of a command, or what speaks of a word; writes man pages.
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -8,8 +8,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
 #include "app/commands/command_table.h"
+#include "app/commands/help_search.h"
 #include "app/commands/manual_pages.h"
 #include "app/options/command_tree.h"
 #include "app/options/property_options.h"
@@ -131,9 +133,14 @@ void show(const CLI::App& program, const std::string& name) {
     return;
   }
   if (!text.empty()) return;
+  const std::string found = help_about(command_tree(program), name);
+  if (!found.empty()) {
+    std::cout << found;
+    return;
+  }
   const std::vector<std::string> names = page_names(program);
   const std::string_view nearest = nearest_word(name, std::vector<std::string_view>(names.begin(), names.end()));
-  throw UsageError(fmt::format("there is no page {}{}; meniscus help lists the pages", in_quotes(name),
+  throw UsageError(fmt::format("nothing in the help speaks of {}{}; meniscus help lists the pages", in_quotes(name),
                                nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
 }
 
@@ -155,10 +162,12 @@ void add_help(CLI::App& command) {
   describe(command,
            "  meniscus help\n"
            "  meniscus help selections\n"
+           "  meniscus help movie                commands, pages and options that speak of films\n"
            "  meniscus help --man man            a manual page of every command and topic, into the folder man");
-  auto topic = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
+  auto topic = std::make_shared<std::vector<std::string>>();
+  auto folder = std::make_shared<std::string>();
   auto schema = std::make_shared<bool>(false);
-  command.add_option("TOPIC", *topic, "Page to show; without it, the list of pages")
+  command.add_option("TOPIC", *topic, "Page to show, or words to search for; without them, the list of pages")
       ->check(proposes(page_names(*command.get_parent())))
       ->type_name("");
   PropertyOptions options(command);
@@ -173,7 +182,7 @@ void add_help(CLI::App& command) {
     } else if (topic->empty()) {
       list_topics(program);
     } else {
-      show(program, *topic);
+      show(program, fmt::format("{}", fmt::join(*topic, " ")));
     }
   });
 }

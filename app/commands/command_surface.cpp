@@ -96,9 +96,13 @@ class SurfaceTables {
                             MoleculeBuilder& builder) const {
     SurfaceNumbers numbers;
     const SurfaceKind kind = command_.scene.molecule.surface.kind;
-    const bool by_atom = !note || command_.json || command_.context || atoms_.is_wanted() || residues_.is_wanted();
-    std::vector<AreaColumn> columns =
-        by_atom ? area_columns(molecule.structure, molecule.objects, kind) : area_totals(molecule.objects, kind);
+    std::vector<AreaColumn> columns;
+    if (command_.context || atoms_.is_wanted() || residues_.is_wanted())
+      columns = area_columns(molecule.structure, molecule.objects, kind);
+    else if (note && !command_.json)
+      columns = area_totals(molecule.objects, kind);
+    else
+      columns = area_sums(molecule.structure, molecule.objects, kind, group_atoms(molecule.structure, Grouping::chain));
     std::optional<ContextNote> context;
     if (command_.context) {
       ContextAreas areas = context_areas(command_.scene.molecule, together, molecule, columns, builder.computer());
@@ -339,9 +343,10 @@ void add_surface(CLI::App& command) {
     SurfaceCommand& requested = declared->state;
     MoleculeRequest& molecule = requested.scene.molecule;
     molecule.reading.companions = Companions::hidden;  // --patches 'within 5 of ligand' sees them
-    molecule.surface.drawn = division.components || division.cavities != Cavities::keep || requested.open_sky;
+    const bool drawn = division.components || division.cavities != Cavities::keep || requested.open_sky;
+    molecule.surface.planes = drawn ? ClipPlanes::listed : ClipPlanes::left_out;
     molecule.surface.bordered =
-        molecule.surface.drawn || molecule.patches || !requested.cavity_csv.empty() || !requested.gradient_csv.empty();
+        drawn || molecule.patches || !requested.cavity_csv.empty() || !requested.gradient_csv.empty();
     requested.summary_csv.empty() ? print_surface(requested) : print_summary(requested);
   });
 }

@@ -42,7 +42,7 @@ constexpr Command kCommands[] = {
     {"colors", "List colour schemes and colour maps with their sources", add_colors},
     {"bench", "Time the stages of the surface computation for several files", add_bench},
     {"completion", "Print a script for bash, zsh or fish that completes commands and options", add_completion},
-    {"help", "Show a page of help: a topic or a command", add_help},
+    {"help", "Show a page of help, or search all of it", add_help},
 };
 
 }  // namespace

@@ -30,6 +30,13 @@ bool are_numbers(const nlohmann::json& a, const nlohmann::json& b, const char* k
   return a.contains(key) && b.contains(key) && a[key].is_number() && b[key].is_number();
 }
 
+/// Returns the text under a key; empty if there is none.
+std::string text_under(const char* key, const nlohmann::json& command) {
+  if (!command.is_object()) return "";
+  const auto found = command.find(key);
+  return found != command.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
 void check_written(const std::ofstream& stream, const std::string& path) {
   if (!stream) throw OutputError(path, std::string("cannot be written: ") + std::strerror(errno));
 }
@@ -40,11 +47,7 @@ std::string json_line(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::string command_word(const nlohmann::json& command) {
-  if (!command.is_object()) return "";
-  const auto found = command.find("command");
-  return found != command.end() && found->is_string() ? found->get<std::string>() : "";
-}
+std::string command_word(const nlohmann::json& command) { return text_under("command", command); }
 
 bool is_question(const nlohmann::json& command) {
   const std::string word = command_word(command);
@@ -53,12 +56,15 @@ bool is_question(const nlohmann::json& command) {
          word == "export_state" || word == "films";
 }
 
+bool changes_surface(std::string_view key) { return key == "surface.kind" || key == "surface.probe"; }
+
 Change change_of(const nlohmann::json& command) {
   const std::string word = command_word(command);
   if (is_question(command) || word == "export" || word == "cancel_export" || word == "save" || word == "end_step")
     return Change::none;
   constexpr std::string_view kSurfaces[] = {"surface", "probe", "frame", "next_frame", "strip",
                                             "undo",    "redo",  "open",  "quit"};
+  if (word == "set" && changes_surface(text_under("key", command))) return Change::surface;
   return std::ranges::find(kSurfaces, word) != std::end(kSurfaces) ? Change::surface : Change::view;
 }
 

@@ -29,6 +29,9 @@ std::string command_word(const nlohmann::json& command);
 /// not wait? Any client may send it, and it is not recorded.
 bool is_question(const nlohmann::json& command);
 
+/// True if another value of this property makes another surface.
+bool changes_surface(std::string_view key);
+
 /// What a command will change, from the least to the most.
 enum class Change {
   none,    ///< it asks, or exports

@@ -60,7 +60,7 @@ std::vector<Command> all_commands() {
       {"play", {"fps", "strip"}, Effect::none, play},
       {"pause", {"fps"}, Effect::none, pause},
       {"resize", {"width", "height"}, Effect::picture, resize},
-      {"samples", {"count"}, Effect::picture, set_samples},
+      {"samples", {"count"}, Effect::slide, set_samples},
       {"press", {"key"}, Effect::none, press, false},  // what it means is recorded
       {"pick", {"x", "y", "wait", "area"}, Effect::none, pick},
       {"export",

@@ -36,6 +36,7 @@ struct Outcome {
   bool frames_all = false;          ///< where all is in view, it comes into view again
   bool is_saved = false;            ///< a file has this figure
   bool is_own_step = false;         ///< for undo, whatever the command before it was
+  std::string step{};               ///< steps of this kind that follow each other are one; empty: as the command says
   bool passes_over_damage = false;  ///< if its frame cannot be read, the command is carried out again from there
 };
 
@@ -68,7 +69,7 @@ struct Command {
   bool is_step() const { return effect == Effect::edit || effect == Effect::slide || effect == Effect::motion; }
   bool makes_picture() const { return effect != Effect::none && effect != Effect::ends_step; }
   /// True if the next picture of a film that plays would undo what the command does.
-  bool pauses_film() const { return makes_picture() && word != "next_frame" && word != "resize" && word != "samples"; }
+  bool pauses_film() const { return makes_picture() && word != "next_frame" && word != "resize"; }
   /// Steps of one kind that follow each other are one; empty: this is a step by itself.
   std::string_view kind_of_step() const {
     if (effect == Effect::edit) return {};
@@ -85,15 +86,34 @@ std::string said_by(const std::string& word, const std::string& error);
 /// The pixel of the picture at rest that "x" and "y" name.
 glm::ivec2 pixel_of(const CommandReader& command, const PreviewState& state);
 
+/// Returns the values of all properties that the preview changes, by their keys, for the state.
+nlohmann::json property_values(const Surroundings& around);
+/// Returns what pages need for controls of these properties: names, limits, words and help.
+nlohmann::json property_choices();
+
+/// Returns the state with the look of a preset. The figure of the beginning takes the place of what the look before it
+/// drew, or of what this one draws.
+Outcome with_preset(PreviewState state, LookPreset preset, const Surroundings& around);
+
+/// Returns a scheme whose word and rules were chosen, with the numbers, the scale and the title that it has in this
+/// preview. keeps_scale: map, range and colour of missing numbers are those of before; else those that the preview
+/// began with, if it began with this scheme. Throws RequestError for a scheme that previews do not show, and for rules
+/// beside kinds of patch.
+ColorScheme previewed_scheme(ColorScheme chosen, const ColorScheme& before, const ColorScheme& first, bool keeps_scale);
+
+/// Throws RequestError if a legend that is shown has nothing to explain.
+void require_legend_entries(bool is_shown, const ColorScheme& color);
+
 /// What the command "state" answers.
 Service get_state;
 
 // What the rows name, by file.
 Reducer orbit, pan, zoom, roll, zoom_to, center, reset_view, set_camera, set_projection, save_view, recall_view,
-    forget_view;                                                                           // camera_commands.cpp
-Reducer show_frame, next_frame, set_key, follow_keys, play, pause, resize, set_samples;    // camera_commands.cpp
-Reducer set_surface, set_probe, show, hide, represent, put_object, set_property, set_cut,  // figure_commands.cpp
-    remove_entry, set_patches;
+    forget_view;                                                                         // camera_commands.cpp
+Reducer show_frame, next_frame, set_key, follow_keys, play, pause, resize, set_samples;  // camera_commands.cpp
+Reducer set_surface, set_probe, show, hide, represent, put_object, set_cut, remove_entry,
+    set_patches;                                                                           // figure_commands.cpp
+Reducer set_property;                                                                      // property_commands.cpp
 Reducer set_color, paint, set_patch_kinds, set_opacity, set_look, set_preset, set_legend;  // look_commands.cpp
 /// The next picture of a strip that plays; at its end playing ends.
 Outcome next_of_strip(PreviewState state, const Surroundings& around);

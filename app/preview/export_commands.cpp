@@ -180,6 +180,7 @@ std::string strip_text(const CommandReader& command, const Surroundings& around,
   for (const KeptScene& kept : around.state.strip) {
     PreviewState state = around.state;
     static_cast<PreviewFigure&>(state) = kept.figure;
+    state.export_options.size = around.state.export_options.size;
     state.frame = kept.frame;
     const Surroundings then{state, around.first, around.history, around.molecule, around.pictures, around.exporter};
     Scene scene = shown_scene(command, then);
@@ -275,10 +276,12 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   Annotations annotations;
   if (exporter.context.annotations)
     annotations = exporter.context.annotations(molecule.annotated_structure(), molecule.extras().get());
-  auto view = std::make_shared<const ExportedView>(ExportedView{
-      molecule.structure(), molecule.atoms(), molecule.balls(), molecule.coloring(state), molecule.key(state), state,
-      molecule.extras(), std::move(annotations), options.size, options.samples, options.transparent,
-      format == Format::png ? scene_of(command, around) : "", state.export_options.dots_per_inch});
+  Coloring coloring = molecule.coloring(state);
+  coloring.in_patch = molecule.patch_marks(state);
+  auto view = std::make_shared<const ExportedView>(
+      ExportedView{molecule.structure(), molecule.atoms(), molecule.balls(), std::move(coloring), molecule.key(state),
+                   state, molecule.extras(), std::move(annotations), options.size, options.samples, options.transparent,
+                   format == Format::png ? scene_of(command, around) : "", state.export_options.dots_per_inch});
   const auto write = [view, target, format, archives = command.flag_or(false, "archive"),
                       make_device](const ExportWatch& watch) {
     return written(*view, format, archives, make_device, target, watch);

@@ -56,16 +56,6 @@ bool same_shape(const FigureObjectRequest& a, const FigureObjectRequest& b) {
          a.probe_radius == b.probe_radius;
 }
 
-/// A property of the figure, by its name in scenes, and what is made again when the command "set" changes it.
-struct SettableProperty {
-  std::string_view name;
-  Renewal renewal;
-};
-constexpr SettableProperty kSettable[] = {
-    {"hide_surface", Renewal::cuts}, {"film_opacity", Renewal::cuts},   {"cap_color", Renewal::cuts},
-    {"cap_hatching", Renewal::cuts}, {"stick_radius", Renewal::colors}, {"tube_radius", Renewal::colors},
-};
-
 Outcome with_part(const CommandReader& command, PreviewState& state, const Surroundings& around) {
   const std::size_t atoms = command.naming([&] { return around.molecule.count_shown(state); });
   return {std::move(state), Renewal::colors, {{"atoms", atoms}}};
@@ -145,32 +135,6 @@ Outcome put_object(const CommandReader& command, PreviewState state, const Surro
   Outcome next = with_shapes(state, {{"index", index}});
   next.is_own_step = true;  // what its sliders do is another
   return next;
-}
-
-Outcome set_property(const CommandReader& command, PreviewState state, const Surroundings&) {
-  const std::string name = command.text("key");
-  const auto row = std::ranges::find(kSettable, name, &SettableProperty::name);
-  if (row == std::end(kSettable)) {
-    std::vector<std::string_view> names;
-    for (const SettableProperty& settable : kSettable) names.push_back(settable.name);
-    throw RequestError(
-        fmt::format("set: \"key\" is {}; it must be one of {}", in_quotes(name), fmt::join(names, ", ")));
-  }
-  const Property& property = scene_property(name);
-  const bool is_switch = property.type == ValueType::flag;
-  if (is_switch) command.flag("value");  // set_value() would take other words for true
-  const nlohmann::json& value = command.value("value");
-  const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-  Scene scene;
-  scene.figure = std::move(state.figure);
-  try {
-    set_value(scene, property, {&text, 1});
-  } catch (const ValueError& error) {
-    throw RequestError(fmt::format("set: {}: {}", name, error.what()));
-  }
-  state.figure = std::move(scene.figure);
-  // A switch is a step by itself; the places of a slider that follow each other are one.
-  return {.state = std::move(state), .renewal = row->renewal, .is_own_step = is_switch};
 }
 
 Outcome set_cut(const CommandReader& command, PreviewState state, const Surroundings& around) {

@@ -74,13 +74,9 @@ const NumberFile& numbers_at_first(const ColorScheme& first) {
   return first.by == ColorScheme::By::rmsf ? kNone : first.file;
 }
 
-/// Rules and opacities of before stay unless the command has others; what a file said stays for its scheme.
-ColorScheme scheme_of(const CommandReader& command, const ColorScheme& before, const ColorScheme& first) {
-  const std::string word = command.text("scheme");
-  const std::optional<ColorScheme> scheme = parse_color_scheme(word);
-  if (!scheme) throw RequestError("color: " + in_quotes(word) + " is not one of " + color_scheme_words());
-  ColorScheme color = *scheme;
-  color.rules = command.has("rules") ? rules_of(command) : before.rules;
+}  // namespace
+
+ColorScheme previewed_scheme(ColorScheme color, const ColorScheme& before, const ColorScheme& first, bool keeps_scale) {
   if (color.uses_file() && numbers_at_first(first).empty())
     throw RequestError("color: \"file\" needs numbers; begin the preview with --color-by-file FILE");
   color.set_numbers(numbers_at_first(first));
@@ -89,23 +85,26 @@ ColorScheme scheme_of(const CommandReader& command, const ColorScheme& before, c
   if (color.by == ColorScheme::By::kind && !color.rules.empty())
     throw RequestError("color: \"kind\" colours patches, rules colour atoms; send \"rules\": [] with it");
   color.opacities = before.opacities;
-  if (color.uses_scale()) color.own_map = first.own_map;
-  color.title = first.title;
-  color.unit = first.unit;
-  if (color.by == first.by && color.has_scale()) {  // as it was begun with
-    color.map = first.map;
-    color.range = first.range;
-    color.missing = first.missing;
-  }
-  read_scale(command, color);
+  color.title = before.title;
+  color.unit = before.unit;
+  const ColorScheme none, &beginning = color.by == first.by && color.has_scale() ? first : none;
+  const ColorScheme& scale = keeps_scale ? before : beginning;
+  color.map = scale.map;
+  color.range = scale.range;
+  color.missing = scale.missing;
+  color.own_map = color.uses_scale() ? (keeps_scale ? before : first).own_map : nullptr;
   color.share_scale();
   return color;
 }
 
-}  // namespace
-
 Outcome set_color(const CommandReader& command, PreviewState state, const Surroundings& around) {
-  state.color = scheme_of(command, state.color, around.first.color);
+  const std::string word = command.text("scheme");
+  std::optional<ColorScheme> scheme = parse_color_scheme(word);
+  if (!scheme) throw RequestError("color: " + in_quotes(word) + " is not one of " + color_scheme_words());
+  scheme->rules = command.has("rules") ? rules_of(command) : state.color.rules;
+  state.color = previewed_scheme(*std::move(scheme), state.color, around.first.color, false);
+  read_scale(command, state.color);
+  state.color.share_scale();
   return {std::move(state), Renewal::colors};
 }
 
@@ -165,8 +164,13 @@ Outcome set_look(const CommandReader& command, PreviewState state, const Surroun
 }
 
 Outcome set_preset(const CommandReader& command, PreviewState state, const Surroundings& around) {
+  const auto preset = static_cast<LookPreset>(command.choice("preset", property_of("look.preset")));
+  return with_preset(std::move(state), preset, around);
+}
+
+Outcome with_preset(PreviewState state, LookPreset preset, const Surroundings& around) {
   const Preset& before = preset_of(state.preset);
-  state.preset = static_cast<LookPreset>(command.choice("preset", property_of("look.preset")));
+  state.preset = preset;
   state.look = {};
   state.look.preset = state.preset;
   if (before.settings.empty() && preset_of(state.preset).settings.empty()) return {std::move(state), Renewal::legend};
@@ -188,6 +192,11 @@ Outcome set_preset(const CommandReader& command, PreviewState state, const Surro
   return {std::move(state), Renewal::shapes, {}, true};
 }
 
+void require_legend_entries(bool is_shown, const ColorScheme& color) {
+  if (is_shown && color.by == ColorScheme::By::fixed && color.rules.empty())
+    throw RequestError("legend: there is nothing to explain: everything has one colour; choose another scheme first");
+}
+
 Outcome set_legend(const CommandReader& command, PreviewState state, const Surroundings&) {
   constexpr std::size_t kLongestTitle = 200;
   const auto is_usual = [&](const char* key) { return command.value(key).is_null(); };
@@ -203,9 +212,7 @@ Outcome set_legend(const CommandReader& command, PreviewState state, const Surro
   }
   if (command.has("place"))
     style.place = static_cast<LegendStyle::Place>(command.choice("place", property_of("legend.place")));
-  const ColorScheme color = state.shown_scheme();
-  if (state.legend && color.by == ColorScheme::By::fixed && color.rules.empty())
-    throw RequestError("legend: there is nothing to explain: everything has one colour; choose another scheme first");
+  require_legend_entries(state.legend, state.shown_scheme());
   return {.state = std::move(state), .renewal = Renewal::legend, .frames_all = true};
 }
 

@@ -95,7 +95,7 @@ nlohmann::json look_json(Look look) {
 nlohmann::json look_sliders() {
   nlohmann::json sliders = nlohmann::json::array();
   for (const Property* property : properties())
-    if (property->section() == "look" && !property->label.empty())
+    if (property->section() == "look" && property->slider_end > 0.0)
       sliders.push_back({{"key", property->name()},
                          {"label", property->label},
                          {"end", property->slider_end},

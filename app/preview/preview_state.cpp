@@ -137,6 +137,21 @@ Scene rendered_scene(const Scene& begun, const RenderedView& view) {
   return scene;
 }
 
+LookRequest look_request(LookRequest asked, Look look, bool outlines_patches) {
+  for (const LookNumber& number : look_numbers())
+    if (number.in) *number.requested(asked) = number.in(look);
+  asked.light_direction = look.light_direction;
+  asked.silhouettes = look.silhouettes;
+  asked.outer_lines = look.outer_lines;
+  asked.inner_lines = look.inner_lines;
+  asked.part_lines = look.part_lines;
+  if (outlines_patches) {
+    asked.patch_lines = look.patch_lines;
+    asked.patch_line_color = look.patch_line_color;
+  }
+  return asked;
+}
+
 PreviewFigure figure_of(const Scene& scene, const ColorScheme& color) {
   PreviewFigure figure;
   figure.camera.projection = scene.picture.projection;

@@ -26,6 +26,14 @@
 
 namespace meniscus {
 
+/// Of exported pictures, what a command does not say. Nothing: as it is shown.
+struct ExportOptions {
+  std::optional<glm::ivec2> size;  ///< pixels, with the legend
+  std::optional<int> samples;      ///< rays per pixel
+  bool transparent = false;        ///< without a background
+  double dots_per_inch = 0.0;      ///< of the printed picture; 0: not said
+};
+
 /// A figure, whatever its size. Commands change it, undo and redo replace it.
 struct PreviewFigure {
   Camera camera;
@@ -44,6 +52,8 @@ struct PreviewFigure {
   bool legend = false;
   LegendStyle legend_style;
   LetterStyle letters;
+  int samples = 4;  ///< rays per pixel of the full picture
+  ExportOptions export_options;
   std::uint64_t edition = 0;  ///< a number of its own for all that was changed, but for the camera
 
   /// What the colours are by, kinds of patch too.
@@ -73,14 +83,6 @@ struct KeptScene {
   std::uint64_t between(double rate) const;
 };
 
-/// Of exported pictures, what a command does not say. Nothing: as it is shown.
-struct ExportOptions {
-  std::optional<glm::ivec2> size;  ///< pixels, with the legend
-  std::optional<int> samples;      ///< rays per pixel
-  bool transparent = false;        ///< without a background
-  double dots_per_inch = 0.0;      ///< of the printed picture; 0: not said
-};
-
 /// Throws RequestError for a scheme whose numbers or parts come with surfaces that a preview does not make; so
 /// for those of its rules.
 void require_previewed(const ColorScheme& color);
@@ -95,7 +97,6 @@ struct PreviewState : PreviewFigure {
   bool playing = false;
   double frames_per_second = 10.0;            ///< while playing
   glm::ivec2 size{1024, 768};                 ///< of the full picture with its legend, in pixels
-  int samples = 4;                            ///< rays per pixel of the full picture
   bool copies_apart = false;                  ///< no probe may touch two copies of the structure (Structure::instances)
   std::map<std::string, Camera> named_views;  ///< kept by the user
   std::vector<KeptScene> strip;               ///< scenes kept for a film, in its order
@@ -104,9 +105,8 @@ struct PreviewState : PreviewFigure {
   std::uint64_t strip_shown = 0;              ///< how many pictures of a film that plays show the scene there
   double strip_rate = 25.0;                   ///< pictures per second of the strip while it plays
   bool plays_strip = false;                   ///< playing goes along the strip, not through the frames
-  ExportOptions export_options;
-  std::uint64_t revision = 1;  ///< grows with every change of what is seen
-  bool ended = false;          ///< a command asked to end
+  std::uint64_t revision = 1;                 ///< grows with every change of what is seen
+  bool ended = false;                         ///< a command asked to end
 
   /// Returns the pictures per second of what plays.
   double rate() const { return plays_strip ? strip_rate : frames_per_second; }
@@ -154,6 +154,9 @@ struct RenderedView {
 
 /// begun: the scene that the preview began with, which says what it does not change: the molecule, its run.
 Scene rendered_scene(const Scene& begun, const RenderedView& view);
+
+/// Returns a request for a look with these numbers. asked: has what is no number of a look.
+LookRequest look_request(LookRequest asked, Look look, bool outlines_patches);
 
 /// What commands change, as a scene has it; no camera. color: with the numbers of its file.
 PreviewFigure figure_of(const Scene& scene, const ColorScheme& color);

@@ -169,6 +169,7 @@ Json get_state(const CommandReader&, const Surroundings& around) {
   for (const KeptScene& kept : state.strip)
     reply["strip"]["kept"].push_back(
         {{"number", kept.number}, {"frame", kept.frame}, {"hold", kept.hold}, {"transition", kept.transition}});
+  reply["values"] = property_values(around);
   add_figure(state, reply);
   if (!molecule.legend_fault().empty()) reply["legend"]["fault"] = molecule.legend_fault();
   for (const auto& [name, camera] : state.named_views) reply["views"].push_back(escaped(name));
@@ -211,6 +212,7 @@ Json get_choices(const CommandReader&, const Surroundings& around) {
           {"actions", actions},
           {"presets", words_of(property_of("look.preset"))},
           {"sliders", look_sliders()},
+          {"properties", property_choices()},
           {"representations", {"sticks", "balls", "spheres", "tube", "bases", "glycans"}}};
 }
 

@@ -40,7 +40,10 @@ PreviewSession::PreviewSession(std::unique_ptr<PreviewRenderer> renderer, Struct
 
 Json PreviewSession::apply(const Json& command) {
   const auto failed = [&](const std::string& error) {
-    return Json{{"ok", false}, {"error", escaped(said_by(command_word(command), error))}};
+    const std::string word = command_word(command);
+    std::string said = said_by(word, error);
+    if (word == "set" && !said.starts_with("set: ")) said = "set: " + command["key"].get<std::string>() + ": " + said;
+    return Json{{"ok", false}, {"error", escaped(said)}};
   };
   try {
     return carry_out(command);
@@ -103,7 +106,8 @@ void PreviewSession::note(const Command& command, Outcome& next) {
   using Effect = Command::Effect;
   if (command.is_step() && next.renewal != Renewal::nothing) next.state.edition = ++last_edition_;
   if (next.is_saved) exporter_.saved = next.state.edition;
-  if (command.is_step()) history_.note(next.is_own_step ? std::string_view() : command.kind_of_step(), state_);
+  const std::string_view step = next.step.empty() ? command.kind_of_step() : next.step;
+  if (command.is_step()) history_.note(next.is_own_step ? std::string_view() : step, state_);
   if (command.effect == Effect::back) history_.go_back(state_);
   if (command.effect == Effect::forward) history_.go_forward(state_);
   if (command.effect == Effect::ends_step) history_.end_step();

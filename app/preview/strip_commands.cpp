@@ -17,22 +17,6 @@ namespace {
 constexpr std::size_t kMostScenes = 50;
 constexpr double kLongest = 3600.0;  // seconds of a scene, as `meniscus film` has it
 
-/// What must be asked for to have the numbers of this look.
-LookRequest request_for(LookRequest asked, Look look, bool outlines_patches) {
-  for (const LookNumber& number : look_numbers())
-    if (number.in) *number.requested(asked) = number.in(look);
-  asked.light_direction = look.light_direction;
-  asked.silhouettes = look.silhouettes;
-  asked.outer_lines = look.outer_lines;
-  asked.inner_lines = look.inner_lines;
-  asked.part_lines = look.part_lines;
-  if (outlines_patches) {
-    asked.patch_lines = look.patch_lines;
-    asked.patch_line_color = look.patch_line_color;
-  }
-  return asked;
-}
-
 /// Numbers change steadily; all else is that of the nearer scene.
 PreviewFigure figure_between(const PreviewFigure& from, const PreviewFigure& to, double share,
                              const Surroundings& around) {
@@ -59,7 +43,7 @@ PreviewFigure figure_between(const PreviewFigure& from, const PreviewFigure& to,
     return look_of(of.look, around.state.size, of.background, of.hues(), of.patches.has_value());
   };
   const Look between = look_between(look(nearer), look(other), way);
-  figure.look = request_for(nearer.look, between, nearer.patches.has_value());
+  figure.look = look_request(nearer.look, between, nearer.patches.has_value());
   figure.background = between.background;
   return figure;
 }

@@ -131,22 +131,25 @@ Json component_list(const std::vector<SurfaceObject>& objects) {
   return list;
 }
 
-void add_columns(Json& row, const std::vector<AreaColumn>& columns, const AtomGroup& group) {
-  for (const AreaColumn& column : columns) row[column.name] = column.total_of(group);
+/// Returns the area of a chain, the n-th in order, Å².
+double area_of(const AreaColumn& column, const AtomGroup& chain, std::size_t n) {
+  return column.sums.empty() ? column.total_of(chain) : column.sums[n];
 }
 
 /// Returns the list of chains, always, and of objects, if there are several, with the numbers of their own surfaces.
 Json group_list(const SurfaceReport& report) {
   Json list = Json::array();
   const Structure& structure = report.molecule.structure;
-  for (const AtomGroup& group : group_atoms(structure, Grouping::chain)) {
+  const std::vector<AtomGroup> chains = group_atoms(structure, Grouping::chain);
+  for (std::size_t n = 0; n < chains.size(); ++n) {
+    const AtomGroup& group = chains[n];
     const Atom& first = structure.atoms[group.atoms.front()];
     list.push_back({{"by", "chain"},
                     {"name", group.name},
                     {"model", first.model},
                     {"chain", first.chain},
                     {"atoms", group.atoms.size()}});
-    add_columns(list.back(), report.columns, group);
+    for (const AreaColumn& column : report.columns) list.back()[column.name] = area_of(column, group, n);
   }
   const auto& objects = report.molecule.objects;
   for (std::size_t n = 0; n < objects.size() && objects.size() > 1; ++n) {
@@ -158,8 +161,8 @@ Json group_list(const SurfaceReport& report) {
                     {"copies", object.copies.size()},
                     {"area", object.surface.area},
                     {"volume", object.surface.volume}});
-    const auto columns = area_columns(structure, {object}, report.options.surface.kind);
-    for (const AreaColumn& column : columns) list.back()[column.name] = column.total;
+    for (const AreaColumn& column : area_totals({object}, report.options.surface.kind))
+      list.back()[column.name] = column.total;
   }
   return list;
 }
@@ -206,21 +209,28 @@ std::string component_table(const Surface& surface) {
 
 /// Returns a row of areas for each chain, and their totals if the lines above do not have them all.
 std::string chain_table(const SurfaceReport& report) {
-  std::vector<AtomGroup> rows = group_atoms(report.molecule.structure, Grouping::chain);
-  if (rows.size() == 1 && !report.context) return {};
-  AtomGroup all{"all", {}};
-  for (const AtomGroup& chain : rows) all.atoms.insert(all.atoms.end(), chain.atoms.begin(), chain.atoms.end());
-  if (rows.size() > 1) rows.push_back(std::move(all));
+  const std::vector<AtomGroup> chains = group_atoms(report.molecule.structure, Grouping::chain);
+  if (chains.size() == 1 && !report.context) return {};
   std::string text = fmt::format("\n{:>9}", "atoms");
   const auto width = [](const AreaColumn& column) { return std::max<std::size_t>(column.name.size(), 11) + 1; };
   for (const AreaColumn& column : report.columns) text += fmt::format(" {:>{}}", column.name, width(column));
   text += "\n";
-  for (const AtomGroup& row : rows) {
-    text += fmt::format("{:>9}", with_thousands(row.atoms.size()));
-    for (const AreaColumn& column : report.columns)
-      text += fmt::format(" {:>{}.3f}", column.total_of(row), width(column));
-    text += "  " + escaped(row.name) + "\n";
+  std::size_t atoms = 0;
+  std::vector<double> sums(report.columns.size(), 0.0);
+  const auto add_row = [&](std::size_t count, const std::vector<double>& areas, const std::string& name) {
+    text += fmt::format("{:>9}", with_thousands(count));
+    for (std::size_t c = 0; c < areas.size(); ++c)
+      text += fmt::format(" {:>{}.3f}", areas[c], width(report.columns[c]));
+    text += "  " + name + "\n";
+  };
+  for (std::size_t n = 0; n < chains.size(); ++n) {
+    std::vector<double> areas;
+    for (const AreaColumn& column : report.columns) areas.push_back(area_of(column, chains[n], n));
+    for (std::size_t c = 0; c < areas.size(); ++c) sums[c] += areas[c];
+    atoms += chains[n].atoms.size();
+    add_row(chains[n].atoms.size(), areas, escaped(chains[n].name));
   }
+  if (chains.size() > 1) add_row(atoms, sums, "all");
   return text;
 }
 

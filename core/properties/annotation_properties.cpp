@@ -12,6 +12,7 @@ constexpr std::string_view kLegend = "Legend", kLabels = "Labels";
 
 constexpr auto kTable = std::to_array<Property>({
     flag("legend.shown", "--legend", "Show a legend of the colours, at the right or, in tall pictures, below")
+        .with<&Property::label>("Legend")
         .in(kLegend, kShared | live | in_short_help),
     new_file("legend.file", "--legend-file", "FILE", "Write the legend as a separate picture").in(kLegend, in_scene),
     text("legend.title", "--legend-title", "TEXT", "Title of the legend; '' for none")
@@ -23,7 +24,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kLegend, kShared | live),
     text("legend.names", "--legend-name", "ENTRY=TEXT",
          "Write TEXT instead of an entry of the legend, as in 'A=Alpha' for chain A. Repeatable")
-        .in(kLegend, kShared | repeatable),
+        .in(kLegend, kShared | live | repeatable),
     word("legend.place", "--legend-place", "WORD", "Place of the legend: auto, right or below")
         .one_of("auto|right|below")
         .initially("auto")
@@ -43,10 +44,10 @@ constexpr auto kTable = std::to_array<Property>({
          "Height of all letters that have no size of their own: pixels, 8pt or 3mm")
         .from(6, 1000)
         .initially("by the size of the picture")
-        .in(kLabels, kShared | in_short_help),
+        .in(kLabels, kShared | live | in_short_help),
     text("annotations.font", "--font", "NAME", "Font of all letters: an installed family, such as DejaVu Sans")
         .initially("Liberation Sans, else DejaVu Sans")
-        .in(kLabels, kShared),
+        .in(kLabels, kShared | live),
     file("annotations.font_file", "--font-file", "FILE", "Font of all letters: a .ttf or .otf file")
         .in(kLabels, kShared)
         .excludes("annotations.font"),
@@ -70,7 +71,7 @@ constexpr auto kTable = std::to_array<Property>({
          "if it is transparent")
         .proposes("auto|white|black")
         .initially("auto")
-        .in(kLabels, kShared),
+        .in(kLabels, kShared | live),
     text("annotations.labels", "--label", "EXPR=TEXT",
          "Write TEXT at these atoms, with a line to their centre. Repeatable")
         .in(kLabels, kShared | repeatable | in_short_help),

@@ -15,7 +15,7 @@ constexpr auto kTable = std::to_array<Property>({
            "Camera as JSON, or as PyMOL or ChimeraX print it. A file, or the text itself: JSON, get_view or view "
            "matrix")
         .initially("shows everything")
-        .in(kCamera, kShared | live | in_short_help),
+        .in(kCamera, kShared | in_short_help),
     word("camera.projection", "--projection", "WORD", "Projection of the camera: perspective or orthographic")
         .one_of("perspective|orthographic")
         .initially("perspective")
@@ -27,15 +27,15 @@ constexpr auto kTable = std::to_array<Property>({
          "symmetry-side: with that axis upright; open: from where the atoms of @zoom-to@ are hidden least; "
          "channel: along a channel through them. A minus sign before it shows the opposite side")
         .initially("front")
-        .in(kCamera, kShared | live | in_short_help)
+        .in(kCamera, kShared | in_short_help)
         .excludes("camera.from"),
     text("camera.turn", "--turn", "AXISANGLE",
          "Turn the molecule about an axis by degrees: y90, x-30, z45. x points right, y up, z to the viewer. "
          "Repeatable, applied in this order")
-        .in(kCamera, kShared | live | repeatable | in_short_help),
+        .in(kCamera, kShared | repeatable | in_short_help),
     text("camera.zoom_to", "--zoom-to", "EXPR", "Fill the picture with these atoms")
         .initially("all that @show@ leaves")
-        .in(kCamera, kShared | live | in_short_help),
+        .in(kCamera, kShared | in_short_help),
     text("camera.look_into", "--look-into", "EXPR",
          "Look at these atoms from the open side, with the surface cut before them. Of several places the first is "
          "shown. Short for @zoom-to 'first EXPR'@ @view open@ @clip 'before first EXPR'@")
@@ -60,10 +60,10 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("1280x960; film 1920x1080, .gif 960x540")
         .in(kPicture, kShared | live | in_short_help),
     text("image.width", "--width", "LENGTH", "Width of the picture: 85mm, 8.5cm, 3.5in or 1000px")
-        .in(kPicture, kShared | live | in_short_help)
+        .in(kPicture, kShared | in_short_help)
         .excludes("image.size"),
     text("image.height", "--height", "LENGTH", "Height of the picture in the same units; auto: that of the molecule")
-        .in(kPicture, kShared | live)
+        .in(kPicture, kShared)
         .excludes("image.size"),
     text("image.margin", "--margin", "LENGTH", "Margin around the molecule of @size auto@ and @height auto@")
         .from(0, 10000)
@@ -72,10 +72,12 @@ constexpr auto kTable = std::to_array<Property>({
     number("image.dpi", "--dpi", "N", "Resolution of the picture in dots per inch")
         .from(1, 1e5)
         .initially("300 for lengths")
+        .with<&Property::label>("Dots per inch")
         .in(kPicture, kShared | live),
     count("image.samples", "--samples", "N", "Rays per pixel, for smooth edges")
         .from(1, 1024)
         .initially("9")
+        .with<&Property::label>("Rays per pixel")
         .in(kPicture, kShared | live | in_short_help),
     text("image.background", "--background", "COLOR", "Background: transparent, or a colour (white, #rrggbb)")
         .proposes("transparent|white|black")

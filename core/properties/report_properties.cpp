@@ -56,22 +56,21 @@ constexpr auto kTable = std::to_array<Property>({
     text("preview.serve", "--serve", "[PORT]",
          "Serve the page on this port of 127.0.0.1, and open no browser. PORT: by default any free one; ADDRESS:PORT "
          "listens at another address of this machine, as the port of a container needs")
-        .in(kSession, live | value_optional | in_short_help),
+        .in(kSession, value_optional | in_short_help),
     flag("preview.no_open", "--no-open", "Print the address of the page, and open no browser")
-        .in(kSession, live | in_short_help),
+        .in(kSession, in_short_help),
     text("preview.trusted_hosts", "--trust-host", "HOST",
          "Serve the page under the name of a proxy, too, such as localhost:8888 of JupyterLab. Others are refused")
-        .in(kSession, live | repeatable),
+        .in(kSession, repeatable),
     file("preview.token_file", "--token-file", "FILE",
          "Take the token of the page's address from this file. The address then stays; the token has 16 to 128 letters "
          "and digits. Without this option the variable MENISCUS_TOKEN is read")
         .initially("a random one")
-        .in(kSession, live),
+        .in(kSession),
     file("preview.commands", "--commands", "FILE", "Run commands from this file first, one JSON object per line")
-        .in(kSession, live),
-    new_file("preview.record", "--record", "FILE", "Record all commands in this file, for @commands@")
-        .in(kSession, live),
-    new_file("preview.output_folder", "--output-dir", "FOLDER", "Folder for exports").initially(".").in(kSession, live),
+        .in(kSession),
+    new_file("preview.record", "--record", "FILE", "Record all commands in this file, for @commands@").in(kSession),
+    new_file("preview.output_folder", "--output-dir", "FOLDER", "Folder for exports").initially(".").in(kSession),
 
     file("panels.scenes", "PANEL", "", "Pictures of meniscus render, which carry their scenes, or scene files")
         .in(kPanels),

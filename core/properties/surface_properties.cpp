@@ -14,6 +14,7 @@ constexpr std::string_view kSurface = "Surface", kColour = "Colour", kFigure = "
 
 constexpr auto kTable = std::to_array<Property>({
     flag("surface.shown", "--hide-surface", "Hide the surface; show only what is beside it")
+        .with<&Property::label>("Surface")
         .in(kFigure, kSeen | live | negated),
     text("surface.interface", "--interface", "A:B",
          "Open the contact of two groups like a book: A:B, A,C:B or EXPR:EXPR. Both sides face the viewer and are "
@@ -38,6 +39,7 @@ constexpr auto kTable = std::to_array<Property>({
     number("surface.min_patch", "--min-patch", "Å²", "Smallest area of a patch that is listed or outlined")
         .from(0, 1e9)
         .initially("10")
+        .with<&Property::label>("Smallest patch")
         .in(kSurface, kShared | live),
     text("surface.by", "--by", "WORD",
          "Split into objects: by chain, model, class, residue or component. chain, model, class (polymer, ligand, "
@@ -78,9 +80,9 @@ constexpr auto kTable = std::to_array<Property>({
          "number; or a table with a header, such as @csv-residues@ of meniscus surface writes, or resid,score for "
          "one chain. Commas, semicolons, tabs or blanks; nan, ? and - mean missing. Grades from 1 to 9: @color "
          "conservation@")
-        .in(kColour, kSeen | live | in_short_help),
+        .in(kColour, kSeen | in_short_help),
     text("surface.color_column", "--color-column", "NAME", "Column of the table of @color-by-file@")
-        .in(kColour, kSeen | live)
+        .in(kColour, kSeen)
         .needs("surface.color_by_file"),
     file("surface.color_map_file", "--color-map-file", "FILE",
          "Colour by a volume map, such as a potential from APBS. Formats: OpenDX (.dx), Gaussian cube, CCP4/MRC. "
@@ -98,10 +100,11 @@ constexpr auto kTable = std::to_array<Property>({
          "(default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), rainbow, "
          "categorical (each number has its own colour). blue-white-red is the default for hydrophobicity")
         .initially("viridis")
+        .with<&Property::label>("Colour map")
         .in(kColour, kSeen | live | of_objects | in_short_help),
     file("surface.map_file", "--map-file", "FILE",
          "File of a colour map: one colour per line, or a position and a colour. A JSON list of them is read, too")
-        .in(kColour, kSeen | live),
+        .in(kColour, kSeen),
     text("surface.color_range", "--color-range", "LO:HI",
          "Numbers at the ends of the colour map, or auto. auto: the smallest and the largest; for charge symmetric "
          "about 0, for hydrophobicity -4.5:4.5")
@@ -112,8 +115,11 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("#808080; cividis #cc79a7; consurf #ffff96")
         .in(kColour, kSeen | live | of_objects),
     text("surface.color_title", "--color-title", "TEXT", "Title of the colour scale in the legend")
-        .in(kColour, kShared),
-    text("surface.color_unit", "--color-unit", "TEXT", "Unit of the colour scale, such as kT/e").in(kColour, kShared),
+        .with<&Property::label>("Title of the scale")
+        .in(kColour, kShared | live),
+    text("surface.color_unit", "--color-unit", "TEXT", "Unit of the colour scale, such as kT/e")
+        .with<&Property::label>("Unit of the scale")
+        .in(kColour, kShared | live),
     text("surface.opacity", "--opacity", "EXPR=N",
          "Opacity from 0 (hidden) to 1: a number, or EXPR=0.4 for some atoms. Repeatable; the last one counts")
         .in(kFigure, kSeen | live | repeatable | of_objects | in_short_help),
@@ -124,9 +130,10 @@ constexpr auto kTable = std::to_array<Property>({
          "Cut by a plane with exact caps: x<20, 1,1,0>35 or depth>0.5. The part where this holds is kept. depth "
          "runs along the line of sight from 0 (nearest) to 1 (farthest). 'through EXPR' goes through the middle of "
          "these atoms, 'before EXPR' is as deep as it must be for them to be seen. Repeatable; all apply")
+        .with<&Property::label>("Cuts")
         .in(kFigure, kSeen | live | repeatable | of_surfaces | in_short_help),
     flag("surface.clip_all", "--clip-all", "Cut sticks, balls, tubes and all else beside the surface by @clip@, too")
-        .in(kFigure, kSeen),
+        .in(kFigure, kSeen | live),
     text("surface.cap_color", "--cap-color", "COLOR",
          "Colour of caps: atom (that of the nearest) or a colour (red, #rrggbb)")
         .initially("atom")
@@ -155,10 +162,10 @@ constexpr auto kTable = std::to_array<Property>({
     text("figure.hydrogen_bonds", "--hydrogen-bonds", "EXPR",
          "Draw hydrogen bonds of these atoms as dashed lines, with lengths. 'EXPR to EXPR': only those between two "
          "sets. Water counts where it is drawn or selected")
-        .in(kBeside, in_bundle | live | repeatable | in_short_help),
+        .in(kBeside, in_bundle | repeatable | in_short_help),
     text("figure.distance", "--distance", "EXPR to EXPR",
          "Draw the smallest distance of two sets of atoms as a dashed line")
-        .in(kBeside, in_bundle | live | repeatable | in_short_help),
+        .in(kBeside, in_bundle | repeatable | in_short_help),
     flag("shapes.bare", "--bare",
          "Draw no ligands and ions beside the surface of a polymer. Objects that are named stay")
         .in(kFigure, kSeen | live),

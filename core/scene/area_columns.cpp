@@ -2,6 +2,8 @@
 // Sums areas and gradients by the atoms of a file.
 #include "core/scene/area_columns.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 
@@ -22,6 +24,29 @@ std::vector<AreaColumn> area_totals(const std::vector<SurfaceObject>& objects, S
     const auto copies = static_cast<double>(object.copies.size());
     surface.total += copies * object.surface.area;
     if (kind == SurfaceKind::ses) accessible.total += copies * accessible_area(object.surface);
+  }
+  if (kind == SurfaceKind::ses) return {surface, accessible};
+  return {surface};
+}
+
+std::vector<AreaColumn> area_sums(const Structure& structure, const std::vector<SurfaceObject>& objects,
+                                  SurfaceKind kind, std::span<const AtomGroup> groups) {
+  const std::vector<double> none(groups.size(), 0.0);
+  AreaColumn surface{std::string(kind_word(kind)) + "_area", {}, 0.0, none}, accessible{"sas_area", {}, 0.0, none};
+  std::vector<std::uint32_t> group_of(structure.atoms.size(), 0);
+  for (std::uint32_t g = 0; g < groups.size(); ++g)
+    for (const std::uint32_t atom : groups[g].atoms) group_of[atom] = g;
+  for (const SurfaceObject& object : objects) {
+    std::vector<std::uint32_t> groups_here(object.atom.size());
+    std::ranges::transform(object.atom, groups_here.begin(), [&](std::uint32_t atom) { return group_of[atom]; });
+    const AtomAreas areas = group_areas(object.surface, groups_here, static_cast<std::uint32_t>(groups.size()));
+    const auto copies = static_cast<double>(object.copies.size());
+    surface.total += copies * object.surface.area;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      surface.sums[g] += areas.surface[g];
+      accessible.sums[g] += areas.accessible[g];
+      accessible.total += copies * areas.accessible[g];
+    }
   }
   if (kind == SurfaceKind::ses) return {surface, accessible};
   return {surface};

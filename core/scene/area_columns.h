@@ -2,6 +2,7 @@
 // Areas of atoms and their derivatives, as columns of tables.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ namespace meniscus {
 struct AreaColumn {
   std::string name;  ///< "ses_area", "sas_area" or "vdw_area"; a constant text
   std::vector<double> values;
-  double total = 0.0;  ///< Å², over all copies of all atoms
+  double total = 0.0;          ///< Å², over all copies of all atoms
+  std::vector<double> sums{};  ///< Å², over one copy of each group of area_sums(); empty in other columns
 
   /// Returns the sum over one copy of these atoms, Å².
   double total_of(const AtomGroup& group) const;
@@ -24,6 +26,11 @@ struct AreaColumn {
 
 /// Returns the columns of area_columns() with their totals but without values, which takes very little time.
 std::vector<AreaColumn> area_totals(const std::vector<SurfaceObject>& objects, SurfaceKind kind);
+
+/// Returns the columns of area_columns() with sums over groups of atoms instead of values, which takes less time. Each
+/// atom of the objects must be in one group.
+std::vector<AreaColumn> area_sums(const Structure& structure, const std::vector<SurfaceObject>& objects,
+                                  SurfaceKind kind, std::span<const AtomGroup> groups);
 
 /// Returns the columns "ses_area" and "sas_area" for a solvent-excluded surface, else the area of the computed surface.
 /// An atom in several objects has the sum over one copy of each object.

@@ -211,7 +211,7 @@ Molecule MoleculeBuilder::build(Structure structure) {
     object.coloring = color_object(molecule.structure, object.atom, molecule.color, n);
   }
   if (!hidden.empty()) hide(hidden, molecule.objects);
-  if (request_.patches && request_.surface.drawn) {
+  if (request_.patches && request_.surface.planes == ClipPlanes::listed) {
     const std::vector<bool> selected = patch_atoms(*request_.patches, molecule.structure);
     for (SurfaceObject& object : molecule.objects) {
       std::vector<bool> chosen;

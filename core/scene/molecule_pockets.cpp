@@ -15,7 +15,7 @@ namespace {
 SurfaceRequest with_probe(SurfaceRequest computing, double probe_radius) {
   computing.kind = SurfaceKind::ses;
   computing.probe_radius = probe_radius;
-  computing.drawn = true;  // because parts are cut out by planes
+  computing.planes = ClipPlanes::listed;  // because parts are cut out by planes
   return computing;
 }
 

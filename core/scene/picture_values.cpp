@@ -66,6 +66,11 @@ Written write_background(const Property&, const Scene& scene) {
   return {hex_color(*scene.image.background)};
 }
 
+void reset_background(const Property&, Scene& scene) {
+  scene.image.background.reset();
+  scene.film.transparent = false;
+}
+
 // The values of sizes and letters follow.
 
 void read_size(const Property&, Texts texts, Scene& scene) {
@@ -91,6 +96,12 @@ Written write_size(const Property&, const Scene& scene) {
   return {fmt::format("{}x{}", scene.picture.width, scene.picture.height)};
 }
 
+void reset_size(const Property&, Scene& scene) {
+  scene.picture.fits = false;
+  scene.picture.width = usual_scene().picture.width;
+  scene.picture.height = usual_scene().picture.height;
+}
+
 void read_side(const Property& property, Texts texts, Scene& scene) {
   const bool is_height = property.key == "image.height";
   if (is_height) scene.picture.fits = texts.back() == "auto";
@@ -104,6 +115,11 @@ Written write_side(const Property& property, const Scene& scene) {
   if (!has_lengths_of_sides(scene)) return {};
   if (length != scene.lengths.end()) return {length->second};
   return property.key == "image.height" && scene.picture.fits ? Written{"auto"} : Written();
+}
+
+void reset_side(const Property& property, Scene& scene) {
+  if (property.key == "image.height") scene.picture.fits = false;
+  scene.lengths.erase(std::string(property.key));
 }
 
 void read_margin(const Property& property, Texts texts, Scene& scene) {
@@ -130,6 +146,11 @@ Written write_look_number(const Property& property, const Scene& scene) {
   return written_length(property, scene, number_of(property, look));
 }
 
+void reset_look_number(const Property& property, Scene& scene) {
+  number_of(property, scene.look).reset();
+  scene.lengths.erase(std::string(property.key));
+}
+
 template <typename Member>
 constexpr SceneValue letter_height(std::string_view key, Member) {
   return {
@@ -137,7 +158,11 @@ constexpr SceneValue letter_height(std::string_view key, Member) {
       [](const Property& property, Texts texts, Scene& scene) {
         read_length(property, texts, scene, *Member{}(scene), "letters have");
       },
-      [](const Property& property, const Scene& scene) { return written_length(property, scene, *Member{}(scene)); }};
+      [](const Property& property, const Scene& scene) { return written_length(property, scene, *Member{}(scene)); },
+      [](const Property& property, Scene& scene) {
+        Member{}(scene)->reset();
+        scene.lengths.erase(std::string(property.key));
+      }};
 }
 
 std::optional<glm::vec3> auto_or_color(const std::string& text) { return parse_color_or("auto", text); }
@@ -174,14 +199,14 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
     plain("camera.path", [](auto& s) { return &s.run_camera.path_file; }),
     plain("camera.turntable", [](auto& s) { return &s.run_camera.turns; }),
     plain("camera.follow", [](auto& s) { return &s.run_camera.follow; }),
-    {"image.size", read_size, write_size},
-    {"image.width", read_side, write_side},
-    {"image.height", read_side, write_side},
+    {"image.size", read_size, write_size, reset_size},
+    {"image.width", read_side, write_side, reset_side},
+    {"image.height", read_side, write_side, reset_side},
     {"image.margin", read_margin, write_margin},
     plain("image.dpi", [](auto& s) { return &s.picture.dots_per_inch; }),
     plain("frames.motion_blur", [](auto& s) { return &s.image.motion_blur; }),
     plain("image.samples", [](auto& s) { return &s.image.samples; }),
-    {"image.background", read_background, write_background},
+    {"image.background", read_background, write_background, reset_background},
     plain("image.aovs", [](auto& s) { return &s.image.aovs; }),
     plain("image.cryptomatte", [](auto& s) { return &s.image.cryptomatte; }),
     worded<Primaries::rec709, Primaries::ap1>("image.color_space", [](auto& s) { return &s.image.primaries; }),
@@ -229,7 +254,8 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
 std::span<const SceneValue> picture_values() {
   static const std::vector<SceneValue> rows = [] {
     std::vector<SceneValue> all(kPictureRows.begin(), kPictureRows.end());
-    for (const LookNumber& number : look_numbers()) all.push_back({number.key, read_look_number, write_look_number});
+    for (const LookNumber& number : look_numbers())
+      all.push_back({number.key, read_look_number, write_look_number, reset_look_number});
     return all;
   }();
   return rows;

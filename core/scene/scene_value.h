@@ -23,12 +23,18 @@ namespace meniscus::scene_values {
 using Texts = std::span<const std::string>;
 using Written = std::vector<std::string>;
 
-/// One property and its member. read() throws RequestError, SelectionError.
+/// One property and its member. read() throws RequestError, SelectionError. reset() gives the member the value of
+/// Scene{}; it is missing for some values that no preview changes.
 struct SceneValue {
   std::string_view key;
   void (*read)(const Property& property, Texts texts, Scene& scene);
   Written (*write)(const Property& property, const Scene& scene);
+  void (*reset)(const Property& property, Scene& scene) = nullptr;
 };
+
+/// Gives a value the one that the texts say, in the form of set_value(), or without texts that of Scene{}. The property
+/// must be one that previews change (Trait::live). Throws like set_value().
+void replace_value(Scene& scene, const Property& property, Texts texts);
 
 /// Return the rows of one subject.
 std::span<const SceneValue> molecule_values();
@@ -91,12 +97,19 @@ Written written(const std::optional<Value>& value, const std::optional<Value>&) 
     return {*value};
 }
 
+/// Gives a member the value of Scene{}.
+template <typename Member>
+void reset_member(const Property&, Scene& scene) {
+  *Member{}(scene) = *Member{}(usual_scene());
+}
+
 /// Returns the row of a value that is read by its type. Member: a stateless function that returns the address of the
 /// value in a scene.
 template <typename Member>
 constexpr SceneValue plain(std::string_view key, Member) {
   return {key, [](const Property& property, Texts texts, Scene& scene) { read(property, texts, *Member{}(scene)); },
-          [](const Property&, const Scene& scene) { return written(*Member{}(scene), *Member{}(usual_scene())); }};
+          [](const Property&, const Scene& scene) { return written(*Member{}(scene), *Member{}(usual_scene())); },
+          reset_member<Member>};
 }
 
 /// Returns the row of a value that is one of the property's words. meanings: one per word, in the same order. Scene
@@ -117,7 +130,7 @@ constexpr SceneValue worded(std::string_view key, Member) {
     if (value == *Member{}(usual_scene())) return {};
     return {words_of(property)[static_cast<std::size_t>(std::ranges::find(kMeanings, *value) - kMeanings)]};
   };
-  return {key, read_word, write_word};
+  return {key, read_word, write_word, reset_member<Member>};
 }
 
 /// Returns the row of a value that parse() reads and text() writes. parse() reads one text, or each text of a list.
@@ -141,7 +154,7 @@ constexpr SceneValue coded(std::string_view key, Member) {
       return written(std::string(text(value)), std::string(text(*Member{}(usual_scene()))));
     return texts;
   };
-  return {key, read_text, write_text};
+  return {key, read_text, write_text, reset_member<Member>};
 }
 
 /// Parses a colour. Returns nothing for the word `none`. Throws RequestError.

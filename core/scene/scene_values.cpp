@@ -143,6 +143,15 @@ const SceneValue* value_of(std::string_view key) {
   return nullptr;
 }
 
+}  // namespace
+
+void scene_values::replace_value(Scene& scene, const Property& property, Texts texts) {
+  value_of(property.key)->reset(property, scene);
+  if (!texts.empty()) set_value(scene, property, texts);
+}
+
+namespace {
+
 // The values that depend on each other follow.
 
 void complete_lengths(Scene& scene) {

@@ -113,7 +113,7 @@ Surface SurfaceComputer::compute(std::span<const Ball> balls) {
   }
   const double probe_radius = rolling_probe(request_.kind, request_.probe_radius);
   if (!engine_) engine_ = make_engine(on_cpu_, request_.gl);
-  const ClipPlanes planes = request_.drawn || request_.verify ? ClipPlanes::listed : ClipPlanes::left_out;
+  const ClipPlanes planes = request_.verify ? ClipPlanes::listed : request_.planes;
   Surface surface = request_.bordered || !is_on_cpu() ? compute_surface(*engine_, balls, probe_radius, clock_, planes)
                                                       : compute_without_borders(balls, probe_radius, planes, clock_);
   device_ = engine_->device();

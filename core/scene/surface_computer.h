@@ -68,8 +68,7 @@ struct SurfaceRequest {
   /// With `verify` only: a further check of each closed surface, for example of its mesh. It throws OpenSurfaceError
   /// for a faulty surface. May be empty.
   std::function<void(const Surface&)> check;
-  /// False: the surface is for numbers only, so convex patches get no clip planes, a fifth of the work.
-  bool drawn = true;
+  ClipPlanes planes = ClipPlanes::listed;  ///< left_out: for numbers only; with `verify` they are always listed
   /// False: a surface of very many atoms may come without its tables of vertices, borders and faces (Surface::sums),
   /// which saves memory on the CPU.
   bool bordered = true;

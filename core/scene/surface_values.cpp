@@ -36,6 +36,11 @@ Written write_probe(const Property&, const Scene& scene) {
   return written(surface.probe_radius, SurfaceRequest{}.probe_radius);
 }
 
+void reset_probe(const Property&, Scene& scene) {
+  scene.molecule.surface.probe_radius = SurfaceRequest{}.probe_radius;
+  scene.molecule.surface.probe_named = false;
+}
+
 void read_device(const Property&, Texts texts, Scene& scene) {
   SurfaceRequest& surface = scene.molecule.surface;
   surface.cpu = texts.back() == "cpu";
@@ -108,6 +113,13 @@ Written write_color(const Property&, const Scene& scene) {
   return texts;
 }
 
+void reset_color(const Property&, Scene& scene) {
+  ColorScheme& color = scene.molecule.color;
+  color.by = ColorScheme::By::automatic;
+  color.rules.clear();
+  scene.molecule.color_named = false;
+}
+
 ColorMap map_of(const std::string& text) {
   if (const std::optional<ColorMap> map = parse_color_map(text)) return *map;
   std::vector<std::string_view> names;
@@ -159,6 +171,10 @@ constexpr SceneValue shapes(std::string_view key) {
             for (const RepresentationRequest& request : scene.figure.representations.requests)
               if (request.kind == kind) texts.push_back(request.atoms.text());
             return texts;
+          },
+          [](const Property&, Scene& scene) {
+            std::erase_if(scene.figure.representations.requests,
+                          [](const RepresentationRequest& request) { return request.kind == kind; });
           }};
 }
 
@@ -203,7 +219,7 @@ constexpr auto kSurfaceRows = std::to_array<SceneValue>({
     coded<parse_interface, interface_text>("surface.interface", [](auto& s) { return &s.molecule.interface; }),
     worded<SurfaceKind::ses, SurfaceKind::sas, SurfaceKind::vdw>("surface.kind",
                                                                  [](auto& s) { return &s.molecule.surface.kind; }),
-    {"surface.probe", read_probe, write_probe},
+    {"surface.probe", read_probe, write_probe, reset_probe},
     plain("surface.show", [](auto& s) { return &s.molecule.show; }),
     plain("surface.patches", [](auto& s) { return &s.molecule.patches; }),
     plain("surface.min_patch", [](auto& s) { return &s.molecule.least_patch; }),
@@ -214,7 +230,7 @@ constexpr auto kSurfaceRows = std::to_array<SceneValue>({
     {"surface.require_gpu", read_require_gpu, [](const Property&, const Scene&) { return Written(); }},
     plain("surface.threads", [](auto& s) { return &s.molecule.surface.threads; }),
     plain("surface.verify", [](auto& s) { return &s.molecule.surface.verify; }),
-    {"surface.color", read_color, write_color},
+    {"surface.color", read_color, write_color, reset_color},
     plain("surface.color_by_file", [](auto& s) { return &s.molecule.number_file; }),
     plain("surface.color_column", [](auto& s) { return &s.molecule.number_column; }),
     plain("surface.color_map_file", [](auto& s) { return &s.molecule.volume_file; }),
@@ -242,7 +258,7 @@ constexpr auto kSurfaceRows = std::to_array<SceneValue>({
     dashed<Shape::distance>("figure.distance"),
     plain("shapes.stick_radius", [](auto& s) { return &s.figure.representations.stick_radius; }),
     plain("shapes.tube_radius", [](auto& s) { return &s.figure.representations.tube_radius; }),
-    {"figure.object", read_objects, write_objects},
+    {"figure.object", read_objects, write_objects, [](const Property&, Scene& scene) { scene.figure.objects.clear(); }},
 });
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -68,8 +69,8 @@ Surface build_surface(std::span<const Ball> atoms, double probe_radius, const Re
 }
 
 std::unique_ptr<ConvexPlanes> planes_for(ClipPlanes planes, const Surface& surface, const ReducedSurface& rs) {
-  if (planes == ClipPlanes::left_out) return std::make_unique<PlanesOnDemand>(surface, rs);
-  return std::make_unique<ListedPlanes>(surface);
+  if (planes == ClipPlanes::listed) return std::make_unique<ListedPlanes>(surface);
+  return std::make_unique<PlanesOnDemand>(surface, rs);
 }
 
 Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs, StageClock* clock,
@@ -83,6 +84,10 @@ Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const
   const std::unique_ptr<ConvexPlanes> convex = planes_for(planes, surface, rs);
   certify(surface, measure_surface(surface, *convex), *convex);
   return surface;
+}
+
+void list_convex_planes(Surface& surface) {
+  if (const auto reduced = std::exchange(surface.reduced, nullptr)) trim_convex_patches(surface, *reduced);
 }
 
 void require_closed(const Surface& surface) {
@@ -135,8 +140,10 @@ SurfaceCounts counts_of(const Surface& s, const std::function<bool(std::uint32_t
 
 Surface attempt_surface(ReducedSurfaceEngine& engine, std::span<const Ball> atoms, double probe_radius,
                         StageClock& clock, ClipPlanes planes) {
-  const ReducedSurface rs = engine.reduce(atoms, probe_radius, clock);
-  return assemble_surface(atoms, probe_radius, rs, &clock, &engine.cusp_tracer(), planes);
+  ReducedSurface rs = engine.reduce(atoms, probe_radius, clock);
+  Surface surface = assemble_surface(atoms, probe_radius, rs, &clock, &engine.cusp_tracer(), planes);
+  if (planes == ClipPlanes::deferred) surface.reduced = std::make_shared<const ReducedSurface>(std::move(rs));
+  return surface;
 }
 
 Surface compute_surface(ReducedSurfaceEngine& engine, std::span<const Ball> atoms, double probe_radius,

@@ -93,6 +93,37 @@ class AreaDivider {
     return std::move(areas_);
   }
 
+  /// Returns the areas of groups of atoms.
+  AtomAreas run_by_atoms(std::span<const std::uint32_t> group_of_atom, std::uint32_t count) const {
+    AtomAreas areas{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
+    for (const ConvexPatch& patch : s_.convex)
+      for (const Face& face : faces_of(s_, patch)) {
+        areas.surface[group_of_atom[patch.atom]] += face.area;
+        areas.accessible[group_of_atom[patch.atom]] += accessible_area(s_, face);
+      }
+    for (const ToroidalPatch& patch : s_.toroidal) {
+      const std::array<std::uint32_t, 2> group{group_of_atom[patch.atom[0]], group_of_atom[patch.atom[1]]};
+      for (std::uint32_t n = 0; n < patch.face_count; ++n) {
+        const double whole = s_.faces[patch.first_face + n].area;
+        const double second = group[0] == group[1] ? 0.0 : halves_of(patch, n)[1];
+        areas.surface[group[0]] += whole - second;
+        areas.surface[group[1]] += second;
+      }
+    }
+    DividerScratch scratch;
+    for (const ConcavePatch& patch : s_.concave) {
+      const std::uint32_t first = group_of_atom[first_atom(s_, patch)];
+      const auto contacts = std::span(s_.contacts).subspan(patch.first_contact, patch.contact_count);
+      if (std::ranges::all_of(contacts, [&](std::uint32_t atom) { return group_of_atom[atom] == first; })) {
+        for (const Face& face : faces_of(s_, patch)) areas.surface[first] += face.area;
+        continue;
+      }
+      const std::vector<double>& share = divide(patch, Cuts::beyond_touching, scratch);
+      for (std::size_t n = 0; n < contacts.size(); ++n) areas.surface[group_of_atom[contacts[n]]] += share[n];
+    }
+    return areas;
+  }
+
   // Checks, for faces of either engine, that the areas of the atoms add up to the surface's area.
   static void require_sum(const std::vector<AtomAreas>& areas, double of_surface) {
     const double noise = 1e-6 * (1 + of_surface);
@@ -157,21 +188,23 @@ class AreaDivider {
     }
   }
 
-  // The contacts are the two ends of the tube's arc, so the nearest contact changes half-way in angle. A patch has at
-  // most two faces, and each face two shares, which are added in the order of the patches.
+  /// Returns the areas (Å²) of a saddle's face that belong to its two atoms. The contacts are the two ends of the
+  /// tube's arc, so the nearest contact changes half-way in angle.
+  std::array<double, 2> halves_of(const ToroidalPatch& patch, std::uint32_t face) const {
+    const std::array<double, 2> contact = contact_tube_angles(s_, patch);
+    const auto [low, high] = tube_range(s_, patch, face);
+    const double cut = std::clamp(0.5 * (contact[0] + contact[1]), low, high);
+    return {toroidal_area(s_, patch, low, cut), toroidal_area(s_, patch, cut, high)};
+  }
+
+  // A patch has at most two faces, and each face two shares, which are added in the order of the patches.
   void add_toroidal() {
     std::vector<std::array<double, 4>> shares(s_.toroidal.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.toroidal.size(), 128), [&](const auto& range) {
       for (std::size_t t = range.begin(); t != range.end(); ++t) {
-        const ToroidalPatch& patch = s_.toroidal[t];
-        if (patch.face_count == 0) continue;
-        const std::array<double, 2> contact = contact_tube_angles(s_, patch);
-        const double middle = 0.5 * (contact[0] + contact[1]);
-        for (std::uint32_t n = 0; n < patch.face_count; ++n) {
-          const auto [low, high] = tube_range(s_, patch, n);
-          const double cut = std::clamp(middle, low, high);
-          shares[t][2 * n] = toroidal_area(s_, patch, low, cut);
-          shares[t][2 * n + 1] = toroidal_area(s_, patch, cut, high);
+        for (std::uint32_t n = 0; n < s_.toroidal[t].face_count; ++n) {
+          const std::array<double, 2> halves = halves_of(s_.toroidal[t], n);
+          std::ranges::copy(halves, shares[t].begin() + 2 * n);
         }
       }
     });
@@ -441,6 +474,20 @@ std::vector<AtomAreas> atom_areas(const Surface& surface, std::span<const std::u
                                   std::uint32_t count) {
   std::vector<AtomAreas> areas = AreaDivider(surface, group_of_face).run(count);
   AreaDivider::require_sum(areas, surface.area);
+  return areas;
+}
+
+AtomAreas group_areas(const Surface& surface, std::span<const std::uint32_t> group_of_atom, std::uint32_t count) {
+  if (!surface.sums) {
+    AtomAreas areas = AreaDivider(surface).run_by_atoms(group_of_atom, count);
+    AreaDivider::require_sum({areas}, surface.area);
+    return areas;
+  }
+  AtomAreas areas{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
+  for (std::size_t a = 0; a < group_of_atom.size(); ++a) {
+    areas.surface[group_of_atom[a]] += surface.sums->atom_surface[a];
+    areas.accessible[group_of_atom[a]] += surface.sums->atom_accessible[a];
+  }
   return areas;
 }
 

@@ -43,12 +43,6 @@ std::unique_ptr<ReducedSurfaceEngine> make_cpu_engine();
 class ConvexPlanes;
 struct ReducedComponents;
 
-/// The choice whether a surface lists the clip planes of its convex patches (ConvexPatch::planes), a fifth of the work.
-enum class ClipPlanes {
-  listed,   ///< the surface can be drawn, exported and divided
-  left_out  ///< no convex patch has planes: for numbers, borders and areas; the certificate is as strict
-};
-
 /// Builds all patches, their borders, faces and components, their areas and volumes (closed form) and the certificate.
 /// `rs` must have been computed for the same `atoms` and `probe_radius`. Look at the result's certificate, or call
 /// require_closed(), before using it. Adds the time of each stage to `clock`, if there is one. Singularities are traced
@@ -66,6 +60,10 @@ Surface build_surface(std::span<const Ball> atoms, double probe_radius, const Re
 /// Returns the planes of a surface that was built with this choice. Surface and reduced surface must outlive the
 /// result.
 std::unique_ptr<ConvexPlanes> planes_for(ClipPlanes planes, const Surface& surface, const ReducedSurface& rs);
+
+/// Lists the planes that ClipPlanes::deferred has put off, so that the surface equals one with ClipPlanes::listed. Does
+/// nothing for other surfaces.
+void list_convex_planes(Surface& surface);
 
 /// Throws OpenSurfaceError, naming atoms by their index, unless the certificate says the surface is closed.
 void require_closed(const Surface& surface);

@@ -81,6 +81,11 @@ AtomAreas atom_areas(const Surface& surface, std::vector<std::uint32_t>& contrad
 std::vector<AtomAreas> atom_areas(const Surface& surface, std::span<const std::uint32_t> group_of_face,
                                   std::uint32_t count);
 
+/// Computes the sums of AtomAreas over each of `count` groups of atoms, up to rounding. group_of_atom: the group of
+/// each of Surface::atoms, below `count`. Only patches between atoms of different groups are divided, so this takes
+/// less time than atom_areas(). Throws as atom_areas() does.
+AtomAreas group_areas(const Surface& surface, std::span<const std::uint32_t> group_of_atom, std::uint32_t count);
+
 /// A part of the surface that belongs to one atom: a face of its contact patch, half of a saddle's face, or the atom's
 /// part of a re-entrant patch.
 struct AtomShare {

@@ -27,6 +27,15 @@
 
 namespace meniscus {
 
+struct ReducedSurface;
+
+/// The choice when a surface lists the clip planes of its convex patches (ConvexPatch::planes), a fifth of the work.
+enum class ClipPlanes {
+  listed,    ///< at once: the surface can be drawn, exported and divided
+  deferred,  ///< when list_convex_planes() is called; until then as with `left_out`
+  left_out   ///< never: for numbers, borders and areas; the certificate is as strict
+};
+
 /// A half-space: a point x (Å) is inside where dot(normal, x) <= offset.
 struct Plane {
   glm::dvec3 normal{0.0};  ///< unit vector
@@ -205,6 +214,9 @@ struct Surface {
   /// The sums, if the tables from `cuts` to `faces` were released; then patches refer to none of these tables. Else
   /// null.
   std::shared_ptr<const SurfaceSums> sums;
+  /// What list_convex_planes() needs, until it is called, if the surface was computed with ClipPlanes::deferred. Else
+  /// null.
+  std::shared_ptr<const ReducedSurface> reduced;
 
   SurfaceCounts counts() const;
   bool spindle(const ToroidalPatch& t) const { return crosses_axis(t, atoms, probe_radius); }

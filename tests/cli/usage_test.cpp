@@ -159,6 +159,58 @@ TEST_F(Words, HelpShowsPagesOfTheManual) {
   EXPECT_NE(wrong.err.find("did you mean figures?"), std::string::npos) << wrong.err;
 }
 
+TEST_F(Words, HelpIsSearchedByTheWordsOfUsers) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"movie", "meniscus film "},
+      {"gromacs", "--trajectory"},
+      {"stl", "export mesh"},
+      {"sasa", "--surface"},
+      {"apbs", "--color-map-file"},
+      {"charge", "--color"},
+      {"overwrite", "--force"},
+      {"blur", "--motion-blur"},
+      {"3d print", "export mesh"},
+      {"powerpoint", "help labels"},
+      {"jupyter", "help notebooks"},
+      {"slurm", "meniscus farm"},
+      {"hydrogen bond", "--hydrogen-bonds"},
+      {"antialias", "--samples"},
+      {"fog", "--depth-cue"},
+      {"rotate", "--turntable"},
+      {"gif", "meniscus film "},
+      {"mp4", "meniscus film "},
+      {"tunnel", "meniscus pockets"},
+      {"void", "cavit"},
+      {"obj", "export mesh"},
+      {"gltf", "export mesh"},
+      {"docking", "help ligands"},
+      {"namd", "--trajectory"},
+      {"amber", "help trajectories"},
+      {"multimer", "--assembly"},
+      {"contact", "help interfaces"},
+      {"crop", "--margin"},
+      {"dpi", "help journals"},
+      {"quality", "--samples"},
+      {"cartoon", "--tube"},
+      {"licorice", "--sticks"},
+      {"cluster", "meniscus farm"},
+      {"plddt", "help alphafold"},
+      {"conservation", "help colors"},
+      {"scale bar", "--scale-bar"},
+      {"legend", "--legend"},
+      {"nucleotide bases", "--bases"},
+      {"alpha", "--opacity"},
+      {"journal", "help journals"},
+      {"spin", "--turntable"},
+      {"glycan", "--glycans"},
+  };
+  for (const auto& [word, found] : cases) {
+    const ProgramResult result = says({"help", word});
+    EXPECT_EQ(result.exit_code, 0) << word << ": " << result.err;
+    EXPECT_NE(result.out.find(found), std::string::npos) << word << ": " << result.out;
+  }
+}
+
 TEST_F(Words, CitesThePaperToo) {
   const std::string cited = says({"--cite"}).out;
   EXPECT_NE(cited.find("Krone, Michael"), std::string::npos) << cited;

@@ -65,9 +65,10 @@ class Films(unittest.TestCase):
         self.run_program("film", "story.json", "-o", "story.mkv", *words)
         strip = self.pictures("strip.mkv")
         self.assertEqual(len(strip), 4 + 6 + 2)
-        self.assertEqual(len(set(strip)), 1 + 6 + 1)
+        self.assertGreaterEqual(len(set(strip)), 1 + 6 + 1)
         self.assertEqual(strip, self.pictures("film.mkv"))
         self.assertEqual(strip, self.pictures("story.mkv"))
+        self.assertEqual(len({(self.folder / name).read_bytes() for name in ("strip.mkv", "film.mkv", "story.mkv")}), 1)
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
                          sorted(["a.pdb", "film.mkv", "one.json", "run.xyz", "session.jsonl", "story.json", "story.mkv", "strip.mkv",
                                  "two.json", "two.pdb"]), "nothing else is left")
@@ -76,15 +77,16 @@ class Films(unittest.TestCase):
         for words, frames in ((["two.pdb"], 2), (["a.pdb", "--trajectory", "run.xyz"], 4)):
             self.preview(*words, "--output-dir", ".", commands=[
                 ("frame", {"index": 0}), ("keep_scene", {}), ("frame", {"index": frames - 1}), ("keep_scene", {}),
-                ("time_scene", {"index": 0, "hold": 0.08, "transition": 0}), ("frame", {"index": 1}),
+                ("time_scene", {"index": 0, "hold": 0.08, "transition": 0}), ("time_scene", {"index": 1, "hold": 0.08}),
+                ("frame", {"index": 1}),
                 ("export", {**self.EXPORT[1], "force": True}),
                 ("export", {"format": "film", "path": "turn.mkv", "of": "turntable", "seconds": 0.2, "force": True, **self.SIZE}),
                 ("export", {"format": "film", "path": "frames.mkv", "of": "frames", "force": True, **self.SIZE}),
                 ("export", {"format": "png", "path": "first.png", "force": True, **self.SIZE})])
             strip = self.pictures("strip.mkv")
             self.assertEqual(len(strip), 2 + 2)
-            self.assertEqual(strip[0], strip[1])
-            self.assertNotEqual(strip[1], strip[2])
+            change = [sum(abs(a - b) for a, b in zip(*pair)) / len(pair[0]) for pair in zip(strip, strip[1:])]  # lossy
+            self.assertLess(max(change[0], change[2]), 0.2 * change[1], (words, change))
             self.assertEqual(len(set(self.pictures("turn.mkv"))), 5, words)
             self.assertEqual(len(self.pictures("frames.mkv")), frames)
 

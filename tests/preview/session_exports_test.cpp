@@ -147,7 +147,7 @@ TEST_F(SessionExports, ListWhatTheyHaveWritten) {
   EXPECT_FALSE(apply(R"({"command":"export","format":"png","path":"foreign.png","width":20,"height":20})")["ok"]);
   std::filesystem::create_directory(folder_.path() / "scene");
   folder_.file("scene/mine.txt", "precious");
-  expect_ok(R"({"command":"export","format":"povray","path":"scene","archive":true})");
+  expect_ok(R"({"command":"export","format":"povray","path":"scene","archive":true,"force":true})");
   EXPECT_EQ(names(), (std::vector<std::string>{"a.json", "b.json", "c.png", "scene", "scene.zip"}));
   const Json written = apply(R"({"command":"export_state"})")["written"];
   EXPECT_EQ(written[3]["folder"], true);
@@ -165,7 +165,9 @@ TEST_F(SessionExports, AFilmOfTheStripIsAStoryboard) {
   SessionContext context;
   context.scene.emplace();
   context.make_film = [&](const FilmOrder& order, const ExportTarget&, const ExportWatch&) { ordered = order; };
-  begin(read_structure(folder_.file("two.pdb", kTwoModels)), context);
+  ReadOptions reading;
+  reading.model.all = true;
+  begin(read_structure(folder_.file("two.pdb", kTwoModels), reading), context);
   const auto film = [&](const std::string& more) {
     return apply(R"({"command":"export","format":"film","path":"f.mp4","width":81,"height":60)" + more + "}");
   };

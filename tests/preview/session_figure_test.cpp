@@ -110,7 +110,11 @@ TEST_F(FigureSession, EveryStepChangesThePictureAndUndoBringsItBack) {
     expected["width"] = 400;  // whatever the page was then
     expected["height"] = 300;
     Json now = state();
-    for (Json* json : {&expected, &now}) json->erase("camera"), json->erase("look");
+    for (Json* json : {&expected, &now}) {
+      json->erase("camera"), json->erase("look");
+      for (const char* kind : {"silhouettes", "outer_lines", "inner_lines", "part_lines", "patch_lines"})
+        (*json)["values"].erase(std::string("look.") + kind);
+    }
     now["legend"].erase("fault");
     expected["legend"].erase("fault");
     EXPECT_EQ(now, expected) << n;
@@ -166,9 +170,9 @@ TEST_F(FigureSession, WhatIsRefusedChangesNothing) {
       {R"({"command":"set","key":"cap_color","value":"greenish"})", "cap_color: 'greenish'"},
       {R"({"command":"set","key":"cap_hatching","value":-1})", "cap_hatching: '-1'"},
       {R"({"command":"set","key":"cap_hatching","value":[1]})", "cap_hatching: '[1]'"},
-      {R"({"command":"set","key":"film_opacity","value":"perhaps"})", "true or false"},
-      {R"({"command":"set","key":"hide_surface","value":null})", "true or false"},
-      {R"({"command":"set","key":"probe","value":2})", "one of hide_surface, film_opacity, cap_color"},
+      {R"({"command":"set","key":"film_opacity","value":"perhaps"})", "neither true nor false"},
+      {R"({"command":"set","key":"surface.shown","value":7})", "neither true nor false"},
+      {R"({"command":"set","key":"surface.prob","value":2})", "did you mean surface.probe?"},
       {R"({"command":"set","key":"cap_hatching"})", "value"},
       {R"({"command":"remove","of":"rules","index":0})", "there are no rules"},
       {R"({"command":"remove","of":"cuts","index":1})", "index"},

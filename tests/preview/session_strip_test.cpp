@@ -20,6 +20,11 @@ namespace {
 class StripSession : public SessionCase {
  protected:
   StripSession() { begin(read_structure(folder_.file("two.pdb", kTwoModels), {})); }
+  void begin_with_two_frames() {
+    ReadOptions reading;
+    reading.model.all = true;
+    begin(read_structure(folder_.file("two.pdb", kTwoModels), reading));
+  }
 };
 
 TEST_F(StripSession, GoesFromSceneToSceneAsFilmsDo) {
@@ -80,6 +85,7 @@ TEST_F(StripSession, GoesFromSceneToSceneAsFilmsDo) {
 
 // What is edited while the film plays would be gone with its next picture.
 TEST_F(StripSession, AnEditPausesTheFilm) {
+  begin_with_two_frames();
   for (const char* command :
        {R"({"command":"keep_scene"})", R"({"command":"probe","radius":2})", R"({"command":"keep_scene"})"})
     expect_ok(command);
@@ -100,6 +106,7 @@ TEST_F(StripSession, AnEditPausesTheFilm) {
 }
 
 TEST_F(StripSession, ScenesKeepTheirFramesAndTimes) {
+  begin_with_two_frames();
   expect_ok(R"({"command":"keep_scene"})");
   expect_ok(R"({"command":"time_scene","index":0,"hold":1.5,"transition":0})");
   expect_ok(R"({"command":"frame","index":1})");

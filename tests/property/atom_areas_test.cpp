@@ -72,6 +72,25 @@ TEST(AtomAreas, SumUpToTheWholeSurface) {
   }
 }
 
+TEST(AtomAreas, OfGroupsAreTheSumsOfTheirAtoms) {
+  for (const std::uint32_t count : {1u, 2u, 7u}) {
+    const Surface surface = compute_surface_cpu(gas(count, 400, 25, 1.2, 2.0), kWater);
+    std::vector<std::uint32_t> group_of(surface.atoms.size());
+    for (std::uint32_t a = 0; a < group_of.size(); ++a) group_of[a] = a % 50 * count / 50;
+    const AtomAreas atoms = atom_areas(surface), groups = group_areas(surface, group_of, count);
+    ASSERT_EQ(groups.surface.size(), count);
+    for (std::uint32_t g = 0; g < count; ++g) {
+      double area = 0.0, accessible = 0.0;
+      for (std::size_t a = 0; a < group_of.size(); ++a) {
+        area += group_of[a] == g ? atoms.surface[a] : 0.0;
+        accessible += group_of[a] == g ? atoms.accessible[a] : 0.0;
+      }
+      EXPECT_NEAR(groups.surface[g], area, 1e-9 * surface.area) << g << " of " << count;
+      EXPECT_NEAR(groups.accessible[g], accessible, 1e-9 * surface.area) << g << " of " << count;
+    }
+  }
+}
+
 TEST(AtomAreas, ThatDoNotAddUpAreRefused) {
   Surface s = compute_surface_cpu(ubiquitin(), 1.4);
   s.area *= 1 + 1e-5;

@@ -58,6 +58,7 @@ SurfaceRequest request_of(const meniscus_options& options) {
   result.cpu = options.device == MENISCUS_CPU;
   result.gl = gl_of(options.device);
   result.verify = options.verify != 0;
+  result.planes = ClipPlanes::deferred;
   result.check = check_by_mesh;
   return result;
 }

@@ -153,7 +153,7 @@ void save(const meniscus_mesh& mesh, const char* path, const meniscus_mesh_file&
   MeshFileMaker maker(
       {mesh.fineness, format.numbers ? numbers : std::vector<std::string>{}, file.scale, atoms, {}, format.solid},
       about_line(kind_word(finished.kind), file.scale, mesh.fineness));
-  maker.add({"surface", finished.surface, coloring, places}, mesh.fine_mesh);
+  maker.add({"surface", finished.whole(), coloring, places}, mesh.fine_mesh);
   write_mesh_file(format, path, file.replace ? Existing::replace : Existing::refuse, maker.take());
 }
 
@@ -175,10 +175,10 @@ meniscus_status meniscus_surface_mesh(const meniscus_surface* surface, const men
     const meniscus_mesh_options complete = checked(options);
     auto result = std::make_unique<meniscus_mesh>();
     const FinishedSurface& finished = *surface->finished;
+    const meniscus::Surface& whole = finished.whole();
     result->surface = surface->finished;
     result->fineness = fineness_of(complete);
-    run_on_threads(finished.threads,
-                   [&] { result->fine_mesh = make_mesh(finished.surface, complete, result->fineness); });
+    run_on_threads(finished.threads, [&] { result->fine_mesh = make_mesh(whole, complete, result->fineness); });
     *mesh = result.release();
   });
 }

@@ -34,8 +34,9 @@ meniscus_status meniscus_surface_page(const meniscus_surface* surface, const men
       refuse(MENISCUS_USAGE, "structure has {} atoms, and the surface is of {}", names->atoms.size(),
              finished.surface.atoms.size());
     std::string html;
+    const meniscus::Surface& whole = finished.whole();
     run_on_threads(finished.threads, [&] {
-      html = meniscus::page::surface_page(finished.surface, picture.coloring, names, picture.scene, picture.camera,
+      html = meniscus::page::surface_page(whole, picture.coloring, names, picture.scene, picture.camera,
                                           meniscus::page::png_still);
     });
     *page = new meniscus_page(std::move(html));

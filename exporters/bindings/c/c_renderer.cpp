@@ -135,10 +135,11 @@ meniscus_status meniscus_render(meniscus_renderer* renderer, const meniscus_surf
     const SurfacePicture picture = surface_picture(surface, scene, camera, atom_colors);
     require_room(picture.scene, rgba, rgba_size);
     const FinishedSurface& finished = *surface->finished;
+    const meniscus::Surface& whole = finished.whole();
     meniscus::Framebuffer drawn;
     renderer->run([&](meniscus::StillRenderer& still_renderer, const meniscus::EglContext*) {
       run_on_threads(finished.threads, [&] {
-        drawn = still_renderer.render(meniscus::whole_surface(finished.surface, picture.coloring), picture.camera,
+        drawn = still_renderer.render(meniscus::whole_surface(whole, picture.coloring), picture.camera,
                                       settings_of(picture.scene));
       });
     });

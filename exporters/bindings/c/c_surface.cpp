@@ -10,11 +10,18 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
+#include "core/surface/compute_surface.h"
 #include "core/surface/measure.h"
 #include "exporters/bindings/c/c_calls.h"
 #include "exporters/bindings/c/c_devices.h"
 
 namespace meniscus::c_api {
+
+const Surface& FinishedSurface::whole() const {
+  const std::lock_guard lock(mutex_);
+  if (surface.reduced) run_on_threads(threads, [&] { list_convex_planes(surface); });
+  return surface;
+}
 
 const AtomAreas& FinishedSurface::areas() const {
   const std::lock_guard lock(mutex_);
@@ -23,8 +30,9 @@ const AtomAreas& FinishedSurface::areas() const {
 }
 
 const SurfaceDistance& FinishedSurface::distance() const {
+  const Surface& drawn = whole();
   const std::lock_guard lock(mutex_);
-  if (!distance_) distance_.emplace(surface);
+  if (!distance_) distance_.emplace(drawn);
   return *distance_;
 }
 
@@ -101,13 +109,13 @@ meniscus_array find_table(const FinishedSurface& finished, std::int32_t table) {
     case MENISCUS_ATOMS:
       return table_of(s.atoms);
     case MENISCUS_CONVEX:
-      return table_of(s.convex);
+      return table_of(finished.whole().convex);
     case MENISCUS_TOROIDAL:
       return table_of(s.toroidal);
     case MENISCUS_CONCAVE:
       return table_of(s.concave);
     case MENISCUS_PLANES:
-      return table_of(s.planes);
+      return table_of(finished.whole().planes);
     case MENISCUS_CONTACTS:
       return table_of(s.contacts);
     case MENISCUS_CUTS:

@@ -17,13 +17,15 @@ namespace meniscus::c_api {
 
 /// A computed surface, with results that are computed when they are first needed.
 struct FinishedSurface {
-  Surface surface;
+  /// The numbers, balls, borders and faces. The clip planes of convex patches may be missing: see whole().
+  mutable Surface surface;
   SurfaceKind kind = SurfaceKind::ses;
   double probe_radius = 0.0;  ///< Å; 0 for vdw
   int threads = 0;            ///< for later computations; 0: all
   std::string device;
 
   /// The first call computes the result. Any thread may call these functions.
+  const Surface& whole() const;  ///< with all clip planes, for pictures, meshes and tables of patches
   const AtomAreas& areas() const;
   const SurfaceDistance& distance() const;
 

@@ -126,6 +126,33 @@ TEST(Merging, IsOfProbesWithinAMillionthOfAnAngstrom) {
   }
 }
 
+// Planes that were put off are those that were listed at once, to the bit and in the same order.
+TEST(Trim, DeferredPlanesAreThose) {
+  const auto engine = make_cpu_engine();
+  StageClock unused;
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const Balls balls = gas(seed, 400, 25, 1.2, 2.0);
+    const Surface listed = compute_surface(*engine, balls, kWater, unused);
+    Surface deferred = compute_surface(*engine, balls, kWater, unused, ClipPlanes::deferred);
+    EXPECT_EQ(deferred.area, listed.area);
+    EXPECT_LT(deferred.planes.size(), listed.planes.size());
+    for (int calls = 0; calls < 2; ++calls) {
+      list_convex_planes(deferred);
+      EXPECT_EQ(deferred.reduced, nullptr);
+      ASSERT_EQ(deferred.planes.size(), listed.planes.size());
+      for (std::size_t n = 0; n < listed.planes.size(); ++n) {
+        EXPECT_EQ(deferred.planes[n].normal, listed.planes[n].normal);
+        EXPECT_EQ(deferred.planes[n].offset, listed.planes[n].offset);
+      }
+      ASSERT_EQ(deferred.convex.size(), listed.convex.size());
+      for (std::size_t n = 0; n < listed.convex.size(); ++n) {
+        EXPECT_EQ(deferred.convex[n].first_plane, listed.convex[n].first_plane);
+        EXPECT_EQ(deferred.convex[n].plane_count, listed.convex[n].plane_count);
+      }
+    }
+  }
+}
+
 // What needs no planes is the same without them, whatever the certificate says; the few that it asks for are found.
 TEST(Trim, NumbersNeedNoPlanes) {
   std::vector<Balls> cases{gap_behind_three(2 * kPi / 180)};

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command "set", which gives a property of the table another value, and what pages are told about properties.
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/preview/camera_motion.h"
+#include "app/preview/commands.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/text_file.h"
+#include "core/scene/molecule.h"
+#include "core/scene/scene_json.h"
+#include "core/scene/scene_value.h"
+#include "core/scene/scene_values.h"
+
+namespace meniscus {
+namespace {
+
+using Ordered = nlohmann::ordered_json;
+using Texts = std::vector<std::string>;
+
+constexpr std::string_view kObjects = "figure.object";  // each of its texts is an object of scene files
+
+/// Returns what has to be made again if a property has another value.
+Renewal renewal_of(const Property& property, const PreviewFigure& figure) {
+  constexpr std::string_view kOfCuts[] = {"surface.shown",    "surface.film_opacity", "surface.clip",
+                                          "surface.clip_all", "surface.cap_color",    "surface.cap_hatching"};
+  const std::string_view section = property.section();
+  if (section == "figure" || property.key == "shapes.bare") return Renewal::shapes;
+  if (std::ranges::find(kOfCuts, property.key) != std::end(kOfCuts)) return Renewal::cuts;
+  // Another surface has the same colours, but its patches have other areas.
+  if (changes_surface(property.key)) return figure.patches ? Renewal::colors : Renewal::legend;
+  if (section == "surface" || section == "shapes") return Renewal::colors;
+  return section == "camera" ? Renewal::nothing : Renewal::legend;
+}
+
+/// Returns the state as the scene of its picture, with the colours that it has beneath kinds of patch.
+Scene own_scene(const PreviewState& state, const Surroundings& around) {
+  PreviewFigure figure = state;
+  figure.patch_kinds = false;
+  const ExportOptions& options = state.export_options;
+  Scene scene = rendered_scene(around.exporter.context.scene.value_or(Scene{}),
+                               {figure, options.size.value_or(state.size), options.samples.value_or(state.samples),
+                                options.transparent, std::nullopt, std::nullopt, std::nullopt, options.dots_per_inch});
+  scene.picture.projection = state.camera.projection;
+  return scene;
+}
+
+/// Returns the property that "key" names.
+const Property& live_property(const std::string& key) {
+  std::vector<std::string_view> keys;
+  for (const Property* property : properties()) {
+    if (!property->has(live)) continue;
+    if (property->key == key || value_name(*property) == key) return *property;
+    keys.push_back(property->key);
+  }
+  const std::string_view nearest = nearest_word(key, keys);
+  throw RequestError(fmt::format("set: \"key\" is {}, which is no property that the preview changes{}", in_quotes(key),
+                                 nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
+}
+
+/// Returns the value in the form of replace_value(). Throws RequestError.
+Texts given_texts(const Property& property, Ordered value) {
+  if (value.is_null()) return {};
+  if (property.key == kObjects && value.is_object()) value = Ordered::array({value});
+  if (property.key == kObjects && value.is_array())
+    for (Ordered& object : value)
+      if (object.is_object()) object = object.dump();
+  try {
+    return texts_of_json(property, value);
+  } catch (const RequestError& error) {
+    throw RequestError(fmt::format("{} {}", in_quotes(shortened(value.dump(), 60)), error.what()));
+  }
+}
+
+/// Throws RequestError if a list of the scene is longer than previews draw, or a text longer than they write.
+void check_extent(const Property& property, const Scene& scene) {
+  constexpr std::size_t kMostEntries = 100, kMostCuts = 16, kLongestText = 200;
+  const std::vector<std::string> texts = value_texts(scene, property);
+  const bool is_drawn = property.section() == "figure";
+  const std::size_t most = property.key == "surface.clip" ? kMostCuts : is_drawn ? kMostShown : kMostEntries;
+  const std::size_t count =
+      is_drawn ? scene.figure.representations.requests.size() + scene.figure.objects.size() : texts.size();
+  if (count > most) throw RequestError(fmt::format("at most {} entries are allowed, not {}", most, count));
+  if (property.section() == "legend" && !texts.empty() && texts.back().size() > kLongestText)
+    throw RequestError(fmt::format("at most {} letters are allowed", kLongestText));
+}
+
+/// Throws RequestError for a value that contradicts others.
+void check_among_others(const Property& property, const Scene& scene, const Surroundings& around) {
+  const MoleculeRequest& molecule = scene.molecule;
+  const ColorScheme& color = molecule.color;
+  if (property.key == "surface.probe" && molecule.surface.kind == SurfaceKind::vdw)
+    throw RequestError("the van der Waals surface has no probe; choose another kind of surface first");
+  if (!color.uses_scale() && (property.key == "surface.map" || property.key == "surface.color_range" ||
+                              property.key == "surface.missing_color"))
+    throw RequestError(fmt::format("is for colours by a number, not {}", in_quotes(scheme_word(color))));
+  if (property.key == "surface.patches" && molecule.patches)
+    patch_atoms(*molecule.patches, around.molecule.annotated_structure());
+  if (property.key == kObjects)
+    for (const FigureObjectRequest& object : scene.figure.objects)
+      if (object.color) require_previewed(*object.color);
+  if (property.key == "legend.shown") require_legend_entries(scene.legend.within, color);
+  if (scene.picture.fits) throw RequestError("'auto' is not WIDTHxHEIGHT in pixels, such as 1920x1080");
+}
+
+/// Takes the values of a scene, of which one property was set, into the state.
+void take_scene(const Property& property, Scene scene, PreviewState& state, const Surroundings& around) {
+  ColorScheme& color = scene.molecule.color;
+  if (property.key == "surface.color") {
+    color = previewed_scheme(color, state.color, around.first.color, color.by == state.color.by);
+    state.patch_kinds = false;
+  }
+  if (property.key == "surface.map") color.own_map = color.map ? nullptr : around.first.color.own_map;
+  color.share_scale();
+  const Camera camera = state.camera.projection == scene.picture.projection
+                            ? state.camera
+                            : projected(state.camera, scene.picture.projection, balls_in_view(around.molecule));
+  PreviewFigure figure = figure_of(scene, color);
+  if (!color.uses_scale()) figure.color.title = state.color.title, figure.color.unit = state.color.unit;
+  if (property.key == "surface.color_title") figure.color.title = color.title;
+  if (property.key == "surface.color_unit") figure.color.unit = color.unit;
+  figure.camera = camera;
+  figure.overview = state.overview && property.section() != "camera";
+  figure.patch_kinds = state.patch_kinds;
+  figure.preset = state.preset;
+  if (!scene.image.background) figure.background = state.background;
+  figure.export_options = state.export_options;
+  figure.samples = state.samples;
+  ExportOptions& options = figure.export_options;
+  options.transparent = !scene.image.background;
+  options.dots_per_inch = scene.picture.dots_per_inch;
+  if (property.key == "image.samples") {
+    figure.samples = scene.image.samples;
+    options.samples.reset();
+  }
+  if (property.key == "image.size") options.size = scene.picture.size();
+  static_cast<PreviewFigure&>(state) = std::move(figure);
+}
+
+/// Returns a value as scene files have it, lists always as lists; the default where the scene has none, and null where
+/// the default depends on other values.
+Ordered value_json(const Property& property, const Scene& scene) {
+  const Texts texts = value_texts(scene, property);
+  if (property.type == ValueType::flag) return texts.empty() == property.has(negated);
+  if (property.has(repeatable)) {
+    Ordered list = Ordered::array();
+    for (const std::string& text : texts)
+      list.push_back(property.key == kObjects ? Ordered::parse(text, nullptr, false)
+                                              : json_of_texts(property, {text}, ""));
+    return list;
+  }
+  if (!texts.empty()) return json_of_texts(property, texts, "");
+  const bool has_one = property.initial.find_first_of(" @") == property.initial.npos && property.key != "surface.map";
+  return property.initial.empty() || !has_one ? Ordered()
+                                              : json_of_texts(property, {std::string(property.initial)}, "");
+}
+
+/// Returns the type of a property's control: "flag", "number", "count", "word", "color", "selection", "length" or
+/// "text".
+std::string_view control_of(const Property& property) {
+  constexpr std::string_view kTypes[] = {"flag", "number", "count", "word"};
+  if (property.type <= ValueType::word) return kTypes[static_cast<std::size_t>(property.type)];
+  if (property.key == "surface.probe") return "number";
+  if (property.has_range()) return "length";
+  return property.value == "COLOR" ? "color" : property.value == "EXPR" ? "selection" : "text";
+}
+
+std::string label_of(const Property& property) {
+  if (!property.label.empty()) return std::string(property.label);
+  std::string label(property.name());
+  std::ranges::replace(label, '_', ' ');
+  if (const std::size_t color = label.find("color"); color != label.npos) label.replace(color, 5, "colour");
+  label.front() = static_cast<char>(label.front() - 'a' + 'A');
+  return label;
+}
+
+/// Returns the help in the words of pages, which have no options: "@color-by-file NUMBERS@" becomes "color by file".
+std::string help_in_words(std::string_view help) {
+  std::string words;
+  bool is_option = false;
+  for (const char letter : help) {
+    if (letter == '@')
+      is_option = !is_option;
+    else
+      words += is_option && letter == '-' ? ' ' : letter;
+  }
+  return words;
+}
+
+}  // namespace
+
+Outcome set_property(const CommandReader& command, PreviewState state, const Surroundings& around) {
+  const std::string key = command.text("key");
+  const Property& property = live_property(key);
+  Ordered value(command.value("value"));
+  if (key.find('.') == key.npos && property.has(negated) && value.is_boolean()) value = !value.get<bool>();
+  const bool is_slid =
+      property.type != ValueType::flag && property.type != ValueType::word && !property.has(repeatable);
+  try {
+    const Texts texts = given_texts(property, std::move(value));
+    Scene scene = own_scene(state, around);
+    if (property.key == "look.preset") {
+      scene_values::replace_value(scene, property, texts);
+      return with_preset(std::move(state), scene.look.preset, around);
+    }
+    scene_values::replace_value(scene, property, texts);
+    if (!texts.empty()) check_extent(property, scene);
+    if (!texts.empty()) check_among_others(property, scene, around);
+    take_scene(property, std::move(scene), state, around);
+    if (texts.empty() && property.key == "image.size") state.export_options.size.reset();
+    if (texts.empty() && property.key == "image.samples") state.samples = PreviewState{}.samples;
+    require_copies_apart(around.molecule.structure(), state, around.state.probe_reach());
+  } catch (const SelectionError& error) {
+    throw RequestError(fmt::format("set: {}: {}", key, error.sentence()));
+  } catch (const RequestError& error) {
+    const std::string said = said_by("", error.what());  // without the word of another command, ": ..."
+    throw RequestError(fmt::format("set: {}{}{}", key, said.starts_with(": ") ? "" : ": ", said));
+  }
+  const bool frames_all = property.key == "surface.kind" || property.section() == "legend";
+  const Renewal renewal = renewal_of(property, state);
+  // A switch is a step by itself; the places of a slider that follow each other are one.
+  return {.state = std::move(state),
+          .renewal = renewal,
+          .frames_all = frames_all,
+          .is_own_step = !is_slid,
+          .step = "set " + std::string(property.key)};
+}
+
+nlohmann::json property_values(const Surroundings& around) {
+  const PreviewState& state = around.state;
+  Scene scene = own_scene(state, around);
+  scene.look = look_request(state.look, state.full_look(), state.patches.has_value());
+  scene.look.preset = state.preset;
+  if (!state.export_options.size) scene_values::replace_value(scene, property_of("image.size"), {});
+  nlohmann::json values = nlohmann::json::object();
+  for (const Property* property : properties())
+    if (property->has(live)) values[std::string(property->key)] = nlohmann::json(value_json(*property, scene));
+  return values;
+}
+
+nlohmann::json property_choices() {
+  nlohmann::json choices = nlohmann::json::array();
+  for (const Property* property : properties()) {
+    if (!property->has(live)) continue;
+    nlohmann::json& choice =
+        choices.emplace_back(nlohmann::json{{"key", property->key},
+                                            {"label", label_of(*property)},
+                                            {"group", property->heading},
+                                            {"type", control_of(*property)},
+                                            {"is_list", property->has(repeatable)},
+                                            {"unit", property->value.starts_with("Å")   ? property->value
+                                                     : property->value == "DEGREES"     ? "°"
+                                                     : property->key == "surface.probe" ? "Å"
+                                                                                        : ""},
+                                            {"help", help_in_words(property->help)}});
+    if (!property->words.empty()) choice["words"] = words_of(*property);
+    if (!property->has_range()) continue;
+    choice["lowest"] = property->lowest;
+    choice["highest"] = property->highest;
+    choice["step"] = property->type == ValueType::count ? 1.0 : property->highest <= 10.0 ? 0.01 : 0.1;
+    if (property->slider_end > 0.0) choice["slider_end"] = property->slider_end;
+  }
+  return choices;
+}
+
+}  // namespace meniscus
