@@ -91,6 +91,8 @@ class Server(unittest.IsolatedAsyncioTestCase):
         wrong = ("0" if token[0] != "0" else "1") + token[1:]
         for path in ("/", f"/{wrong}/", f"/{token}", f"/{token[:-1]}/", f"/{wrong}/page.js", "/favicon.ico"):
             self.assertEqual(self.get(path)[0], 403, path)
+        self.assertEqual(self.get("?token=of-a-proxy")[:2], self.get()[:2])
+        self.assertEqual(self.get(f"/?/{token}/")[0], 403)
         self.assertEqual(self.get("nothing.html")[0], 404)
         self.assertEqual(self.get("../../etc/passwd")[0], 404)
         self.assertEqual(self.get(method="POST")[0], 405)
@@ -198,7 +200,8 @@ class Server(unittest.IsolatedAsyncioTestCase):
         self.assertIn("wss://hub.example.org", policy)
         self.assertNotIn("*", policy)
         for origin in ("http://hub.example.org", "https://hub.example.org", "https://localhost:8888"):
-            async with self.preview.socket(origin=origin, extra_headers={"Host": "hub.example.org"}) as client:
+            address = f"ws://hub.example.org/{self.preview.url.split('/')[3]}/socket"
+            async with websockets.connect(address, host="127.0.0.1", port=self.preview.port, origin=origin) as client:
                 self.assertTrue((await ask(client, {"command": "state"}))["ok"], origin)
         for origin in ("https://hub.example.org:444", "https://hub.example.org.evil.com", "ws://hub.example.org", "null",
                        "https://hub.example.org/", "https://HUB.example.org@evil.com", f"https://127.0.0.1:{self.preview.port}"):
@@ -282,6 +285,7 @@ class Server(unittest.IsolatedAsyncioTestCase):
                 while lazy.recv(1 << 20):
                     pass
                 raise AssertionError("it was ended, for nobody read it")
+            lazy.close()
         await self.still_serves()
 
     async def test_a_wrong_token_opens_no_socket(self):

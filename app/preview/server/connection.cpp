@@ -176,7 +176,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
       if (request.count(header) > 1) return refuse(http::status::bad_request, "a header is there twice");
     if (!clients_->is_host(host)) return refuse(http::status::forbidden, "this is not the host asked for");
     if (request.method() == http::verb::get && clients_->take_entry(target)) return lead_to_the_page();
-    const Admission admission = admit(target, clients_->token);
+    // A proxy may add a query of its own, such as its user's token.
+    const Admission admission = admit(target.substr(0, target.find('?')), clients_->token);
     if (!admission.admitted)
       return refuse(http::status::forbidden, "the address lacks the token that meniscus printed");
     clients_->strangers.erase(stranger_);
