@@ -20,27 +20,16 @@ constexpr double kZoom = 1.1;
 constexpr double kUsualOcclusion = 1.0;    // share
 constexpr double kUsualSilhouettes = 1.5;  // pixels
 
+/// Keys of the program. Those that pages have, too, are in the stage's own list (exporters/page/page/page.html).
 constexpr KeyHelp kHelp[] = {
-    {"left drag, arrows", "turn"},
-    {"right drag, middle drag, shift + left drag", "shift"},
-    {"wheel", "zoom at the cursor"},
-    {"+  -", "zoom"},
-    {"click", "show the atom's data"},
-    {"double click", "centre on this point"},
-    {"r", "the first view"},
-    {"z  y", "undo, redo"},
-    {"o", "orthographic / perspective"},
+    {"Z  Y", "undo, redo"},
     {"[  ]", "probe radius by 0.1 \xc3\x85"},
     {"1 2 3 ...", "colour scheme"},
-    {"k", "colour by kind of patch"},
-    {"a", "shade"},
-    {"l", "lines"},
-    {"g", "legend"},
-    {"space", "play / pause"},
-    {",  .", "previous / next frame"},
-    {"e", "export this view"},
-    {"p", "panel"},
-    {"h", "this help"},
+    {"K", "colour by kind of patch"},
+    {"A", "shade"},
+    {"L", "lines"},
+    {"G", "legend in pictures"},
+    {"E", "name what is written"},
 };
 
 Json turned(double dx, double dy) { return {{"command", "orbit"}, {"dx", kTurn * dx}, {"dy", kTurn * dy}}; }

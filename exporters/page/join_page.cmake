@@ -1,6 +1,7 @@
-# Writes the page's files as pages have them: the script in two halves and the style, without indentation and without
-# lines that are comments alone, and the text, whose policy names the SHA-256 digests of both.
-# Run as: cmake -DFOLDER=<the page's own files> -DOUTPUT=<folder of page.html, page.css, first.js and second.js> -P join_page.cmake
+# Writes the stage's files as pages have them: the script in two halves and the style, without indentation and without
+# lines that are comments alone, the text, and the policy of a page in one file, which names the digests of both (SHA-256).
+# Run as: cmake -DFOLDER=<the stage's own files> -DOUTPUT=<folder of page.html, page.css, policy.html, first.js and
+# second.js> -P join_page.cmake
 
 # As policies have it (RFC 4648, section 4): 256 bits are 42 times two letters, a last one of four bits, and a sign.
 function(digest_of variable file)
@@ -23,7 +24,7 @@ endfunction()
 # The script is kept in two files, because C++ compilers need not take a text of more than 65,536 letters.
 set(script "// SPDX-License-Identifier: BSD-3-Clause\n\"use strict\";")
 set(first data camera light caster)
-set(second layers views frames png messages controls)
+set(second layers views frames png messages viewer controls)
 foreach(half first second)
   set(joined "")
   foreach(part IN LISTS ${half})
@@ -45,8 +46,6 @@ file(WRITE ${OUTPUT}/page.css "\n${style}")
 
 digest_of(SCRIPT_HASH ${OUTPUT}.js)
 digest_of(STYLE_HASH ${OUTPUT}/page.css)
-file(READ ${FOLDER}/page.html page)
-foreach(mark SCRIPT_HASH STYLE_HASH)
-  string(REPLACE "@${mark}@" "${${mark}}" page "${page}")
-endforeach()
-file(WRITE ${OUTPUT}/page.html "${page}")
+file(WRITE ${OUTPUT}/policy.html "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src ${SCRIPT_HASH}; \
+style-src ${STYLE_HASH}; img-src data: blob:; base-uri 'none'; form-action 'none'\">")
+configure_file(${FOLDER}/page.html ${OUTPUT}/page.html COPYONLY)

@@ -332,9 +332,10 @@ std::string PageWriter::text() const {
   std::vector<Filling> texts = first_.texts;
   const auto fill = [&](const char* mark, std::string text) { texts.push_back({mark, std::move(text)}); };
   fill("VERSION", MENISCUS_VERSION);
-  fill("STYLE", std::string(template_text(page_templates(), "page.css")));
-  fill("SCRIPT",
-       std::string(template_text(page_templates(), "first.js")).append(template_text(page_templates(), "second.js")));
+  fill("POLICY", std::string(template_text(page_templates(), "policy.html")));
+  fill("STYLE", fmt::format("<style>{}</style>", template_text(page_templates(), "page.css")));
+  fill("SCRIPT", fmt::format("<script>{}{}</script>", template_text(page_templates(), "first.js"),
+                             template_text(page_templates(), "second.js")));
   fill("BYTES", std::to_string(packed.size()));
   fill("DATA", text_of_bytes(packed));
   return filled(template_text(page_templates(), "page.html"), texts);

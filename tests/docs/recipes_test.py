@@ -124,17 +124,25 @@ def write_tools(folder):
 
 
 class Page:
-    """Runs the commands of one page in one folder, each block from the top of it."""
+    """Runs the commands of one page in one folder. Each block begins at the top of it; in a tutorial, which readers follow to
+    the letter, where the block before it ended, and only the inputs that the tutorial names are there."""
 
     def __init__(self, path, inputs, tools, folder):
         self.name, self.text, self.folder = path.relative_to(ROOT), path.read_text(), folder
         self.environment = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "HOME": str(folder)}
         self.faults, self.made, self.left_out = [], 0, []
-        shutil.copytree(inputs, folder)
+        self.is_tutorial = path.parent.name == "tutorials"
+        is_missing = lambda place, names: [name for name in names if self.is_tutorial and name not in self.named()]
+        shutil.copytree(inputs, folder, ignore=is_missing)
+
+    def named(self):
+        """The names of files in the page. A topology in PDB format stands in for the PSF file."""
+        return self.text.replace("adk.psf", "adk.pdb")
 
     def run(self):
+        here = self.folder
         for block in commands_of(self.text):
-            here = self.folder
+            here = here if self.is_tutorial else self.folder
             for command in block:
                 reason = why_not(command)
                 if reason:

@@ -142,7 +142,7 @@ class PageTest(PageCase):
             await self.load(page, self.export(part, "--size", "%dx%d" % SIZE, "--color", "residue", "--named-view", f"<b>Back</b>={camera}",
                                               "--named-view", f"Inside={self.path('inside.png')}"))
             names = await page.evaluate("[...document.querySelectorAll('#views button')].map((button) => button.textContent)")
-            self.assertEqual(names, ["First view", "<b>Back</b>", "Inside"])
+            self.assertEqual(names, ["Reset view", "<b>Back</b>", "Inside"])
             first = await page.evaluate("meniscus.camera")
             await page.evaluate("window.held = false, meniscus.waiting = 0, meniscus.figure.samples.length = 1, meniscus.change()")
             await page.at_rest(100)

@@ -2,7 +2,6 @@
 // Reads requests and commands within limits; answers with files of the page, a refusal, replies and pictures.
 #include "app/preview/server/connection.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -185,11 +184,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (admission.path == "socket") return open_socket();
     constexpr std::string_view kFiles = "files/";
     if (admission.path.starts_with(kFiles)) return send_file(admission.path.substr(kFiles.size()));
-    const std::string_view name = admission.path.empty() ? "index.html" : admission.path;
-    const auto files = page_files();
-    const auto file = std::ranges::find(files, name, &PageFile::path);
-    if (file == files.end()) return refuse(http::status::not_found, "there is no such page");
-    send(http::status::ok, content_type(name), file->content);
+    const std::optional<std::string> file = served_file(admission.path);
+    if (!file) return refuse(http::status::not_found, "there is no such page");
+    send(http::status::ok, content_type(admission.path), *file);
   }
 
   void open_socket() {
@@ -284,14 +281,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
 void serve_connection(boost::asio::ip::tcp::socket socket, const std::shared_ptr<Clients>& clients) {
   std::make_shared<Connection>(std::move(socket), clients)->read();
-}
-
-std::string_view content_type(std::string_view path) {
-  if (path.ends_with(".html")) return "text/html; charset=utf-8";
-  if (path.ends_with(".js")) return "text/javascript; charset=utf-8";
-  if (path.ends_with(".css")) return "text/css; charset=utf-8";
-  if (path.ends_with(".svg")) return "image/svg+xml";
-  return "text/plain; charset=utf-8";
 }
 
 }  // namespace meniscus

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files of the page, compiled into the program.
+// The files that browsers get: the stage, which exported pages have too, and what the preview adds to it.
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+
+#include "core/base/text.h"
 
 namespace meniscus {
 
-struct PageFile {
-  std::string_view path;  ///< "index.html", "page.js", ...
-  std::string_view content;
-};
+/// Returns the preview's own files, compiled into the program, by path: "program.js", ...
+std::span<const TemplateFile> page_files();
 
-/// All of them, by path.
-std::span<const PageFile> page_files();
+/// Returns the file of this path as browsers get it: "" is the page itself, "page.css" and "stage.js" are the stage's
+/// style and script. Returns nothing if there is no such file.
+std::optional<std::string> served_file(std::string_view path);
 
-/// "text/html; charset=utf-8", ... by the extension of a path.
+/// Returns "text/html; charset=utf-8" and the like by the extension of a path; that of "" is a page.
 std::string_view content_type(std::string_view path);
 
 }  // namespace meniscus

@@ -46,24 +46,27 @@ class Caster {
   /// Makes what a frame is drawn from: textures of its tables, and its primitives in groups.
   prepare(frame) {
     if (this.ready.has(frame.number)) return this.ready.get(frame.number);
-    const made = { textures: {}, ...this.grouped(frame.tables.primitives) };
+    const alike = (name) => [...this.ready.values()].find((other) => other.tables[name] === frame.tables[name]);
+    const made = { tables: frame.tables, textures: {}, grouped: alike("primitives")?.grouped ?? this.grouped(frame.tables.primitives) };
     for (const name of this.table_names().filter((table) => table in frame.tables))
-      made.textures[name] = this.table(frame.tables[name], kSingle.has(name));
+      made.textures[name] = alike(name)?.textures[name] ?? this.table(frame.tables[name], kSingle.has(name));
     this.ready.set(frame.number, made);
     return made;
   }
 
   /// The figure is at this frame now.
   show(frame) {
-    const { textures, ...others } = this.prepare(frame);
-    Object.assign(this, others, { tables: { ...textures, colors: this.tables.colors } });
+    const { textures, grouped } = this.prepare(frame);
+    Object.assign(this, grouped, { tables: { ...textures, colors: this.tables.colors } });
     this.set_scheme(this.scheme);
   }
 
   /// Another frame than the one that is shown.
   forget(number) {
-    for (const texture of Object.values(this.ready.get(number)?.textures ?? {})) this.gl.deleteTexture(texture);
+    const { textures = {} } = this.ready.get(number) ?? {};
     this.ready.delete(number);
+    const kept = new Set([...this.ready.values()].flatMap((frame) => Object.values(frame.textures)));
+    for (const texture of Object.values(textures)) if (!kept.has(texture)) this.gl.deleteTexture(texture);
   }
 
   texture(format) {

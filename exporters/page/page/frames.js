@@ -120,12 +120,5 @@ function follow_frames(viewer) {
   frames.tell();
   input.addEventListener("input", () => { frames.pause(); frames.show(Number(input.value)); });
   element("play").addEventListener("click", () => frames.toggle());
-  viewer.canvas.addEventListener("keydown", (event) => {
-    if (viewer.saving || event.ctrlKey || event.metaKey || event.altKey) return;
-    if (event.key === " ") frames.toggle();
-    else if (event.key === "PageUp" || event.key === "PageDown") frames.go(event.key === "PageUp" ? -1 : 1);
-    else return;
-    event.preventDefault();
-  });
   frames.look_ahead();
 }

@@ -16,12 +16,12 @@ class LayeredCaster extends Caster {
   show(frame) {
     super.show(frame);
     this.layers = { ...this.layers, ...frame.layers };
-    this.surface_atoms = Uint32Array.from({ length: this.layers.surface_atoms }, (_, n) => n);
+    this.surface_atoms = Uint32Array.from({ length: frame.layers?.surface_atoms ?? 0 }, (_, n) => n);
   }
 
   /// planes: [x, y, z, w] each, kept is where dot(xyz, x) < w; hatching: of each; opacity: times that of the atoms.
   set_layers(planes, hatching, opacity) {
-    Object.assign(this.layers, { planes, hatching, opacity, seen_through: this.figure.layers.seen_through || opacity < 1 ? 1 : 0 });
+    Object.assign(this.layers, { planes, hatching, opacity, seen_through: this.figure.layers && (this.figure.layers.seen_through || opacity < 1) ? 1 : 0 });
   }
 
   /// Whether the surface is cut or seen through; else it is cast at once.

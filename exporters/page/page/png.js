@@ -5,6 +5,13 @@ const kMostPngPixels = 64e6;
 /// A picture no larger than `whole` along a side is one tile. Lengths: pixels.
 const kTiles = { whole: 2048, tile: 1024 };
 
+/// Puts a file into the browser's downloads.
+function download(blob, name) {
+  const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
 const later = () => new Promise((go) => setTimeout(go));
 
 /// Pixels of a tile, rows from the top, without its margin.
@@ -65,6 +72,7 @@ async function draw_png(viewer, size, tell) {
 
 function follow_png(viewer) {
   const button = element("save"), input = element("width"), words = button.textContent;
+  element("write").addEventListener("submit", (event) => event.preventDefault());
   input.addEventListener("focus", () => {
     element("widths").replaceChildren(...[1, 2, 4].map((times) => new Option("", times * viewer.pixels()[0])));
   });
@@ -76,18 +84,14 @@ function follow_png(viewer) {
     if (width < 16 || width > most) return say(`The width of a PNG of this view is 16 to ${most} pixels.`);
     say("");
     button.textContent = "Stop";
-    const others = [...element("controls").children, element("frames")].filter((child) => child !== button);
+    const others = [element("sections"), input.parentElement];
     for (const other of others) other.inert = true;
     const tell = (done, all) => { element("picked").textContent = `Drawing ${size[0]} × ${size[1]} pixels: ${Math.floor(100 * done / all)} %`; };
     try {
       const png = await draw_png(viewer, size, tell);
       element("picked").textContent = png ? "The PNG is drawn." : "Nothing is saved.";
       if (!png) return;
-      const link = document.createElement("a");
-      link.href = URL.createObjectURL(png);
-      link.download = `${(viewer.figure.title.match(/[\w-]+/g) ?? ["figure"]).join("_")}.png`;
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+      download(png, `${(viewer.figure.title.match(/[\w-]+/g) ?? ["figure"]).join("_")}.png`);
     } catch (error) {
       say(`This device cannot draw so large a PNG; choose a smaller width. (${error.message})`);
     } finally {

@@ -35,7 +35,7 @@ function glide(viewer, to) {
 function follow_views(viewer) {
   const show = (number) => {
     const view = viewer.figure.views[number];
-    Object.assign(viewer, { view_number: number, cut: null, opacity: view.opacity });
+    Object.assign(viewer, { view_number: number, cut: null, depth: 0, opacity: view.opacity });
     Object.assign(element("cut"), { value: 0 });
     Object.assign(element("opacity"), { value: 100 * view.opacity });
     element("projection").value = projection_of(view.camera);

@@ -39,7 +39,7 @@ function plane_range(plane, state) {
 
 /// Shows what the figure has, each with its controls; command(word, values) changes it. Returns show(state), and
 /// forget_fault(), which takes back what was said of the atoms.
-export function figure_controls(command, say) {
+export function figure_controls({ command, say, viewer }) {
   let known = "";  // what the chips show: they are made anew when there are others, not when a slider moves
 
   const fault = (text) => {
@@ -64,22 +64,24 @@ export function figure_controls(command, say) {
     if (reply?.atoms !== undefined) say(`${reply.atoms.toLocaleString("en")} atoms`);
   });
 
-  for (const axis of ["depth", "x", "y", "z"])
-    $(`cut-${axis}`).addEventListener("click", () => {
-      const a = "xyz".indexOf(axis);
-      const bound = a < 0 ? 0.5 : Math.round(5 * (latest.low[a] + latest.high[a])) / 10;
-      command("cut", { plane: `${axis}>${bound}` });
-    });
+  ["x", "y", "z"].forEach((axis, a) => $(`cut-${axis}`).addEventListener("click", () =>
+    command("cut", { plane: `${axis}>${Math.round(5 * (latest.low[a] + latest.high[a])) / 10}` })));
+  $("cut").addEventListener("input", () => cut_by($("cut").valueAsNumber / 100));
+  $("cut-with").addEventListener("change", () => { if (latest.cuts[slider_cut(latest)]) cut_by($("cut").valueAsNumber / 100, true); });
+  $("opacity").addEventListener("input", () => {
+    const opacity = $("opacity").valueAsNumber / 100, index = latest.opacities.findIndex((rule) => rule.selection === undefined);
+    command("opacity", index < 0 ? { opacity } : { opacity, index });
+  });
   $("surface-shown").addEventListener("change", (event) =>
     command("set", { key: "hide_surface", value: !event.target.checked }).then((reply) => { if (!reply) event.target.checked = true; }));
-  $("film").addEventListener("change", (event) => command("set", { key: "film_opacity", value: event.target.checked }));
+  $("rims").addEventListener("change", (event) => command("set", { key: "film_opacity", value: event.target.checked }));
   $("cap").addEventListener("change", (event) =>
     command("set", { key: "cap_color", value: event.target.value === "own" ? $("cap-color").value : event.target.value }));
   $("cap-color").addEventListener("input", (event) => command("set", { key: "cap_color", value: event.target.value }));
   $("hatching").addEventListener("input", (event) => command("set", { key: "cap_hatching", value: event.target.valueAsNumber }));
   $("undo").addEventListener("click", () => command("undo"));
   $("redo").addEventListener("click", () => command("redo"));
-  $("legend").addEventListener("change", (event) =>
+  $("legend-on").addEventListener("change", (event) =>
     command("legend", { on: event.target.checked }).then((reply) => { if (!reply) event.target.checked = false; }));
   $("legend-title").addEventListener("change", (event) => command("legend", { title: event.target.value || null }));
   $("legend-place").addEventListener("change", (event) => command("legend", { place: event.target.value }));
@@ -92,6 +94,25 @@ export function figure_controls(command, say) {
   });
 
   let latest = null;
+  let own_plane = "";  // the last one that the slider placed with the molecule
+
+  /// Which of the planes the slider moves: the one with the view, or the last one that it placed with the molecule.
+  const slider_cut = ({ cuts }) => cuts.findIndex((plane) => /^depth>/.test(plane) || plane === own_plane);
+
+  /// Cuts away a share of the molecule. again: across the view as it is now.
+  function cut_by(share, again = false) {
+    const index = slider_cut(latest), before = latest.cuts[index];
+    if (share === 0) return before && command("remove", { of: "cuts", index });
+    let plane = `depth>${share}`;
+    if ($("cut-with").value === "molecule") {
+      const direction = !again && before === own_plane ? own_plane.match(kPlane)[1] : basis_of(viewer().camera).forward.map((x) => x.toFixed(4)).join();
+      const { min, max } = plane_range(`${direction}>0`, latest);
+      plane = own_plane = `${direction}>${(min + share * (max - min)).toFixed(2)}`;
+    }
+    if (before) latest.cuts[index] = plane;  // the next change may come before the reply
+    return command("cut", before ? { plane, index } : { plane });
+  }
+
   const chip = (what, of, index, ...more) =>
     element("li", {}, element("span", { textContent: what }),
       remove_button(what, () => command("remove", { of, index })), ...more);
@@ -139,11 +160,13 @@ export function figure_controls(command, say) {
       list.push(chip(`${rule.slice(at + 1)}: ${rule.slice(0, at)}`, "rules", n));
     });
     state.opacities.forEach(({ opacity, selection }, index) => {
-      const what = `see through: ${selection ?? "all"}`;
+      if (selection === undefined) return;  // the slider of all
+      const what = `see through: ${selection}`;
       list.push(chip(what, "opacities", index, slider(`Opacity, ${what}`, { min: 0, max: 1, step: 0.05, value: opacity },
         (value) => command("opacity", { opacity: value, index }))));
     });
     state.cuts.forEach((plane, index) => {
+      if (index === slider_cut(state)) return;
       const range = plane_range(plane, state);
       const more = [];
       if (range) {
@@ -179,12 +202,17 @@ export function figure_controls(command, say) {
     if (shape !== known) {
       known = shape;
       $("chips").replaceChildren(...chips(state));
-      $("views").replaceChildren(...views(state));
+      $("kept-views").replaceChildren(...views(state));
     }
     $("surface-shown").checked = !state.surface_hidden;
     $("surface-shown").parentElement.hidden = state.representations.length + state.objects.length === 0;
-    $("film").checked = state.film_opacity;
-    $("film").parentElement.hidden = state.opacities.length === 0;
+    $("rims").checked = state.film_opacity;
+    $("rims").parentElement.hidden = state.opacities.length === 0;
+    const of_all = state.opacities.find((rule) => rule.selection === undefined), cut = state.cuts[slider_cut(state)];
+    if ($("opacity") !== document.activeElement) $("opacity").value = 100 * (of_all?.opacity ?? 1);
+    if ($("cut") !== document.activeElement && !cut) $("cut").value = 0;
+    if ($("cut") !== document.activeElement && /^depth>/.test(cut)) $("cut").value = 100 * cut.slice(6);
+    if (cut) $("cut-with").value = /^depth>/.test(cut) ? "view" : "molecule";
     const named = [...$("cap").options].some((option) => option.value === state.cap.color);
     $("cap").value = named ? state.cap.color : "own";
     $("cap-color-row").hidden = named;
@@ -194,7 +222,7 @@ export function figure_controls(command, say) {
     $("cap-color-row").hidden ||= state.cuts.length === 0;
     $("undo").disabled = state.undo === 0;
     $("redo").disabled = state.redo === 0;
-    $("legend").checked = state.legend.on;
+    $("legend-on").checked = state.legend.on;
     for (const row of document.querySelectorAll(".of-legend")) row.hidden = !state.legend.on;
     if ($("legend-title") !== document.activeElement) $("legend-title").value = state.legend.title ?? "";
     $("legend-place").value = state.legend.place;

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The page: input becomes commands, pictures become pixels, and the controls show what the server says.
+// What the program adds to the stage: its sections, and commands from input; pictures and state from what it says.
 import { answers, Connection } from "./connection.js";
 import { figure_controls } from "./figure.js";
 import { follow_lamp, place_lamp } from "./lamp.js";
-import { follow_pointer, follow_keys } from "./motion.js";
+import { Pictures } from "./pictures.js";
 import { strip_controls } from "./strip.js";
+import { write_controls } from "./write.js";
 
-const $ = (id) => document.getElementById(id);
+const $ = element;
+place_sections();
+remember_sections(["cutting", "viewing"]);
+
 const canvas = $("picture"), stage = $("stage");
 const numbered = new Set();  // colour schemes that take a map
 const strengths = [];  // keys of the look that have a slider
-let state = null;      // what the server shows
+let viewer = null;     // from the first state on
+let state = null;      // what the program shows
 let told_states = 0;   // how many states were asked for and told
 let controls = false;  // does this page decide?
 let shown = null;      // the message of the picture in the canvas
@@ -20,16 +25,16 @@ let newest = 0;        // the revision of the latest reply
 let actions = null;    // of keys which are the page's, by their names
 
 const server = new Connection({
-  picture: show_picture,
+  picture: show_program_picture,
   welcome: async (message) => {
     set_role(message.controls);
     server.ask({ command: "choices" }).then(fill_choices);
-    server.ask({ command: "export_state" }).then((told) => { if (told.running) follow_export(); });
+    writing.begin();
     await fit();  // before a picture is asked for, which would have another size
   },
   role: (message) => { set_role(message.controls); fit(); },
   progress: (message) => say_working(message.what),
-  error: (message) => { apply_state(message.state); say(message.error, true); },
+  error: (message) => { apply_state(message.state); tell(message.error, true); },
   ended: (message) => { end(message.error ?? "The preview has ended.", Boolean(message.error)); },
   lost: () => {
     end("The connection to the preview is lost; trying again …", true);
@@ -37,9 +42,22 @@ const server = new Connection({
   },
 });
 
+/// The program's sections, each in its place of the stage.
+function place_sections() {
+  for (const part of $("program").content.children) {
+    const { before, in: within } = part.dataset;
+    if (before) $(before).before(...part.childNodes);
+    else $(within).append(...part.childNodes);
+  }
+  $("about").hidden = true;
+  $("controls").hidden = false;
+  $("controls").disabled = true;
+  $("write").noValidate = false;
+}
+
 const kStep = 700;  // ms without a command, after which the next is a step of its own for undo
 const tells_only = new Set(["pick", "export", "export_state", "cancel_export", "save", "render_command", "end_step", "undo", "redo"]);
-const changes_state = new Set(["key", "save_view", "forget_view", "keep_scene", "forget_scene", "play", "pause", "save"]);
+const changes_state = new Set(["key", "save_view", "forget_view", "keep_scene", "forget_scene", "time_scene", "play", "pause", "save"]);
 let last_change = 0;
 
 /// What an error says, without the word of its command, which is a program's and no reader's.
@@ -47,7 +65,8 @@ const sentence_of = (error, word) => error.startsWith(`${word}: `) ? error.slice
 
 /// Carries out a command; a refusal is said, to the controls it came from if they can tell it. Returns the reply, or
 /// null.
-async function command(word, values = {}, refuse = (text) => say(text, true)) {
+async function command(word, values = {}, refuse = (text) => tell(text, true)) {
+  if (word !== "camera") tell_camera();
   if (!tells_only.has(word)) {
     const now = performance.now();
     if (now - last_change > kStep) server.ask({ command: "end_step" });
@@ -65,6 +84,12 @@ async function command(word, values = {}, refuse = (text) => say(text, true)) {
   return reply.ok ? reply : null;
 }
 
+/// Asks the program what it has, with the camera that is seen here.
+function ask(question) {
+  tell_camera();
+  return server.ask(question);
+}
+
 /// Shows what changed without a new picture.
 async function ask_state() {
   const next = await server.ask({ command: "state" });
@@ -73,18 +98,54 @@ async function ask_state() {
   apply_state(next);
 }
 
-/// At rest the canvas shows, in full, what all commands came to.
+/// At rest the stage shows, in full, what all commands came to.
 const is_at_rest = () => Boolean(shown?.full) && outstanding === 0 && shown.state.revision >= newest;
 function note_rest() { canvas.dataset.rest = String(is_at_rest()); }
 
 $("take").addEventListener("click", () => server.request("control"));
 
+// The camera, which moves here and is told to the program
+
+let told_text = "";   // the camera that both have
+let adopted = "";     // the program's, as it was told last
+let flights = 0;      // cameras without a reply
+
+/// The camera as files have it, in the molecule's coordinates.
+function file_camera() {
+  const { projection, vertical_fov, height, ...place } = told_camera(viewer.camera, viewer.figure.origin);
+  return { ...place, projection, ...(projection === "perspective" ? { vertical_fov } : { height }) };
+}
+
+function tell_camera() {
+  if (!viewer || !controls) return;
+  const camera = file_camera(), text = JSON.stringify(camera);
+  if (text === told_text) return;
+  told_text = text;
+  ++flights;
+  command("camera", { camera }).then(() => { --flights; tell_camera(); });
+}
+
+/// Takes the program's camera, unless it has not heard of a newer one from here.
+function adopt_camera({ camera, revision }) {
+  const text = JSON.stringify(camera);
+  if (text === adopted || flights > 0 || revision < newest || JSON.stringify(file_camera()) !== told_text) return;
+  adopted = text;
+  viewer.gliding = null;
+  viewer.camera = page_camera(camera);
+  told_text = JSON.stringify(file_camera());
+  $("projection").value = projection_of(viewer.camera);
+}
+
+const page_camera = (camera, now = { fov: 30, height: 1 }, origin = [0, 0, 0]) =>
+  asked_camera({ vertical_fov: now.fov, height: now.height, ...camera }, now, origin);
+
 // Messages
 
 let message_timer = 0;
 let working = null;  // what is done before the first picture, and since when
+let stays = true;    // does what is said stay until another takes its place by say_anew()?
 const kAgain = "meniscus connected again";  // in the session's storage
-say("The first picture …", false, true);
+say("The first picture …", { is_error: false });
 setInterval(() => { if (working) say_working(working.what); }, 1000);
 
 /// What takes long, and how long it has by now.
@@ -96,24 +157,16 @@ function say_working(what) {
   $("message").dataset.seconds = seconds < 1 ? "" : ` ${seconds} s`;  // which nobody wants to hear each time
 }
 
-/// A line over the picture, for some seconds or until another takes its place by say_anew().
-function say(text, is_error = false, stays = false) {
-  const box = $("message");
-  const { classList } = box;
-  if (classList.contains("stays") && (classList.contains("error") || !is_error)) return;
-  box.textContent = text;
-  delete box.dataset.seconds;
-  box.classList.toggle("error", is_error);
-  box.classList.toggle("stays", stays);
-  box.hidden = !text;
-  clearTimeout(message_timer);
-  if (!stays) message_timer = setTimeout(() => { box.hidden = true; }, 6000);
+/// Says a sentence over the picture for some seconds, or until another takes its place by say_anew().
+function tell(text, is_error = false, for_good = false) {
+  if (stays && ($("message").classList.contains("error") || !is_error)) return;
+  stays = for_good;
+  say(text, { is_error, seconds: for_good ? 0 : 6 });
 }
 
 /// What was wrong with an earlier command, once another one has worked.
 function forget_errors() {
-  const { classList } = $("message");
-  if (classList.contains("error") && !classList.contains("stays")) $("message").hidden = true;
+  if ($("message").classList.contains("error") && !stays) $("message").hidden = true;
   figure.forget_fault();
 }
 
@@ -135,15 +188,15 @@ async function connect_again() {
 function end(text, is_error) {
   working = null;
   say_anew("");
-  say(text, is_error, true);
+  tell(text, is_error, true);
   $("controls").disabled = true;
 }
 
 /// In place of one that stays.
 function say_anew(text, is_error = false) {
-  $("message").classList.remove("stays");
+  stays = false;
   allow_controls();
-  say(text, is_error);
+  tell(text, is_error);
 }
 
 function set_role(in_control) {
@@ -157,15 +210,11 @@ function allow_controls() { $("controls").disabled = !controls || !state; }
 
 // Pictures
 
-async function show_picture(message, bytes) {
+const pictures = new Pictures($("pictures"), ask, () => state);
+
+async function show_program_picture(message, bytes) {
   const blob = new Blob([bytes], { type: message.type }), before = told_states;
-  const bitmap = await createImageBitmap(blob, { colorSpaceConversion: "none" });
-  const { width, height } = message.state;
-  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-  const context = canvas.getContext("2d", { alpha: false });
-  context.imageSmoothingQuality = "high";
-  context.drawImage(bitmap, 0, 0, width, height);
-  bitmap.close();
+  await pictures.show(blob, message.state);
   if (message.balls) {
     say_working(`Computing the surface of ${message.state.atoms.toLocaleString("en")} atoms`);
   } else if (!shown || working) {
@@ -182,26 +231,22 @@ async function show_picture(message, bytes) {
   if (told_states === before || message.state.revision > state.revision) apply_state(message.state);
 }
 
+$("times").addEventListener("toggle", () => { $("fps").hidden = !$("times").open; });
+
 let moving = "";  // pictures a second, of the last one that was not full
 function show_stats(stats, full) {
   const ms = (value) => `${value < 10 ? value.toFixed(1) : Math.round(value)} ms`;
-  if (!full && Number(canvas.dataset.pictures) > 2) moving = `${stats.fps < 10 ? stats.fps.toFixed(1) : Math.round(stats.fps)} fps`;
+  if (!full && Number(canvas.dataset.pictures) > 2) moving = `${stats.fps < 10 ? stats.fps.toFixed(1) : Math.round(stats.fps)} a second`;
   const rest = full ? `full picture in ${ms(stats.frame_milliseconds)}` : "";
   $("fps").textContent = [moving, rest].filter(Boolean).join(" · ");
   const grown = stats.radii_grown_by > 0 ? [["radii grown for ties by up to", `${stats.radii_grown_by.toExponential(1)} \u00c5`]] : [];
-  fill_list($("stages"), [...grown, ...stats.stages.map((stage) => [stage.name, ms(stage.milliseconds)]),
-    ["encoding", ms(stats.encode_milliseconds)]]);
+  $("stages").replaceChildren(...rows_of([...grown, ...stats.stages.map((stage) => [stage.name, ms(stage.milliseconds)]),
+    ["encoding", ms(stats.encode_milliseconds)]]));
 }
 
-/// Rows of term and text.
-function fill_list(list, rows) {
-  list.replaceChildren(...rows.flatMap(([term, text]) => {
-    const [dt, dd] = [document.createElement("dt"), document.createElement("dd")];
-    dt.textContent = term;
-    dd.textContent = text;
-    return [dt, dd];
-  }));
-}
+/// Terms and texts of a list.
+const rows_of = (rows) => rows.flatMap((row) => row.map((text, n) =>
+  Object.assign(document.createElement(n === 0 ? "dt" : "dd"), { textContent: text })));
 
 /// The server draws as many pixels as the canvas has on this screen.
 function fit() {
@@ -216,22 +261,46 @@ new ResizeObserver(fit).observe(stage);
 
 // State
 
-const figure = figure_controls(command, (text) => say(text));
-const show_strip = strip_controls(command);
+const context = { command, ask, say: (text, is_error) => tell(text, is_error), viewer: () => viewer };
+const figure = figure_controls(context);
+const show_strip = strip_controls(context);
+const writing = write_controls({ ...context, picture: () => is_at_rest() ? full_picture : null, changed: ask_state });
 
 /// Unless somebody is at it: what is typed, or dragged ahead of the pictures, stays.
-function set_value(element, value) {
-  if (element !== document.activeElement || (element.type === "range" && outstanding === 0)) element.value = value;
+function set_value(control, value) {
+  if (control !== document.activeElement || (control.type === "range" && outstanding === 0)) control.value = value;
+}
+
+/// The stage begins with the program's pictures.
+function begin(first) {
+  const { size, ...others } = { size: [first.width, first.height], origin: [0, 0, 0], labels: [], schemes: [], samples: [], number: -1 };
+  viewer = window.meniscus = new Viewer({ size, ...others, background: [1, 1, 1],
+    views: [{ camera: page_camera(first.camera), planes: [], hatching: [], opacity: 1 }] }, pictures);
+  viewer.rest = note_rest;
+  viewer.changed = () => { if (flights === 0) tell_camera(); };
+  viewer.picked = tell_of_atom;
+  told_text = JSON.stringify(file_camera());
+  follow_pointer(viewer);
+  follow_keys(viewer, (key) => {
+    if (!controls || !actions || (key.length > 1 && !key.startsWith("Arrow"))) return false;
+    // At once: what is typed behind the key that opens a field is for the field, however late the session replies.
+    if (actions[key.toLowerCase()] === "export") { document.body.classList.remove("bare"); $("export-name").focus(); $("export-name").select(); }
+    else command("press", { key });
+    return true;
+  });
 }
 
 function apply_state(next) {
   const is_first = !state;
   state = next;
-  if (is_first) allow_controls();
+  if (is_first) { allow_controls(); begin(next); }
   canvas.dataset.state = JSON.stringify(next);
+  viewer.figure.size = [next.width, next.height];
+  adopt_camera(next);
   const name = next.file.split("/").pop();
   document.title = `${name} · Meniscus`;
-  $("file").textContent = `${name}, ${next.atoms.toLocaleString("en")} atoms`;
+  document.querySelector("h1").textContent = name;
+  $("file").textContent = `${next.atoms.toLocaleString("en")} atoms`;
   set_value($("surface-kind"), next.surface);
   $("probe").disabled = $("probe-number").disabled = next.surface === "vdw";
   set_value($("probe"), next.probe_radius);
@@ -240,22 +309,23 @@ function apply_state(next) {
   set_value($("map"), next.color.map ?? "");
   $("map-row").hidden = $("range-row").hidden = !numbered.has(next.color.scheme);
   set_value($("range"), next.color.range ?? "");
-  $("map").options[0].text = next.color.own_map ? "the file's" : "its own";
+  if ($("map").options[0]) $("map").options[0].text = next.color.own_map ? "the file's" : "its own";
   set_value($("preset"), next.preset);
   figure.show(next);
   show_strip(next);
-  take_wishes(next);
+  writing.show(next);
   $("kinds").checked = next.patch_kinds;
   $("kinds-key").hidden = !(next.patch_kinds || next.color.scheme === "kind");
-  set_value($("projection"), next.camera.projection);
   set_value($("background"), next.look.background);
   stage.style.background = next.look.background;
   for (const key of strengths) set_value($(key), next.look[key]);
+  $("shade").checked = next.look.ambient_occlusion > 0;
+  $("lines").checked = next.look.silhouettes > 0;
   place_lamp($("lamp"), next.look.light_direction);
   $("frames").hidden = next.frames < 2;
   $("frame").max = next.frames - 1;
   set_value($("frame"), next.frame);
-  $("frame-number").textContent = `${next.frame + 1} of ${next.frames}`;
+  $("moment").textContent = `${next.frame + 1} of ${next.frames}`;
   $("play").textContent = next.playing && !next.strip.playing ? "Pause" : "Play";
   $("key").textContent = is_key(next) ? "Remove key" : "Set key";
   $("save-path").disabled = next.keys.length === 0;
@@ -275,11 +345,10 @@ function fill_choices(choices) {
   $("map").add(new Option("its own", ""));
   for (const map of choices.maps) $("map").add(new Option(map, map));
   choices.sliders.forEach(add_slider);
-  if (state) for (const key of strengths) set_value($(key), state.look[key]);
   $("shapes").prepend(...choices.representations.map((as) =>
-    Object.assign(document.createElement("button"), { name: "do", value: as, textContent: as })));
+    Object.assign(document.createElement("button"), { name: "do", value: as, textContent: as[0].toUpperCase() + as.slice(1) })));
   for (const preset of choices.presets) $("preset").add(new Option(preset, preset));
-  fill_list($("help").querySelector("dl"), choices.keys.map(({ keys, what }) => [what, keys]));
+  $("keys").append(...rows_of(choices.keys.map(({ keys, what }) => [keys, what])));
   if (state) apply_state(state);
 }
 
@@ -305,8 +374,9 @@ $("range").addEventListener("change", set_color);
 $("preset").addEventListener("change", (event) => command("preset", { preset: event.target.value }));
 $("map").addEventListener("change", set_color);
 $("kinds").addEventListener("change", (event) => command("patch_kinds", { on: event.target.checked }));
-$("projection").addEventListener("change", (event) => command("projection", { projection: event.target.value }));
+$("projection").addEventListener("change", (event) => set_projection(viewer, event.target.value === "orthographic"));
 $("background").addEventListener("input", (event) => command("look", { background: event.target.value }));
+for (const [id, key] of [["shade", "a"], ["lines", "l"]]) $(id).addEventListener("change", () => command("press", { key }));
 function add_slider({ key, label, end, help }) {
   const slider = Object.assign(document.createElement("input"), { id: key, type: "range", min: 0, max: end, step: end > 2 ? 0.5 : 0.05 });
   slider.addEventListener("input", () => command("look", { [key]: slider.valueAsNumber }));
@@ -320,7 +390,7 @@ $("reset").addEventListener("click", () => command("reset_view"));
 $("zoom-form").addEventListener("submit", async (event) => {
   event.preventDefault();
   const reply = await command("zoom_to", { selection: $("selection").value });
-  if (reply) say(`${reply.atoms.toLocaleString("en")} atoms`);
+  if (reply) tell(`${reply.atoms.toLocaleString("en")} atoms`);
 });
 $("frame").addEventListener("input", (event) => command("frame", { index: event.target.valueAsNumber }));
 const is_key = ({ keys, frame_number }) => keys.some((key) => key.frame === frame_number);
@@ -334,161 +404,51 @@ $("rate").addEventListener("change", () => { if (state?.playing) command("play",
 
 // Atoms under the cursor
 
-const area_text = (area) => area === null ? "" : ` · ${area.toFixed(2)} Å² exposed`;
-const kind_text = (kind) => ["cap", "shape"].includes(kind) ? kind : `${kind} patch`;
+const kHoverRest = 120;  // ms that the pointer rests before an atom is named
 let hovered = 0;  // number of the latest hover; older answers are late
 
-async function hover(pixel, place, more = 10) {
+canvas.addEventListener("pointermove", (event) => {
   const number = ++hovered;
-  const tip = $("tip");
-  if (!pixel || !is_at_rest()) { tip.hidden = true; return; }
-  const found = await server.ask({ command: "pick", ...pixel, wait: false, area: false });
-  if (number !== hovered) return;
-  tip.hidden = !(found.ok && found.hit);
-  if (tip.hidden) return;
-  tip.children[0].textContent = found.place;
-  tip.children[1].textContent = kind_text(found.kind) + area_text(found.exposed_area);
-  const left = Math.min(place.x + 14, stage.clientWidth - tip.offsetWidth - 8);
-  const top = Math.min(place.y + 16, stage.clientHeight - tip.offsetHeight - 8);
-  tip.style.transform = `translate(${Math.max(left, 0)}px, ${Math.max(top, 0)}px)`;
+  $("tip").hidden = true;
+  if (event.buttons === 0) setTimeout(() => { if (number === hovered) hover(event, number); }, kHoverRest);
+});
+for (const kind of ["pointerdown", "pointerleave"])
+  canvas.addEventListener(kind, () => { ++hovered; $("tip").hidden = true; });
+canvas.addEventListener("pointerdown", () => { last_change = 0; });
+
+async function hover(event, number, more = 10) {
+  if (canvas.dataset.rest !== "true") return;
+  const found = await viewer.pick(event.clientX, event.clientY);
+  if (number !== hovered || !found) return;
+  const tip = $("tip"), area = found.exposed_area;
+  tip.hidden = false;
+  tip.children[0].textContent = found.label;
+  tip.children[1].textContent = found.what + (typeof area === "number" ? ` · ${area.toFixed(2)} Å² exposed` : "");
+  const { left, top } = stage.getBoundingClientRect();
+  const x = Math.min(event.clientX - left + 14, stage.clientWidth - tip.offsetWidth - 8);
+  const y = Math.min(event.clientY - top + 16, stage.clientHeight - tip.offsetHeight - 8);
+  tip.style.transform = `translate(${Math.max(x, 0)}px, ${Math.max(y, 0)}px)`;
   // Where it is cheap the area comes soon.
-  if (found.area_follows && more > 0) setTimeout(() => { if (number === hovered) hover(pixel, place, more - 1); }, 300);
+  if (found.area_follows && more > 0) setTimeout(() => { if (number === hovered) hover(event, number, more - 1); }, 300);
 }
 
-let picked = 0;  // number of the latest click
+let clicked = 0;  // number of the latest click
 
 /// Tells of an atom at once, and of its area when that is known.
-async function pick(pixel) {
-  const number = ++picked;
-  const revision = newest;
-  for (;;) {
-    const found = await server.ask({ command: "pick", ...pixel, wait: false });
-    if (number !== picked) return;
-    const rows = found.hit ? [
-      ["place", found.place], ["element", found.element], ["what", found.kind],
-      ["position", found.position.map((x) => x.toFixed(2)).join(", ")],
-    ] : [];
-    const waits = found.hit && found.area_follows;
-    if (found.hit && (waits || found.exposed_area !== null))
-      rows.splice(3, 0, ["exposed", waits ? "…" : `${found.exposed_area.toFixed(3)} Å²`]);
-    $("picked").hidden = rows.length === 0;
-    fill_list($("picked").querySelector("dl"), rows);
-    if (!waits) return;
+async function tell_of_atom(found) {
+  const number = ++clicked, revision = newest;
+  while (found && number === clicked && newest === revision) {
+    found = await pictures.pick(found.x, found.y, {}) ?? found;
+    if (number !== clicked) return;
+    const area = found.area_follows ? "…" : typeof found.exposed_area === "number" ? `${found.exposed_area.toFixed(3)} Å²` : null;
+    const list = document.createElement("dl");
+    list.append(...rows_of([["what", found.what], ["element", found.element], ...(area ? [["exposed", area]] : []),
+      ["position", found.position.map((x) => x.toFixed(2)).join(", ")]]));
+    $("picked").replaceChildren(Object.assign(document.createElement("strong"), { textContent: found.label }), list);
+    if (!found.area_follows) return;
     await new Promise((resolve) => setTimeout(resolve, 300));
-    if (number !== picked || newest !== revision) return;  // something else is there by now
   }
 }
-
-follow_pointer(canvas, {
-  command: (...values) => { if (controls) command(...values); }, hover, pick,
-  center: (pixel) => { if (controls) command("center", pixel); },
-  begin: () => { last_change = 0; },
-});
-
-// Saving
 
 /// The server keeps the figure, but nobody may come back to it.
 window.addEventListener("beforeunload", (event) => { if (controls && state?.unsaved) event.preventDefault(); });
-
-function download(blob, name) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-}
-
-const stem = () => state.file.split("/").pop().replace(/\.[^.]*$/, "").replace(/[^A-Za-z0-9_-]+/g, "_") || "view";
-const save_picture = () => is_at_rest() ? download(full_picture, `${stem()}.png`) : say("One moment: the picture is not finished.");
-$("save-png").addEventListener("click", save_picture);
-$("save-camera").addEventListener("click", () => {
-  download(new Blob([JSON.stringify(state.camera, null, 2) + "\n"], { type: "application/json" }), `${stem()}_camera.json`);
-});
-$("save-path").addEventListener("click", () => {
-  download(new Blob([JSON.stringify({ keys: state.keys }, null, 2) + "\n"], { type: "application/json" }), `${stem()}_camera_path.json`);
-});
-$("export-form").addEventListener("submit", async (event) => {
-  event.preventDefault();
-  const format = event.submitter?.value ?? "png";
-  const ending = { png: ".png", film: ".mp4", povray: "", blender: ".mns" }[format];
-  const reply = await command("export", { format, path: $("export-name").value + ending, force: $("export-force").checked,
-    wait: false, ...wishes() });
-  if (reply) follow_export();
-});
-
-/// Shows how far the export is until it is done; the picture can be turned meanwhile.
-async function follow_export() {
-  $("job").hidden = false;
-  for (const button of document.querySelectorAll("#export-form button")) button.disabled = true;
-  let told = { running: true };
-  while (told.running) {
-    told = await server.ask({ command: "export_state" });
-    $("job-text").textContent = `Writing ${told.path?.split("/").pop() ?? ""}: ${told.stage ?? "begin"}, ${Math.round(told.seconds ?? 0)} s`;
-    $("job-share").value = told.share ?? 0;
-    if (told.running) await new Promise((resolve) => setTimeout(resolve, 250));
-  }
-  $("job").hidden = true;
-  for (const button of document.querySelectorAll("#export-form button")) button.disabled = false;
-  ask_state();
-  if (told.error) say(sentence_of(told.error, "export"), true);
-  else if (told.path) say([`Written: ${told.path}`, told.note, told.render_with && `render it with: ${told.render_with}`]
-    .filter(Boolean).join("; "));
-}
-$("job-cancel").addEventListener("click", () => command("cancel_export"));
-
-$("scene-form").addEventListener("submit", async (event) => {
-  event.preventDefault();
-  const path = `${$("scene-name").value}.json`;
-  const opens = event.submitter?.value === "open";
-  const reply = opens ? await command("open", { path })
-    : await command("save", { path, force: $("export-force").checked, ...wishes() });
-  if (reply) say(`${opens ? "Opened" : "Written"}: ${reply.path}`);
-});
-
-/// What a scene asks of pictures, until somebody types something else.
-let taken_wishes = "";
-function take_wishes(next) {
-  const told = JSON.stringify(next.export);
-  if (told === taken_wishes) return;
-  taken_wishes = told;
-  for (const key of ["width", "height", "samples"]) $(`export-${key}`).value = next.export[key] ?? "";
-  $("export-transparent").checked = next.export.transparent;
-}
-
-/// What is asked of an exported picture.
-function wishes() {
-  const wish = { samples: $("export-samples").valueAsNumber || state.samples };
-  wish.transparent = $("export-transparent").checked;
-  const [width, height] = [$("export-width").valueAsNumber, $("export-height").valueAsNumber];
-  if (width) wish.width = width;
-  if (height) wish.height = height;
-  if (width && !height) wish.height = Math.max(16, Math.round(width * state.height / state.width));
-  if (height && !width) wish.width = Math.max(16, Math.round(height * state.width / state.height));
-  return wish;
-}
-
-$("copy-command").addEventListener("click", async () => {
-  const reply = await command("render_command", wishes());
-  if (!reply) return;
-  $("command-text").value = reply.text;
-  $("command-text").hidden = false;
-  $("command-text").select();
-  const copied = await navigator.clipboard?.writeText(reply.text).then(() => true, () => false);
-  say(copied ? "The command is copied." : "Here it is, to be copied.");
-});
-
-// Keys
-
-// What they mean is the session's to say.
-const face_actions = {
-  help: () => { $("help").hidden = !$("help").hidden; },
-  panel: () => { document.body.classList.toggle("bare"); },
-  export: () => { document.body.classList.remove("bare"); $("export-name").focus(); $("export-name").select(); },
-};
-follow_keys((key) => {
-  if (key === "Escape") { $("help").hidden = true; return; }
-  // At once: what is typed behind the key that opens a field is for the field, however late the session replies.
-  const action = actions[key.length === 1 ? key.toLowerCase() : key];
-  if (action) return face_actions[action]?.();
-  command("press", { key });
-}, () => controls && actions && state !== null);
