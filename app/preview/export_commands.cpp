@@ -254,7 +254,7 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   if (format == Format::camera) export_camera(state.camera, target);
   if (format == Format::camera_path) export_camera_path(camera_keys(molecule, state), target);
   if (format >= Format::camera) {
-    exporter.written.push_back(target.path);
+    Exporter::add_once(exporter.written, target.path);
     return {{"path", target.path.string()}};
   }
   exporter.forget_job();
@@ -307,9 +307,8 @@ Json export_state(const CommandReader&, const Surroundings& around) {
   Json reply = exporter.job ? exporter.job->state() : Json{{"running", false}};
   reply["written"] = Json::array();
   for (const std::filesystem::path& path : exporter.written_paths())
-    reply["written"].push_back({{"name", path.filename().string()},
-                                {"path", std::filesystem::absolute(path).string()},
-                                {"folder", std::filesystem::is_directory(path)}});
+    reply["written"].push_back(
+        {{"name", path.filename().string()}, {"path", path.string()}, {"folder", std::filesystem::is_directory(path)}});
   return reply;
 }
 
@@ -345,7 +344,7 @@ Json save_scene(const CommandReader& command, const Surroundings& around) {
   file.write(is_strip ? strip_text(command, around, folder)
                       : scene_text(scene, folder, around.molecule.structure().added));
   file.commit();
-  around.exporter.written.push_back(target.path);
+  Exporter::add_once(around.exporter.written, target.path);
   if (!is_strip) around.exporter.saved = around.state.edition;
   return {{"path", target.path.string()}};
 }

@@ -29,7 +29,7 @@ PreviewSession::PreviewSession(std::unique_ptr<PreviewRenderer> renderer, Struct
     : state_(std::move(state)),
       molecule_(std::move(structure), std::move(trajectory), context.read_shown, state_),
       pictures_(std::move(renderer)),
-      exporter_{std::move(export_folder), std::move(context)} {
+      exporter_{std::filesystem::absolute(export_folder).lexically_normal(), std::move(context)} {
   require_previewed(state_.color);
   state_.overview = !camera;
   state_.camera = camera ? *camera : molecule_.overview(state_);

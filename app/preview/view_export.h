@@ -157,8 +157,12 @@ struct Exporter {
     if (!job || !job->done()) return paths;
     const nlohmann::json reply = job->result();
     for (const char* key : {"path", "archive"})
-      if (reply.contains(key)) paths.emplace_back(reply[key].get<std::string>());
+      if (reply.contains(key)) add_once(paths, reply[key].get<std::string>());
     return paths;
+  }
+  static void add_once(std::vector<std::filesystem::path>& paths, const std::filesystem::path& path) {
+    std::erase(paths, path);
+    paths.push_back(path);
   }
   /// Whether the end of the preview loses nothing of the figure but its camera.
   bool keeps(const PreviewFigure& figure) const {

@@ -55,9 +55,11 @@ export function write_controls({ command, ask, say, picture, changed }) {
     const format = event.submitter?.value ?? "png", path = $("export-name").value + kEndings[format];
     const values = { path, force: $("export-force").checked, ...wishes() };
     if (format === "scene" || format === "story") {
-      if (!await command("save", { ...values, strip: format === "story" })) return;
+      const reply = await command("save", { ...values, strip: format === "story" });
+      if (!reply) return;
       changed();
-      return say(`Written: ${(await ask_written()).written.at(-1).path}`);
+      await ask_written();
+      return say(`Written: ${reply.path}`);
     }
     // What is shown is at hand: the browser has it, too.
     const at_hand = format === "png" && !$("width").value && !$("height").value && !$("export-samples").value && !values.transparent ? picture() : null;
