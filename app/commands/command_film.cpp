@@ -139,7 +139,7 @@ TakenProperties film_properties() {
                      {film_need()});
 }
 
-/// Puts the scenes of a storyboard file in its place, with those of its times that the command line does not set.
+/// Puts the scenes of a storyboard file in its place, and takes the times that the command line does not set.
 void open_storyboard(FilmCommand& film, const CLI::App& command) {
   const std::optional<StoryboardFile> story =
       film.files.size() == 1 ? read_storyboard(film.files.front()) : std::nullopt;

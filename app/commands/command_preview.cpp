@@ -182,7 +182,8 @@ void show_address(const PreviewCommand& command, const ServedAddress& address) {
   log_line(command, fmt::format("from another machine: ssh -L {0}:127.0.0.1:{0} {1}", address.port, host_name()));
   const std::string path = address.url.substr(address.url.find('/', std::string_view("http://").size()));
   for (const std::string& host : command.trusted_hosts)
-    log_line(command, fmt::format("behind {}: the proxy's address of port {}, and then {}", host, address.port, path));
+    log_line(command,
+             fmt::format("through {}: the proxy's address for port {}, and then {}", host, address.port, path));
   log_line(command, "Ctrl-C ends the preview");
   if (command.port || command.no_open) return;
   // The browser may end after this function, so the callback has a copy of the command.

@@ -42,7 +42,7 @@ std::optional<StoryboardFile> read_storyboard(const std::string& file) {
     story.hold = json.value("hold", std::vector<double>());
     story.transition = json.value("transition", std::vector<double>());
   } catch (const Json::exception&) {
-    throw InputError(file, 0, "storyboard: \"scenes\" is not a list, or times are no lists of numbers");
+    throw InputError(file, 0, "storyboard: \"scenes\" is not a list, or a time is not a number");
   }
   return story;
 }

@@ -122,7 +122,7 @@ glm::ivec2 film_size(const PictureOptions& options) { return 2 * (options.size /
 /// Sets the frames of a scene to one frame of the trajectory. number: ShownMolecule::number_of().
 void show_one_frame(Scene& scene, std::uint64_t number) {
   if (scene.frames.interpolate > 1)
-    throw RequestError("export: a frame between two of the trajectory is no scene of a film; leave --interpolate out");
+    throw RequestError("export: a film cannot hold a frame between two of the trajectory; leave --interpolate out");
   scene.frames.frames = fmt::format("{}", number / scene.frames.repeat);
   scene.frames.repeat = scene.frames.stride = 1;
   scene.frames.begin = scene.frames.end = scene.frames.only = "";
