@@ -75,7 +75,7 @@ class MessagesTest(unittest.IsolatedAsyncioTestCase):
                 for kind in ("mousePressed", "mouseReleased"):
                     await self.page.mouse(kind, **place, button="left", buttons=1 if kind == "mousePressed" else 0, clickCount=1)
                 await asyncio.sleep(0.1)
-        picked = await self.page.until("last('picked')")
+        picked = await self.page.until("heard.findLast((what) => what.picked)?.picked")
         self.assertRegex(picked["name"], r"^A [A-Z]{3} [0-9]+ [A-Z0-9]+$")
         self.assertEqual(len(picked["point"]), 3)
         self.assertLess(picked["atom"], await self.page.evaluate("last('atoms')"))
