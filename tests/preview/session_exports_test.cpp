@@ -188,7 +188,7 @@ TEST_F(SessionExports, AFilmOfTheStripIsAStoryboard) {
   EXPECT_EQ(story["transition"], Json::parse("[0.5]"));
   expect_ok(R"({"command":"save","path":"two.json","width":80,"height":60})");
   EXPECT_EQ(story["scenes"][1], Json::parse(read_bytes(folder_.path() / "two.json")));
-  EXPECT_EQ(story["scenes"][0]["molecule"]["model"], 1);
+  EXPECT_EQ(story["scenes"][1]["molecule"]["model"], 2);
   ASSERT_TRUE(film(R"(,"of":"turntable","seconds":2)")["ok"]);
   EXPECT_EQ(ordered.words[1], "render");
   EXPECT_NE(std::ranges::find(ordered.words, "50"), ordered.words.end()) << "pictures in two seconds";
