@@ -324,10 +324,10 @@ class Page(PageCase):
             # An edit while it plays pauses it, and stays.
             await page.click("#play-strip")
             await page.until("document.getElementById('play-strip').textContent === 'Pause film'")
-            await page.evaluate("""var ambient = document.getElementById('ambient'); ambient.value = 0.9;
-                ambient.dispatchEvent(new Event('input')); 0""")
+            key = await page.evaluate("""var slider = document.querySelector('#strengths input[type=range]'); slider.value = slider.max;
+                slider.dispatchEvent(new Event('input')); slider.id""")
             await page.until("document.getElementById('play-strip').textContent === 'Play film'")
-            self.assertEqual((await self.state(page))["look"]["ambient"], 0.9)
+            self.assertEqual((await self.state(page))["look"][key], await page.evaluate("slider.valueAsNumber"))
             # The film is written, and comes by a click on its link.
             await page.evaluate("""document.getElementById('width').value = 64; document.getElementById('height').value = 48;
                 document.getElementById('export-samples').value = 1; 0""")
@@ -335,7 +335,7 @@ class Page(PageCase):
             await page.until("document.getElementById('message').textContent.includes('Written')", 120)
             await page.click("#save-story")
             await page.until("document.querySelectorAll('#written a').length === 2")
-            await page.click("#written a")
+            await page.click("#written a[download=\"figure.mp4\"]")
             with open(self.path("figure.mp4"), "rb") as written, open(await self.downloaded(page, "figure.mp4"), "rb") as got:
                 self.assertEqual(got.read(), written.read())
             await self.shoot(page, "written.png")
