@@ -127,6 +127,7 @@ void SceneOptions::add_own_option(const Property& property) {
   if (key == "molecule.warnings")
     options.add_word(key, into_.reporting.warnings, {WarningDetail::full, WarningDetail::summary, WarningDetail::none});
   if (key == "molecule.quiet") options.add(key, into_.reporting.quiet);
+  if (key == "molecule.verbose") options.add(key, into_.reporting.verbose);
   if (key == "frames.jobs") options.add(key, into_.jobs);
   if (key == "frames.progress") {
     using enum ProgressStyle;
