@@ -308,7 +308,7 @@ class Page(PageCase):
             for item, what, seconds in ((1, "hold", 0.2), (1, "transition", 0.8), (2, "hold", 0.2)):
                 await page.evaluate(f"""const field = document.querySelector('#scenes li:nth-child({item}) [name={what}]');
                     field.value = {seconds}; field.dispatchEvent(new Event('change')); 0""".replace("const field", "var field"))
-            await page.until("document.getElementById('film-of').selectedOptions[0].text.includes('1.2 s, 30 pictures of ')")
+            await page.until("document.getElementById('film-of').selectedOptions[0].text.includes('Strip: 1.2 s, 30 pictures, ')")
             await page.click("#scenes li:first-child .recall")
             await page.until("JSON.parse(document.getElementById('picture').dataset.state).probe_radius === 1")
             await page.evaluate("""window.radii = new Set();

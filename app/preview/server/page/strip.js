@@ -51,7 +51,7 @@ export function strip_controls({ command, viewer }) {
 
   /// Returns a field for seconds of a scene.
   const seconds = (index, what, words) => {
-    const field = element("input", { type: "number", min: 0, max: 3600, step: 0.5, name: what });
+    const field = element("input", { type: "number", min: 0, max: 3600, step: "any", name: what });
     field.addEventListener("change", () => command("time_scene", { index, [what]: field.valueAsNumber }));
     return element("label", {}, words, field);
   };

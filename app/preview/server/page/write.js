@@ -4,7 +4,7 @@ import { element } from "./figure.js";
 
 const $ = (id) => document.getElementById(id);
 const kEndings = { png: ".png", film: ".mp4", povray: "", blender: ".mns", scene: ".json", story: ".json" };
-const kFilms = { strip: "of the strip", turntable: "a turntable", frames: "of all frames" };
+const kFilms = { strip: "Strip", turntable: "Turntable", frames: "All frames" };
 
 /// picture(): the PNG on the stage, if it is there in full; changed(): is called after something was written. Returns
 /// show(state), and begin(), which shows what an earlier page has begun.
@@ -31,7 +31,7 @@ export function write_controls({ command, ask, say, picture, changed }) {
     if (!told.ok) return;
     const before = $("film-of").options[0]?.value, chosen = $("film-of").value;
     $("film-of").replaceChildren(...told.films.map(({ of, seconds, pictures }) => {
-      const words = `${kFilms[of]}: ${Number(seconds.toFixed(1))} s, ${pictures} pictures of ${told.width} × ${told.height}`;
+      const words = `${kFilms[of]}: ${Number(seconds.toFixed(1))} s, ${pictures} pictures, ${told.width} × ${told.height}`;
       return Object.assign(new Option(words, of), { title: words });
     }));
     const kept = told.films.some(({ of }) => of === chosen) && before === told.films[0].of;
