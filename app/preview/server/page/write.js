@@ -69,7 +69,8 @@ export function write_controls({ command, ask, say, picture, changed }) {
     follow();
   });
   $("open-scene").addEventListener("click", async () => {
-    const reply = await command("open", { path: `${$("export-name").value}.json` });
+    const name = $("export-name").value;
+    const reply = await command("open", { path: /\.(json|png|tiff?|jpe?g|html)$/.test(name) ? name : `${name}.json` });
     if (reply) say(`Opened: ${reply.path}`);
   });
   $("job-cancel").addEventListener("click", () => command("cancel_export"));
