@@ -54,7 +54,7 @@ constexpr std::array<std::uint32_t, 9> kConsurf{0x10c8d1, 0x8cffff, 0xd7ffff, 0x
 // Okabe and Ito's hues in the order of the spectrum.
 constexpr std::array<std::uint32_t, 6> kRainbow{0x0072b2, 0x56b4e9, 0x009e73, 0xf0e442, 0xe69f00, 0xd55e00};
 
-// Tones as light as those of chains. Any two differ by at least 7.1 in CIEDE2000 for any colour vision.
+// These tones are as light as the colours of chains. Any two differ by at least 7.1 in CIEDE2000 for any colour vision.
 constexpr std::array<std::uint32_t, 6> kPastel{0x84a9ea, 0x8ad0de, 0xc3e7b4, 0xf7e294, 0xe8a474, 0xcb7a78};
 
 constexpr ColorMapMetadata kMaps[] = {

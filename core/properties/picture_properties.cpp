@@ -23,8 +23,8 @@ constexpr auto kTable = std::to_array<Property>({
         .excludes("camera.from"),
     text("camera.view", "--view", "SIDE",
          "Side that faces the viewer, such as front, top or left. front: the broad side that shows more; back, bottom, "
-         "right; x, "
-         "y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of @assembly@; "
+         "right; x, y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of "
+         "@assembly@; "
          "symmetry-side: with that axis upright; open: from where the atoms of @zoom-to@ are hidden least; "
          "channel: along a channel through them. A minus sign before it shows the opposite side")
         .initially("front")

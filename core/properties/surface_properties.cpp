@@ -67,8 +67,8 @@ constexpr auto kTable = std::to_array<Property>({
     text("surface.color", "--color", "SCHEME",
          "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: auto (chain; along a "
          "single chain; element-cpk for small molecules), element, element-cpk (darker), chain, chain-element, "
-         "chain-okabe-ito, copy (of an "
-         "assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's confidence), snfg (sugars), "
+         "chain-okabe-ito, copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's "
+         "confidence), snfg (sugars), "
          "bead (of Martini), kind (of patch), component; by a number: bfactor, "
          "occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), "
          "relative-accessibility, index, rainbow (along each chain), radial (for capsids). EXPR=COLOR colours some "

@@ -1,21 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The common part of the writers of SVG and PDF pages.
+// What a page has, and the common part of the writers of SVG and PDF pages.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "core/base/output_file.h"
 #include "core/render/image_output.h"
-#include "core/render/vector_page.h"
+#include "core/render/lettering.h"
 
 namespace meniscus {
 
 /// The end of the names of groups that hold the rims of letters and lines.
 inline constexpr std::string_view kHalos = "halos";
+
+/// A text of a page.
+struct PageText {
+  std::string text;
+  int height = 0;         ///< height of a line's letters, pixels
+  glm::dvec2 start{0.0};  ///< start of the baseline, in pixels from the top left
+  std::vector<PlacedLetter> letters;
+};
+
+/// A line with round ends, a filled box, or a text, in pixels of the picture.
+struct PageShape {
+  std::string group;  ///< name of the group to which it belongs; groups are in the order of their first shapes
+  glm::vec3 color;    ///< sRGB
+  glm::dvec2 from{0.0}, to{0.0};  ///< ends of the line, which is a dot if they are equal; or low and high of the box
+  std::optional<PageText> text{};
+  double line = 0.0;  ///< width of the line, or of a stroke around letters; 0: a box, or plain letters
+  double opacity = 1.0;
+};
+
+/// The arrangement of a page, in pixels of the picture.
+struct PageLayout {
+  glm::ivec2 low{0}, high{0};                    ///< borders of the page
+  glm::ivec2 picture_place{0}, picture_size{0};  ///< of the picture's pixels; 0: there are none
+};
 
 /// The common part of both kinds of pages: what is known of a page, and its file.
 class PageEncoder {

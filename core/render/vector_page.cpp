@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/base/system_file.h"
-#include "core/render/page_encoder.h"
 
 namespace meniscus {
 namespace {

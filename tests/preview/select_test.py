@@ -6,6 +6,7 @@ Arguments as of page_case.py. With MENISCUS_SCREENSHOTS=FOLDER pictures are left
 import asyncio
 import json
 import math
+import sys
 import unittest
 
 from browser import Browser
@@ -201,4 +202,4 @@ class Selecting(PageCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=["select_test"])
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])

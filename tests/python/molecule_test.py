@@ -316,8 +316,11 @@ class Elsewhere(Case):
                 "threading.Thread(target=interrupt).start()\n"
                 "try:\n    meniscus.surface(xyz, 1.6, threads=1)\nexcept KeyboardInterrupt:\n    waited = time.perf_counter() - sent\n"
                 "del xyz\nprint(waited, meniscus.surface([[0, 0, 0]], 1.0).area)\n")
-        run = subprocess.run([sys.executable, "-c", code], text=True, capture_output=True)
+        run = subprocess.run([sys.executable, "-c", code], text=True, capture_output=True, timeout=120)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
+        drawn = code.replace("meniscus.surface(xyz, 1.6, threads=1)", "meniscus.surface(xyz, 1.6).render(device='cpu')")
+        ended = subprocess.run([sys.executable, "-c", drawn[:drawn.index("del xyz")]], text=True, capture_output=True, timeout=120)
+        self.assertEqual((ended.returncode, ended.stderr), (0, ""))
         waited, area = map(float, run.stdout.split())
         self.assertLess(waited, 0.2)
         self.assertAlmostEqual(area, 4 * np.pi)

@@ -3,9 +3,20 @@
 from __future__ import annotations
 
 import _thread
+import atexit
+import os
 import sys
 import threading
 from typing import Any, Callable
+
+
+def _wait_for(done: Any) -> None:
+    """Waits for an interrupted function before Python ends, because the library cannot end while it computes. Another
+    Ctrl-C ends the process. done: the lock that is released when the function ends."""
+    try:
+        done.acquire()
+    except KeyboardInterrupt:
+        os._exit(130)
 
 
 def interruptible(function: Callable[[], Any]) -> Any:
@@ -18,27 +29,31 @@ def interruptible(function: Callable[[], Any]) -> Any:
         return function()
     done = _thread.allocate_lock()
     kept: list[Any] = []
+    finished = False
     result: Any = None
     error: Any = None
 
     def run() -> None:
-        nonlocal result, error
+        nonlocal error, finished, result
         try:
             result = function()
         except BaseException as raised:
             error = raised
-        done.release()
+        finished = True
         kept.clear()
+        done.release()
 
     done.acquire()
-    _thread.start_new_thread(run, ())
     try:
+        _thread.start_new_thread(run, ())
         done.acquire()
     except BaseException:
         frame: Any = sys._getframe()
-        while frame is not None and done.locked():
+        while frame is not None and not finished:
             kept.append(frame)
             frame = frame.f_back
+        if not finished:  # otherwise this thread may have the lock
+            atexit.register(_wait_for, done)  # after those of the package, so that it is called before them
         raise
     if error is not None:
         raise error

@@ -14,14 +14,14 @@ Numbers = Union[Text, Sequence[float]]
 
 class SurfaceValues(TypedDict, total=False):
     """The properties of a picture of a surface: its look and its size."""
-    #: SCHEME: Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: auto (chain, or element for
-    #: small molecules), element, element-cpk (darker), chain, chain-element, chain-okabe-ito, copy (of an
-    #: assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's confidence), snfg
-    #: (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor, occupancy, charge,
-    #: hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), relative-accessibility, index,
-    #: rainbow (along each chain), radial (for capsids). EXPR=COLOR colours some atoms, as in 'ligand=orange';
-    #: 'ligand=orange:ATP' names them in the legend. Repeatable; the last one counts. meniscus colors explains
-    #: the schemes [auto]
+    #: SCHEME: Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: auto (chain; along a single
+    #: chain; element-cpk for small molecules), element, element-cpk (darker), chain, chain-element, chain-
+    #: okabe-ito, copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's
+    #: confidence), snfg (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor,
+    #: occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), relative-
+    #: accessibility, index, rainbow (along each chain), radial (for capsids). EXPR=COLOR colours some atoms, as
+    #: in 'ligand=orange'; 'ligand=orange:ATP' names them in the legend. Repeatable; the last one counts.
+    #: meniscus colors explains the schemes [auto]
     color: Union[Text, Sequence[Text]]
     #: WORD: Look by one word, such as ghost, pocket or ribbon. publication: shade, thin lines, colours as
     #: given; cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic:
@@ -256,8 +256,9 @@ class SceneValues(SurfaceValues, total=False):
     #: 1.4 [0]
     map_offset: float
     #: MAP: Colour map for numbers, such as viridis or blue-white-red. Others: cividis, magma, red-white-blue
-    #: (default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), rainbow,
-    #: categorical (each number has its own colour). blue-white-red is the default for hydrophobicity [viridis]
+    #: (default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), rainbow, pastel
+    #: (rainbow in light tones), categorical (each number has its own colour). blue-white-red is the default for
+    #: hydrophobicity [viridis]
     map: Text
     #: FILE: File of a colour map: one colour per line, or a position and a colour. A JSON list of them is read,
     #: too
@@ -318,10 +319,11 @@ class SceneValues(SurfaceValues, total=False):
     #: FILE: Camera as JSON, or as PyMOL or ChimeraX print it. A file, or the text itself: JSON, get_view or
     #: view matrix [shows everything]
     camera: Path
-    #: SIDE: Side that faces the viewer, such as front, top or left. front: the broad side; back, bottom, right;
-    #: x, y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of assembly;
-    #: symmetry-side: with that axis upright; open: from where the atoms of zoom_to are hidden least; channel:
-    #: along a channel through them. A minus sign before it shows the opposite side [front]
+    #: SIDE: Side that faces the viewer, such as front, top or left. front: the broad side that shows more;
+    #: back, bottom, right; x, y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along
+    #: the axis of assembly; symmetry-side: with that axis upright; open: from where the atoms of zoom_to are
+    #: hidden least; channel: along a channel through them. A minus sign before it shows the opposite side
+    #: [front]
     view: Text
     #: AXISANGLE: Turn the molecule about an axis by degrees: y90, x-30, z45. x points right, y up, z to the
     #: viewer. Repeatable, applied in this order
@@ -374,7 +376,7 @@ class SceneValues(SurfaceValues, total=False):
     letter_color: Text
     #: EXPR=TEXT: Write TEXT at these atoms, with a line to their centre. Repeatable
     label: Union[Text, Sequence[Text]]
-    #: Write no lengths beside dashed lines
+    #: Write no lengths next to dashed lines
     hide_lengths: bool
     #: Write the time of each frame in ps, ns or µs, or else its number
     time_stamp: bool
