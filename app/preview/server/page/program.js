@@ -355,7 +355,7 @@ const properties = property_controls(context);
 const show_strip = strip_controls(context);
 const selection = select_controls(context);
 const show_contents = contents_controls(context, selection);
-const writing = write_controls({ ...context, picture: () => is_at_rest() ? full_picture : null, changed: ask_state });
+const writing = write_controls({ ...context, picture: () => has_picture() ? full_picture : null, changed: ask_state });
 
 /// Unless somebody is at it: what is typed, or dragged ahead of the pictures, stays.
 function set_value(control, value) {
