@@ -30,7 +30,7 @@ PreviewSession::PreviewSession(std::unique_ptr<PreviewRenderer> renderer, Struct
       molecule_(std::move(structure), std::move(trajectory), context.read_shown, state_),
       pictures_(std::move(renderer)),
       exporter_{std::move(export_folder), std::move(context)} {
-  require_previewed(state_.color);
+  require_previewed(state_.molecule.color);
   state_.overview = !camera;
   state_.camera = camera ? *camera : molecule_.overview(state_);
   validate_camera(state_.camera, "the view");

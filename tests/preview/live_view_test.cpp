@@ -129,9 +129,9 @@ TEST(LivePictures, DraftsAreGivenUpForOtherSurfacesOnly) {
   EXPECT_FALSE(live.draw(Quality::plain, [] { return Change::view; }));
   EXPECT_TRUE(live.fault().empty());
   ASSERT_TRUE(live.draw(Quality::draft, [] { return Change::view; }));
-  ASSERT_TRUE(live.apply({{"command", "probe"}, {"radius", 2.0}})["ok"]);
+  ASSERT_TRUE(live.apply({{"command", "set"}, {"key", "surface.probe"}, {"value", 2.0}})["ok"]);
   ASSERT_TRUE(live.draw(Quality::draft, [] { return Change::surface; }));  // at once, so it is shown
-  EXPECT_EQ(change_of({{"command", "probe"}, {"radius", 2.0}}), Change::surface);
+  EXPECT_EQ(change_of({{"command", "set"}, {"key", "surface.probe"}, {"value", 2.0}}), Change::surface);
   EXPECT_EQ(change_of({{"command", "orbit"}}), Change::view);
   EXPECT_EQ(change_of({{"command", "export"}}), Change::none);
   EXPECT_EQ(change_of({{"command", "state"}}), Change::none);

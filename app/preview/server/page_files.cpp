@@ -14,9 +14,11 @@ std::string stage_file(std::string_view path) { return std::string(template_text
 
 /// Returns the page. Its policy comes with the reply, its figure through the socket.
 std::string whole_page() {
-  const std::string links = "<link rel=\"icon\" href=\"icon.svg\" type=\"image/svg+xml\">\n"
-                            "<link rel=\"stylesheet\" href=\"page.css\">";
-  const std::string scripts = "<script src=\"stage.js\"></script>\n<script type=\"module\" src=\"program.js\"></script>";
+  const std::string links =
+      "<link rel=\"icon\" href=\"icon.svg\" type=\"image/svg+xml\">\n"
+      "<link rel=\"stylesheet\" href=\"page.css\">";
+  const std::string scripts =
+      "<script src=\"stage.js\"></script>\n<script type=\"module\" src=\"program.js\"></script>";
   return filled(stage_file("page.html"),
                 {{"POLICY", ""},
                  {"TITLE", "Meniscus"},
