@@ -124,8 +124,7 @@ Shown read_inputs(PreviewCommand& command, const std::function<void(const std::s
   const FigureRequest& figure = shown.scene.figure;
   const bool reads_again = !figure.representations.empty() || !figure.objects.empty() ||
                            (shown.structure.companions != Companions::none && command.scene.molecule.file != "-");
-  shown.camera =
-      aimed_camera(shown.scene, camera, color, reads_again ? ShownReader(command)(figure, 0) : shown.structure);
+  shown.camera = aimed_camera(shown.scene, camera, reads_again ? ShownReader(command)(figure, 0) : shown.structure);
   return shown;
 }
 
@@ -149,21 +148,16 @@ std::unique_ptr<PreviewRenderer> make_renderer(const PreviewCommand& command, co
 std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, bool on_gl, Shown shown) {
   const PreviewCommand& command = declared.state;
   PreviewState view;
-  static_cast<PreviewFigure&>(view) = figure_of(shown.scene, shown.scene.molecule.color);
+  static_cast<PreviewFigure&>(view) = PreviewFigure(shown.scene);
+  view.has_size = command.has_size;
   view.copies_apart = command.scene.molecule.division.instances == InstanceMode::exact;
   view.size = command.scene.picture.size();
-  view.export_options = command.export_options;
   SessionContext context;
-  context.scene = command.scene;
+  context.writes_scenes = true;
   context.read_shown = ShownReader(command);
-  context.annotations = [request = command.scene.annotations](const Structure& structure, const FigureExtras* extras) {
-    return annotations_of(request, structure, extras ? extras->lengths() : std::vector<PlaceLabel>());
-  };
   context.make_device = [request = command.scene.molecule.surface] { return std::make_unique<PictureDevice>(request); };
   context.make_film = make_film;
-  context.aim = [](const Scene& scene, const ColorScheme& color, const Structure& structure) {
-    return aimed_camera(scene, {}, color, structure);
-  };
+  context.aim = [](const Scene& scene, const Structure& structure) { return aimed_camera(scene, {}, structure); };
   context.open_scene = SceneOpener(declared);
   std::unique_ptr<PreviewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,

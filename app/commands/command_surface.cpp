@@ -113,7 +113,8 @@ class SurfaceTables {
     const MoleculeRequest& request = command_.scene.molecule;
     if (request.patches) patches = patch_report(molecule, *request.patches, request.least_patch);
     if (!command_.prints_csv())
-      numbers.printed = printed({molecule, command_.scene.molecule, columns, context, patches}, note);
+      numbers.printed =
+          printed({molecule, command_.scene.molecule, columns, context, patches, command_.reporting.verbose}, note);
     if (series_.is_wanted() || plot_) numbers.values = series_values(molecule, columns);
     const std::string prefix = prefix_of(note), more_columns = note ? std::string(kFrameColumns) + "," : std::string();
     if (residues_.is_wanted()) {

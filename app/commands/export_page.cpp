@@ -24,6 +24,7 @@
 #include "core/render/picture.h"
 #include "core/scene/annotations.h"
 #include "core/scene/molecule.h"
+#include "core/scene/scene_paths.h"
 #include "exporters/page/page_file.h"
 #include "exporters/page/scene_page.h"
 
@@ -68,7 +69,8 @@ page::StillPicture still_picture(const Framebuffer& drawn, const Look& look) {
 /// The page of a run; a molecule is a run of one frame.
 class PageRun {
  public:
-  PageRun(FigureRun& run, const NamedViews& views) : run_(run), views_(views) {
+  PageRun(FigureRun& run, const NamedViews& views, std::string scene)
+      : run_(run), views_(views), scene_(std::move(scene)) {
     common_.key = run.key();
     common_.others = page::other_colors(run.possible_structure(), color_of(run.scene().molecule),
                                         [&](ColorScheme& scheme) { run.measure(scheme); });
@@ -97,7 +99,7 @@ class PageRun {
     page_.add(std::move(frame));
     if (page_.frame_count() == 2) log_size(before);
     if (page_.frame_count() < frame_count_) return {};
-    const std::string text = page_.text();
+    const std::string text = page_.text(scene_);
     check_size(text.size());
     OutputFile file(run_.scene().output, run_.command().existing());
     file.write(text);
@@ -130,6 +132,7 @@ class PageRun {
 
   FigureRun& run_;
   const NamedViews& views_;
+  const std::string scene_;
   page::SceneFrame common_;
   page::PageWriter page_;
   std::size_t frame_count_ = 1;
@@ -144,7 +147,8 @@ void export_page(const PageCommand& requested, bool trusts_scenes) {
   FigureRun run(requested);
   run.aim(requested.scene.picture, true);
   views.aim(run);
-  PageRun page(run, views);
+  const bool has_scene = !run.is_run() && scene_fault(requested.scene).empty();
+  PageRun page(run, views, has_scene ? scene_text(requested.scene, "", *requested.added) : "");
   run.make({kSurfaceBytesPerAtom},
            [&]() -> FigureRun::Sink { return [&page](FigureFrame frame) { return page.take(std::move(frame)); }; });
   run.save_cameras();

@@ -97,11 +97,9 @@ void take_preview(DeclaredPreview& declared, const std::vector<std::string>& nam
   state.models = !is_scene && !options.is_given("molecule.model") && !scene.frames.is_requested() &&
                  scene.molecule.reading.added.empty();
   state.aims = is_scene || scene.picture.direction || scene.picture.zoom_to || !scene.picture.turns.empty();
-  if (is_scene || options.is_given("image.size") || options.is_given("image.width") || options.is_given("image.height"))
-    state.export_options.size = scene.picture.size();
-  if (is_scene || options.is_given("image.samples")) state.export_options.samples = scene.image.samples;
-  state.export_options.transparent = !scene.image.background;
-  state.export_options.dots_per_inch = scene.picture.dots_per_inch;
+  state.has_size =
+      is_scene || options.is_given("image.size") || options.is_given("image.width") || options.is_given("image.height");
+  if (!is_scene && !options.is_given("image.samples")) scene.image.samples = PreviewFigure().image.samples;
 }
 
 namespace {
@@ -140,8 +138,8 @@ Structure ShownReader::operator()(const FigureRequest& figure, std::size_t frame
   return open_->run->at(open_->run->chunk()[frame]);
 }
 
-Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, const ColorScheme& color,
-                    const Structure& structure) {
+Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, const Structure& structure) {
+  const ColorScheme& color = scene.molecule.color;
   ViewRequest layout = scene.picture;
   if (scene.legend.within) {
     const ColorKey colors = figure_key(structure, color, {std::vector<bool>(structure.atoms.size(), true)},
@@ -249,12 +247,23 @@ OpenedScene SceneOpener::operator()(const std::filesystem::path& path) const {
     throw RequestError(fmt::format(
         "open: {} has other atoms, frames or numbers than {}, which is shown; start another preview with --scene",
         escaped(path.string()), escaped(begun_.molecule.file)));
-  const ColorScheme color = color_of(opened.scene.molecule);
-  OpenedScene scene{figure_of(opened.scene, color), opened.export_options, 0};
-  scene.figure.camera = aimed_camera(opened.scene, given_camera(opened.scene.picture), color,
-                                     ShownReader(opened)(opened.scene.figure, 0));
-  scene.figure.overview = false;
-  if (models_) scene.frame = opened.scene.molecule.reading.model.number - 1;
+  Scene& shown = opened.scene;
+  shown.molecule.color = color_of(shown.molecule);
+  OpenedScene scene{PreviewFigure(shown)};
+  PreviewFigure& figure = scene.figure;
+  figure.camera = aimed_camera(shown, given_camera(shown.picture), ShownReader(opened)(shown.figure, 0));
+  figure.overview = false;
+  figure.has_size = true;
+  // The molecule is read, and surfaces are computed, as before.
+  const MoleculeRequest asked = std::exchange(figure.molecule, begun_.molecule);
+  figure.molecule.surface.kind = asked.surface.kind;
+  figure.molecule.surface.probe_radius = asked.surface.probe_radius;
+  figure.molecule.show = asked.show;
+  figure.molecule.patches = asked.patches;
+  figure.molecule.least_patch = asked.least_patch;
+  figure.molecule.color = asked.color;
+  figure.frames = begun_.frames;
+  if (models_) scene.frame = shown.molecule.reading.model.number - 1;
   return scene;
 }
 

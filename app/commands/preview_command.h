@@ -21,7 +21,7 @@ namespace meniscus {
 struct PreviewCommand : SceneCommand {
   bool models = false;                ///< true if each model of the file is a frame
   bool aims = false;                  ///< true if the scene sets the first camera
-  ExportOptions export_options;       ///< for exported pictures
+  bool has_size = false;              ///< true if the scene has the size of exported pictures
   std::optional<std::uint16_t> port;  ///< the value of --serve
   bool no_open = false;               ///< true if the user opens the page
   std::string record, commands, token_file, output_folder = ".";
@@ -64,9 +64,8 @@ class ShownReader {
 };
 
 /// Returns the camera that render would use: everything drawn counts, and the molecule is framed next to the legend.
-/// color: with the numbers of its file. Throws InputError, RequestError.
-Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, const ColorScheme& color,
-                    const Structure& structure);
+/// The scene's colours have the numbers of their file. Throws InputError, RequestError.
+Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, const Structure& structure);
 
 /// Makes a film like `meniscus render`, in a child process that `watch` can cancel. Throws RequestError, OutputError.
 void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch);

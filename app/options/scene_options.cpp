@@ -9,7 +9,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -126,6 +128,7 @@ void SceneOptions::add_own_option(const Property& property) {
   if (key == "molecule.warnings")
     options.add_word(key, into_.reporting.warnings, {WarningDetail::full, WarningDetail::summary, WarningDetail::none});
   if (key == "molecule.quiet") options.add(key, into_.reporting.quiet);
+  if (key == "molecule.verbose") options.add(key, into_.reporting.verbose);
   if (key == "frames.jobs") options.add(key, into_.jobs);
   if (key == "frames.progress") {
     using enum ProgressStyle;
@@ -449,14 +452,41 @@ std::string scene_text_for(const Scene& scene, const std::string& path, std::spa
   return scene_text(scene, folder.empty() ? "." : folder, added);
 }
 
+namespace {
+
+/// Returns the scene in the description of a TIFF or JPEG picture, or in a page that readers turn; empty if there is
+/// none. The text is that of scene_text(), in which only the last line begins with a brace. XML has a copy of the
+/// description, with other letters for "<".
+std::string carried_scene(const std::string& file) {
+  constexpr std::string_view kFirst = "{\n  \"meniscus_scene\"", kLast = "\n}";
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const bool is_page = bytes.starts_with("<!");
+  for (std::size_t at = 0; (at = bytes.find(kFirst, at)) != bytes.npos; ++at) {
+    const std::size_t end = bytes.find(kLast, at);
+    if (end == bytes.npos || (!is_page && at > 0 && bytes[at - 1] == '>')) continue;
+    const std::string text = bytes.substr(at, end + kLast.size() - at);
+    if (nlohmann::json::accept(text)) return text;
+  }
+  return {};
+}
+
+}  // namespace
+
 std::string read_scene_text(const std::string& file) {
   constexpr std::size_t kLargestScene = std::size_t{16} << 20;  // bytes
+  const std::string extension = std::filesystem::path(file).extension().string();
+  constexpr std::string_view kCarriers[] = {".tif", ".tiff", ".jpg", ".jpeg", ".html"};
+  const bool is_carrier = is_png(file) || std::ranges::find(kCarriers, extension) != std::end(kCarriers);
   std::string text = png_note(file, kSceneNote).value_or("");
+  if (text.empty() && !is_png(file) && is_carrier) text = carried_scene(file);
   if (!text.empty()) return text;
-  if (is_png(file))
-    throw InputError(file, 0,
-                     "is a picture that carries no scene; pictures made with --no-provenance, frames of runs and "
-                     "pictures of other programs have none");
+  if (is_carrier)
+    throw InputError(
+        file, 0,
+        fmt::format("is a {} that carries no scene; pictures made with --no-provenance, frames of runs and pictures of "
+                    "other programs have none",
+                    extension == ".html" ? "page" : "picture"));
   return std::string(read_text_file(file, kLargestScene).text);
 }
 

@@ -40,6 +40,7 @@ enum class ProgressStyle {
 struct Reporting {
   WarningDetail warnings = WarningDetail::summary;
   bool quiet = false;
+  bool verbose = false;
   ProgressStyle progress = ProgressStyle::automatic;
 };
 

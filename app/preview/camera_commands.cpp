@@ -12,7 +12,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/camera/camera_json.h"
-#include "core/properties/properties.h"
 #include "core/scene/copied_atoms.h"
 
 namespace meniscus {
@@ -51,7 +50,6 @@ std::map<std::string, Camera>::iterator named_view(const CommandReader& command,
 }
 
 constexpr int kLongestSide = 8192;  // pixels; a GL texture holds it on all hardware of GL 4.5
-constexpr int kMostSamples = 64;
 
 Outcome at_frame(PreviewState state, std::size_t frame, const Surroundings& around) {
   state.frame = frame;
@@ -131,13 +129,6 @@ Outcome set_camera(const CommandReader& command, PreviewState state, const Surro
   return seen_from(state, parse_camera(json_line(command.value("camera")), "camera"));
 }
 
-Outcome set_projection(const CommandReader& command, PreviewState state, const Surroundings& around) {
-  const std::size_t word = command.choice("projection", property_of("camera.projection"));
-  const Camera camera = projected(state.camera, word == 0 ? Projection::perspective : Projection::orthographic,
-                                  balls_in_view(around.molecule));
-  return seen_from(state, camera);
-}
-
 Outcome save_view(const CommandReader& command, PreviewState state, const Surroundings&) {
   constexpr std::size_t kMostViews = 100, kLongestName = 60;
   const std::string name = command.text("name");
@@ -208,11 +199,6 @@ Outcome pause(const CommandReader& command, PreviewState state, const Surroundin
 Outcome resize(const CommandReader& command, PreviewState state, const Surroundings&) {
   state.size = {command.integer("width", 16, kLongestSide), command.integer("height", 16, kLongestSide)};
   return {.state = std::move(state), .renewal = Renewal::legend, .frames_all = true};
-}
-
-Outcome set_samples(const CommandReader& command, PreviewState state, const Surroundings&) {
-  state.samples = command.integer("count", 1, kMostSamples);
-  return {std::move(state)};
 }
 
 }  // namespace meniscus

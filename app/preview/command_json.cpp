@@ -62,15 +62,14 @@ Change change_of(const nlohmann::json& command) {
   const std::string word = command_word(command);
   if (is_question(command) || word == "export" || word == "cancel_export" || word == "save" || word == "end_step")
     return Change::none;
-  constexpr std::string_view kSurfaces[] = {"surface", "probe", "frame", "next_frame", "strip",
-                                            "undo",    "redo",  "open",  "quit"};
+  constexpr std::string_view kSurfaces[] = {"frame", "next_frame", "strip", "undo", "redo", "open", "quit"};
   if (word == "set" && changes_surface(text_under("key", command))) return Change::surface;
   return std::ranges::find(kSurfaces, word) != std::end(kSurfaces) ? Change::surface : Change::view;
 }
 
 bool merge_commands(nlohmann::json& first, const nlohmann::json& second) {
   constexpr std::array<std::string_view, 2> kDrags{"orbit", "pan"};
-  constexpr std::array<std::string_view, 7> kLatest{"probe", "frame", "resize", "pick", "samples", "look", "strip"};
+  constexpr std::array<std::string_view, 4> kLatest{"frame", "resize", "pick", "strip"};
   if (!first.is_object() || !second.is_object() || first.size() != second.size()) return false;
   if (!first.contains("command") || !first["command"].is_string() ||
       first["command"] != second.value("command", nlohmann::json()))

@@ -14,7 +14,6 @@
 
 #include "core/base/error.h"
 #include "core/base/output_file.h"
-#include "core/properties/properties.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {
@@ -92,14 +91,6 @@ class CommandReader {
   std::string text(const char* key) const;
   /// One of these words: its place in the list.
   std::size_t choice(const char* key, const std::vector<std::string>& words) const;
-  /// The same within the limits, or of the words, of a property.
-  double number(const char* key, const Property& property) const {
-    return number(key, property.lowest, property.highest);
-  }
-  int integer(const char* key, const Property& property) const {
-    return integer(key, static_cast<int>(property.lowest), static_cast<int>(property.highest));
-  }
-  std::size_t choice(const char* key, const Property& property) const { return choice(key, words_of(property)); }
   /// "selection". Throws RequestError as all do.
   Selection selection() const;
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "app/preview/look_json.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 
@@ -25,27 +25,17 @@ std::vector<Command> all_commands() {
       {"center", {"x", "y"}, Effect::edit, center},
       {"reset_view", {}, Effect::edit, reset_view},
       {"camera", {"camera"}, Effect::edit, set_camera},
-      {"projection", {"projection"}, Effect::edit, set_projection},
       {"save_view", {"name"}, Effect::none, save_view},
       {"recall_view", {"name"}, Effect::edit, recall_view},
       {"forget_view", {"name"}, Effect::none, forget_view},
-      {"surface", {"kind"}, Effect::edit, set_surface},
-      {"probe", {"radius"}, Effect::slide, set_probe},
-      {"show", {"selection"}, Effect::edit, show},
       {"hide", {"selection"}, Effect::edit, hide},
-      {"patches", {"selection", "min_area"}, Effect::edit, set_patches},
       {"represent", {"as", "selection"}, Effect::edit, represent},
       {"object", {"object", "index"}, Effect::slide, put_object},
       {"set", {"key", "value"}, Effect::slide, set_property},
-      {"color", {"scheme", "map", "range", "missing", "rules"}, Effect::edit, set_color},
       {"paint", {"selection", "color"}, Effect::edit, paint},
-      {"patch_kinds", {"on"}, Effect::edit, set_patch_kinds},
       {"opacity", {"opacity", "selection", "index"}, Effect::slide, set_opacity},
       {"cut", {"plane", "index"}, Effect::slide, set_cut},
       {"remove", {"of", "index"}, Effect::edit, remove_entry},
-      {"look", look_keys(), Effect::slide, set_look},
-      {"preset", {"preset"}, Effect::edit, set_preset},
-      {"legend", {"on", "title", "letters", "place"}, Effect::edit, set_legend},
       {"strip", {"place"}, Effect::slide, show_strip},
       {"undo", {}, Effect::back, undo},
       {"redo", {}, Effect::forward, redo},
@@ -59,7 +49,6 @@ std::vector<Command> all_commands() {
       {"play", {"fps", "strip"}, Effect::none, play},
       {"pause", {"fps"}, Effect::none, pause},
       {"resize", {"width", "height"}, Effect::picture, resize},
-      {"samples", {"count"}, Effect::slide, set_samples},
       {"press", {"key"}, Effect::none, press, false},  // what it means is recorded
       {"pick", {"x", "y", "wait", "area"}, Effect::none, pick},
       {"export",
@@ -78,6 +67,13 @@ std::vector<Command> all_commands() {
       {"quit", {}, Effect::none, quit},
   };
 }
+
+/// Words that recorded sessions of former versions may have, and the keys by which "set" does the same.
+constexpr std::pair<std::string_view, std::string_view> kFormerWords[] = {
+    {"surface", "surface.kind"},         {"probe", "surface.probe"},          {"show", "surface.show"},
+    {"patches", "surface.patches"},      {"color", "surface.color"},          {"patch_kinds", "surface.color"},
+    {"projection", "camera.projection"}, {"samples", "image.samples"},        {"preset", "look.preset"},
+    {"look", "look.ambient and so on"},  {"legend", "legend.shown and so on"}};
 
 const std::vector<Command>& command_table() {
   static const std::vector<Command> all = all_commands();
@@ -101,6 +97,9 @@ std::string said_by(const std::string& word, const std::string& error) {
 const Command& row_of(const CommandReader& command) {
   const auto row = std::ranges::find(command_table(), command.word(), &Command::word);
   if (row == command_table().end()) {
+    for (const auto& [word, key] : kFormerWords)
+      if (command.word() == word)
+        throw RequestError(fmt::format("{} is no command any more; use set with the key {}", in_quotes(word), key));
     std::vector<std::string_view> words;
     for (const Command& known : command_table()) words.push_back(known.word);
     throw RequestError(

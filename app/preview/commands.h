@@ -85,7 +85,7 @@ std::string said_by(const std::string& word, const std::string& error);
 glm::ivec2 pixel_of(const CommandReader& command, const PreviewState& state);
 
 /// Returns the values of all properties that the preview changes, by their keys, for the state.
-nlohmann::json property_values(const Surroundings& around);
+nlohmann::json property_values(const PreviewState& state);
 /// Returns what pages need for controls of these properties: names, limits, words and help.
 nlohmann::json property_choices();
 
@@ -99,20 +99,15 @@ Outcome with_preset(PreviewState state, LookPreset preset, const Surroundings& a
 /// beside kinds of patch.
 ColorScheme previewed_scheme(ColorScheme chosen, const ColorScheme& before, const ColorScheme& first, bool keeps_scale);
 
-/// Throws RequestError if a legend that is shown has nothing to explain.
-void require_legend_entries(bool is_shown, const ColorScheme& color);
-
 /// What the command "state" answers.
 Service get_state;
 
 // What the rows name, by file.
-Reducer orbit, pan, zoom, roll, zoom_to, center, reset_view, set_camera, set_projection, save_view, recall_view,
-    forget_view;                                                                         // camera_commands.cpp
-Reducer show_frame, next_frame, set_key, follow_keys, play, pause, resize, set_samples;  // camera_commands.cpp
-Reducer set_surface, set_probe, show, hide, represent, put_object, set_cut, remove_entry,
-    set_patches;                                                                           // figure_commands.cpp
-Reducer set_property;                                                                      // property_commands.cpp
-Reducer set_color, paint, set_patch_kinds, set_opacity, set_look, set_preset, set_legend;  // look_commands.cpp
+Reducer orbit, pan, zoom, roll, zoom_to, center, reset_view, set_camera, save_view, recall_view, forget_view,
+    show_frame, next_frame, set_key, follow_keys, play, pause, resize;  // camera_commands.cpp
+Reducer hide, represent, put_object, set_cut, remove_entry;             // figure_commands.cpp
+Reducer set_property;                                                   // property_commands.cpp
+Reducer paint, set_opacity;                                             // look_commands.cpp
 /// The next picture of a strip that plays; at its end playing ends.
 Outcome next_of_strip(PreviewState state, const Surroundings& around);
 Reducer keep_scene, forget_scene, show_strip;                                             // strip_commands.cpp

@@ -28,6 +28,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kLongestExportedSide = 16384;  // pixels
+constexpr int kMostSamples = 1024;           // as the property image.samples has it
 
 /// The size and the quality of an exported picture.
 struct PictureOptions {
@@ -37,12 +38,11 @@ struct PictureOptions {
 };
 
 PictureOptions picture_options(const CommandReader& command, const PreviewState& state) {
-  const glm::ivec2 size = state.export_options.size.value_or(state.size);
+  const glm::ivec2 size = state.has_size ? state.picture.size() : state.size;
   return {{command.integer_or(size.x, "width", 16, kLongestExportedSide),
            command.integer_or(size.y, "height", 16, kLongestExportedSide)},
-          command.has("samples") ? command.integer("samples", property_of("image.samples"))
-                                 : state.export_options.samples.value_or(state.samples),
-          command.flag_or(state.export_options.transparent, "transparent")};
+          command.integer_or(state.image.samples, "samples", 1, kMostSamples),
+          command.flag_or(!state.image.background, "transparent")};
 }
 
 /// Throws RequestError for a name that is none, or of a file that is there and may not be replaced.
@@ -93,8 +93,7 @@ Scene film_scene(const CommandReader& command, const Surroundings& around) {
   constexpr double kTurnRate = 25.0, kTurnSeconds = 6.0, kLongest = 600.0;
   const PictureOptions options = picture_options(command, state);
   const glm::ivec2 even = 2 * (options.size / 2);  // as most encoders want it
-  RenderedView view{state, even, options.samples, false, {}, {}, {}, state.export_options.dots_per_inch};
-  Scene scene = rendered_scene(around.exporter.context.scene.value_or(Scene{}), view);
+  Scene scene = rendered_scene(state, {even, options.samples});
   scene.run_camera = {};
   scene.run_camera.turns = command.number_or(is_run ? 0.0 : 1.0, "turns", -100.0, 100.0);
   scene.film.frames_per_second = is_run ? state.frames_per_second : kTurnRate;
@@ -110,27 +109,27 @@ Scene shown_scene(const CommandReader& command, const Surroundings& around) {
   const PreviewState& state = around.state;
   const ShownMolecule& molecule = around.molecule;
   const PictureOptions options = picture_options(command, state);
-  RenderedView view{
-      state, options.size, options.samples, options.transparent, {}, {}, {}, state.export_options.dots_per_inch};
+  RenderedView view{options.size, options.samples, options.transparent};
   if (molecule.has_trajectory()) view.frame = molecule.number_of(state.frame);
   if (molecule.has_models()) {
     using By = ColorScheme::By;
-    if (!state.patch_kinds && (state.color.by == By::index || state.color.by == By::radial))
+    if (state.molecule.color.by == By::index || state.molecule.color.by == By::radial)
       throw RequestError(
           fmt::format("{}: {} counts the atoms of all models here, and those of one in a picture by "
                       "render; choose another scheme",
-                      command.word(), in_quotes(scheme_word(state.color))));
+                      command.word(), in_quotes(scheme_word(state.molecule.color))));
     view.model = molecule.structure().atoms[molecule.atoms().front()].model;
     // A model alone would have a scale of its own.
-    if (state.color.has_scale() && !(state.color.takes_file() && state.color.file.of_colors))
-      view.range = color_scale(molecule.structure(), state.color).range;
+    if (state.molecule.color.has_scale() && !(state.molecule.color.takes_file() && state.molecule.color.file.of_colors))
+      view.range = color_scale(molecule.structure(), state.molecule.color).range;
   }
-  return rendered_scene(around.exporter.context.scene.value_or(Scene{}), view);
+  return rendered_scene(state, view);
 }
 
 /// The same as the text that pictures carry; empty where there is none.
 std::string scene_of(const CommandReader& command, const Surroundings& around) {
-  if (!around.exporter.context.scene || around.molecule.has_trajectory()) return {};  // frames of a run carry none
+  if (!around.exporter.context.writes_scenes || around.molecule.has_trajectory())
+    return {};  // frames of a run carry none
   try {
     const Scene scene = shown_scene(command, around);
     return scene_fault(scene).empty() ? scene_text(scene, "", around.molecule.structure().added) : "";
@@ -174,15 +173,15 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
     return begin(make, {});
   }
   const MakePictureDevice& make_device = exporter.context.make_device;
-  Annotations annotations;
-  if (exporter.context.annotations)
-    annotations = exporter.context.annotations(molecule.annotated_structure(), molecule.extras().get());
+  Annotations annotations =
+      annotations_of(state.annotations, molecule.annotated_structure(),
+                     molecule.extras() ? molecule.extras()->lengths() : std::vector<PlaceLabel>());
   Coloring coloring = molecule.coloring(state);
   coloring.in_patch = molecule.patch_marks(state);
   auto view = std::make_shared<const ExportedView>(
       ExportedView{molecule.structure(), molecule.atoms(), molecule.balls(), std::move(coloring), molecule.key(state),
                    state, molecule.extras(), std::move(annotations), options.size, options.samples, options.transparent,
-                   format == Format::png ? scene_of(command, around) : "", state.export_options.dots_per_inch});
+                   format == Format::png ? scene_of(command, around) : ""});
   const auto write = [view, target, format, make_device](const ExportWatch& watch) {
     return written(*view, format, make_device, target, watch);
   };
@@ -211,7 +210,7 @@ Json render_command(const CommandReader& command, const Surroundings& around) {
 
 Json save_scene(const CommandReader& command, const Surroundings& around) {
   const Exporter& exporter = around.exporter;
-  if (!exporter.context.scene) throw RequestError("save: this preview writes no scenes");
+  if (!exporter.context.writes_scenes) throw RequestError("save: this preview writes no scenes");
   const std::string name = command.text("path");
   if (!name.ends_with(".json"))
     throw RequestError(fmt::format("save: \"path\" is {}; a scene's name must end in .json", in_quotes(name)));
@@ -230,16 +229,12 @@ Outcome open_scene(const CommandReader& command, PreviewState state, const Surro
   const Exporter& exporter = around.exporter;
   if (!exporter.context.open_scene) throw RequestError("open: this preview reads no scenes");
   const std::string name = command.text("path");
-  if (!name.ends_with(".json") && !name.ends_with(".png"))
-    throw RequestError(
-        fmt::format("open: \"path\" is {}; a scene ends in .json, a picture that holds one in .png", in_quotes(name)));
   OpenedScene opened = exporter.context.open_scene(export_path(exporter.folder, name));
-  const ColorScheme& first = around.first.color;
-  ColorScheme& color = opened.figure.color;
+  const ColorScheme& first = around.first.molecule.color;
+  ColorScheme& color = opened.figure.molecule.color;
   if (color.by == ColorScheme::By::rmsf && color.by == first.by) color.file = first.file;
   require_previewed(color);
   static_cast<PreviewFigure&>(state) = std::move(opened.figure);
-  state.export_options = opened.export_options;
   require_copies_apart(molecule.structure(), state, around.state.probe_reach());
   if (molecule.has_models()) state.frame = static_cast<std::size_t>(opened.frame);
   if (state.frame >= molecule.frame_count())

@@ -63,47 +63,13 @@ Outcome with_part(const CommandReader& command, PreviewState& state, const Surro
 
 }  // namespace
 
-Outcome set_surface(const CommandReader& command, PreviewState state, const Surroundings& around) {
-  state.kind = static_cast<SurfaceKind>(command.choice("kind", property_of("surface.kind")));
-  require_copies_apart(around.molecule.structure(), state, around.state.probe_reach());
-  const Renewal renewal = state.patches ? Renewal::colors : Renewal::legend;  // other areas
-  return {.state = std::move(state), .renewal = renewal, .frames_all = true};
-}
-
-Outcome set_probe(const CommandReader& command, PreviewState state, const Surroundings& around) {
-  const double radius = command.number("radius", 0.0, 1e6);
-  if (const std::string fault = probe_fault(radius); !fault.empty()) throw RequestError("probe: " + fault);
-  if (state.kind == SurfaceKind::vdw)
-    throw RequestError("probe: the van der Waals surface has no probe; choose another kind of surface first");
-  state.probe_radius = radius;
-  require_copies_apart(around.molecule.structure(), state, around.state.probe_reach());
-  const Renewal renewal = state.patches ? Renewal::colors : Renewal::legend;
-  return {std::move(state), renewal};
-}
-
-Outcome show(const CommandReader& command, PreviewState state, const Surroundings& around) {
-  state.show.reset();
-  if (command.has("selection")) state.show = command.selection();
-  return with_part(command, state, around);
-}
-
 Outcome hide(const CommandReader& command, PreviewState state, const Surroundings& around) {
   const std::string hidden = "not (" + command.selection().text() + ")";
-  state.show = command.naming(
-      [&] { return parse_selection(state.show ? fmt::format("({}) and {}", state.show->text(), hidden) : hidden); });
+  state.molecule.show = command.naming([&] {
+    return parse_selection(state.molecule.show ? fmt::format("({}) and {}", state.molecule.show->text(), hidden)
+                                               : hidden);
+  });
   return with_part(command, state, around);
-}
-
-Outcome set_patches(const CommandReader& command, PreviewState state, const Surroundings& around) {
-  if (command.has("min_area"))
-    state.least_patch = command.number("min_area", property_of("surface.min_patch"));
-  else
-    state.patches.reset();
-  if (command.has("selection")) {
-    state.patches = command.selection();
-    command.naming([&] { return patch_atoms(*state.patches, around.molecule.annotated_structure()); });
-  }
-  return {std::move(state), Renewal::colors};
 }
 
 Outcome represent(const CommandReader& command, PreviewState state, const Surroundings&) {
@@ -162,10 +128,10 @@ Outcome remove_entry(const CommandReader& command, PreviewState state, const Sur
       remove_from(state.figure.cuts, command);
       return {std::move(state), Renewal::cuts};
     case 2:
-      remove_from(state.color.rules, command);
+      remove_from(state.molecule.color.rules, command);
       return {std::move(state), Renewal::colors};
     case 3:
-      remove_from(state.color.opacities, command);
+      remove_from(state.molecule.color.opacities, command);
       return {std::move(state), Renewal::colors};
     default:
       remove_from(state.figure.objects, command);

@@ -40,7 +40,7 @@ struct GivenUp {};
 /// Returns false if the surface was given up.
 bool FigureTables::compute(const PreviewState& state, const ShownMolecule& molecule,
                            const std::function<bool()>& stop) {
-  const double probe = rolling_probe(state.kind, state.probe_radius);
+  const double probe = state.rolling_radius();
   const auto is_same = [](const Ball& a, const Ball& b) { return a.center == b.center && a.radius == b.radius; };
   if (object_.surface.probe_radius == probe && std::ranges::equal(balls_, molecule.balls(), is_same)) return true;
   balls_.clear();
@@ -69,12 +69,12 @@ void FigureTables::color(const Structure& structure, const PreviewState& state, 
   // Parts of a model count from 0, as those of all frames do.
   const std::uint32_t first_part = coloring.part.empty() ? 0 : *std::ranges::min_element(coloring.part);
   for (std::uint32_t& part : coloring.part) part -= first_part;
-  if (state.patches)
-    coloring.in_patch = atoms_of_patches(object_.surface, state.patches->evaluate(structure), state.least_patch);
+  const MoleculeRequest& request = state.molecule;
+  if (request.patches)
+    coloring.in_patch = atoms_of_patches(object_.surface, request.patches->evaluate(structure), request.least_patch);
 }
 
-std::shared_ptr<const page::PackedFrame> FigureTables::packed(const Scene& begun, const PreviewState& state,
-                                                              const ShownMolecule& molecule,
+std::shared_ptr<const page::PackedFrame> FigureTables::packed(const PreviewState& state, const ShownMolecule& molecule,
                                                               const std::function<bool()>& stop) {
   constexpr std::size_t kMostAtoms = 200'000;  // of which the tables have about 150 MB
   if (!molecule.structure().instances.empty())
@@ -82,12 +82,12 @@ std::shared_ptr<const page::PackedFrame> FigureTables::packed(const Scene& begun
   if (molecule.balls().size() > kMostAtoms)
     throw RequestError("This molecule is too large for the browser to turn by itself; the program draws its pictures.");
   try {
-    const Scene scene = rendered_scene(begun, {state, state.size, state.samples, false, {}, {}, {}});
+    const Scene scene = rendered_scene(state, {state.size, state.image.samples});
     page::check_scene(scene);
     if (!compute(state, molecule, stop) || (stop && stop())) return nullptr;
     Figure figure;
     figure.molecule.structure = molecule.annotated_structure();
-    figure.molecule.color = state.shown_scheme();
+    figure.molecule.color = state.molecule.color;
     if (molecule.extras()) figure.extras = *molecule.extras();
     color(figure.molecule.structure, state, molecule);
     const page::SceneFrame frame{state.camera, {}, molecule.key(state), {}, {}};

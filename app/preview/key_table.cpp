@@ -34,15 +34,26 @@ constexpr KeyHelp kHelp[] = {
 
 Json turned(double dx, double dy) { return {{"command", "orbit"}, {"dx", kTurn * dx}, {"dy", kTurn * dy}}; }
 
+Json setting(std::string_view key, Json value) {
+  return {{"command", "set"}, {"key", key}, {"value", std::move(value)}};
+}
+
 /// A strength of the look, off or as strong as it usually is.
-Json flipped_look(const char* key, double usual, const Json& state) {
-  return {{"command", "look"}, {key, state["look"].value(key, 0.0) > 0.0 ? 0.0 : usual}};
+Json flipped_look(const std::string& name, double usual, const Json& state) {
+  return setting("look." + name, state["look"].value(name, 0.0) > 0.0 ? 0.0 : usual);
+}
+
+/// Another scheme, with the rules that there are.
+Json with_scheme(const std::string& scheme, const Json& state) {
+  Json value = state["color"].value("rules", Json::array());
+  value.insert(value.begin(), scheme);
+  return setting("surface.color", std::move(value));
 }
 
 std::optional<Json> probe_by(double step, const Json& state) {
   if (state.value("surface", "") == "vdw") return {};
   const double tenths = std::round(state["probe_radius"].get<double>() / kProbeStep + step / kProbeStep);
-  return Json{{"command", "probe"}, {"radius", std::max(0.0, tenths / 10.0)}};
+  return setting("surface.probe", std::max(0.0, tenths / 10.0));
 }
 
 std::optional<Json> frame_by(int step, const Json& state) {
@@ -71,7 +82,7 @@ std::string in_small_letters(std::string_view key) {
 std::optional<Json> command_of(char letter, const Json& state) {
   const auto& schemes = numbered_schemes();
   if (letter >= '1' && letter <= '9' && static_cast<std::size_t>(letter - '1') < schemes.size())
-    return Json{{"command", "color"}, {"scheme", schemes[static_cast<std::size_t>(letter - '1')]}};
+    return with_scheme(schemes[static_cast<std::size_t>(letter - '1')], state);
   const bool perspective = state["camera"]["projection"] == "perspective";
   switch (letter) {
     case 'r':
@@ -83,19 +94,19 @@ std::optional<Json> command_of(char letter, const Json& state) {
       if (state.value("redo", 0) == 0) return {};
       return Json{{"command", "redo"}};
     case 'o':
-      return Json{{"command", "projection"}, {"projection", perspective ? "orthographic" : "perspective"}};
+      return setting("camera.projection", perspective ? "orthographic" : "perspective");
     case ']':
       return probe_by(kProbeStep, state);
     case '[':
       return probe_by(-kProbeStep, state);
     case 'k':
-      return Json{{"command", "patch_kinds"}, {"on", !state["patch_kinds"].get<bool>()}};
+      return setting("surface.color", state["patch_kinds"].get<bool>() ? "auto" : "kind");
     case 'a':
       return flipped_look("ambient_occlusion", kUsualOcclusion, state);
     case 'l':
       return flipped_look("silhouettes", kUsualSilhouettes, state);
     case 'g':
-      return Json{{"command", "legend"}, {"on", !state["legend"].value("on", false)}};
+      return setting("legend.shown", !state["legend"].value("on", false));
     case ' ':
       if (state["frames"].get<int>() < 2) return {};
       return Json{{"command", state["playing"].get<bool>() ? "pause" : "play"}};

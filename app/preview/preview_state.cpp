@@ -3,11 +3,13 @@
 #include "app/preview/preview_state.h"
 
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/camera/camera_json.h"
 
 namespace meniscus {
@@ -31,19 +33,10 @@ std::string who_shows(ColorScheme::By scheme, bool has_numbers) {
 
 void require_shown(const ColorScheme& color) {
   if (const std::string who = who_shows(color.by, !color.file.empty()); !who.empty())
-    throw RequestError(fmt::format("color: \"{}\" needs more than atoms: {}", scheme_word(color), who));
+    throw RequestError(fmt::format("colour by {} needs more than atoms: {}", in_quotes(scheme_word(color)), who));
 }
 
 }  // namespace
-
-ColorScheme PreviewFigure::shown_scheme() const {
-  ColorScheme scheme = color;
-  if (patch_kinds) {
-    scheme.by = ColorScheme::By::kind;
-    scheme.rules.clear();
-  }
-  return scheme;
-}
 
 void require_previewed(const ColorScheme& color) {
   require_shown(color);
@@ -66,17 +59,32 @@ void EditHistory::move(const PreviewFigure& now, std::deque<PreviewFigure>& from
   from.pop_back();
 }
 
-namespace {
-
-void take_colors(const RenderedView& view, MoleculeRequest& molecule) {
+Scene rendered_scene(const PreviewFigure& figure, const RenderedView& view) {
   using By = ColorScheme::By;
-  ColorScheme& color = molecule.color;
-  color = view.figure.color;
-  molecule.color_named = view.figure.patch_kinds || color.by != By::file;
-  if (view.figure.patch_kinds) {
-    color.by = By::kind;
-    color.rules.clear();
+  Scene scene = figure;
+  scene.picture.camera_file = camera_object(figure.camera).dump();
+  if (!figure.has_size || view.size != figure.picture.size()) {
+    scene.picture.width = view.size.x;
+    scene.picture.height = view.size.y;
+    scene.lengths.erase("image.width");
+    scene.lengths.erase("image.height");
   }
+  scene.image.samples = view.samples;
+  scene.image.background = figure.shown_background();
+  if (view.transparent) scene.image.background.reset();
+  MoleculeRequest& molecule = scene.molecule;
+  if (view.model) {
+    molecule.reading.model = {};
+    molecule.reading.model.number = *view.model;
+  }
+  scene.output.clear();
+  if (view.frame) {
+    scene.frames.only = fmt::format("{}", *view.frame);
+    scene.output = "frame_#####.png";
+  }
+  molecule.surface.probe_named = molecule.surface.kind != SurfaceKind::vdw;
+  molecule.color_named = molecule.color.by != By::file;
+  ColorScheme& color = molecule.color;
   if (!color.uses_file()) molecule.number_file = molecule.number_column = "";
   if (!color.uses_scale() || !color.own_map) molecule.map_file.clear();
   if (!color.uses_scale()) {
@@ -86,45 +94,16 @@ void take_colors(const RenderedView& view, MoleculeRequest& molecule) {
   } else if (!color.range) {
     color.range = view.range;
   }
+  return scene;
 }
 
-}  // namespace
-
-Scene rendered_scene(const Scene& begun, const RenderedView& view) {
-  const PreviewFigure& figure = view.figure;
-  Scene scene = begun;
-  scene.picture = {};
-  scene.picture.width = view.size.x;
-  scene.picture.height = view.size.y;
-  scene.picture.dots_per_inch = view.dots_per_inch;
-  scene.picture.camera_file = camera_object(figure.camera).dump();
-  scene.lengths.erase("image.width");
-  scene.lengths.erase("image.height");
-  scene.image.samples = view.samples;
-  scene.image.background.reset();
-  if (!view.transparent) scene.image.background = figure.background;
-  if (view.model) {
-    scene.molecule.reading.model = {};
-    scene.molecule.reading.model.number = *view.model;
-  }
-  scene.output.clear();
-  if (view.frame) {
-    scene.frames.only = fmt::format("{}", *view.frame);
-    scene.output = "frame_#####.png";
-  }
-  scene.molecule.surface.kind = figure.kind;
-  scene.molecule.surface.probe_radius = figure.probe_radius;
-  scene.molecule.surface.probe_named = figure.kind != SurfaceKind::vdw;
-  scene.molecule.show = figure.show;
-  scene.molecule.patches = figure.patches;
-  scene.molecule.least_patch = figure.least_patch;
-  take_colors(view, scene.molecule);
-  scene.figure = figure.figure;
-  scene.look = figure.look;
-  scene.legend.within = figure.legend;
-  scene.legend.style = figure.legend_style;
-  scene.annotations.letters = figure.letters;
-  return scene;
+PreviewFigure::PreviewFigure(Scene scene) : Scene(std::move(scene)), preset(look.preset) {
+  camera.projection = picture.projection;
+  ViewRequest size;
+  size.width = picture.width;
+  size.height = picture.height;
+  size.dots_per_inch = picture.dots_per_inch;
+  picture = std::move(size);
 }
 
 LookRequest look_request(LookRequest asked, Look look, bool outlines_patches) {
@@ -140,25 +119,6 @@ LookRequest look_request(LookRequest asked, Look look, bool outlines_patches) {
     asked.patch_line_color = look.patch_line_color;
   }
   return asked;
-}
-
-PreviewFigure figure_of(const Scene& scene, const ColorScheme& color) {
-  PreviewFigure figure;
-  figure.camera.projection = scene.picture.projection;
-  figure.kind = scene.molecule.surface.kind;
-  figure.probe_radius = scene.molecule.surface.probe_radius;
-  figure.show = scene.molecule.show;
-  figure.patches = scene.molecule.patches;
-  figure.least_patch = scene.molecule.least_patch;
-  figure.color = color;
-  figure.figure = scene.figure;
-  figure.look = scene.look;
-  figure.preset = scene.look.preset;
-  if (scene.image.background) figure.background = *scene.image.background;
-  figure.legend = scene.legend.within;
-  figure.legend_style = scene.legend.style;
-  figure.letters = scene.annotations.letters;
-  return figure;
 }
 
 }  // namespace meniscus

@@ -26,48 +26,33 @@
 
 namespace meniscus {
 
-/// Of exported pictures, what a command does not say. Nothing: as it is shown.
-struct ExportOptions {
-  std::optional<glm::ivec2> size;  ///< pixels, with the legend
-  std::optional<int> samples;      ///< rays per pixel
-  bool transparent = false;        ///< without a background
-  double dots_per_inch = 0.0;      ///< of the printed picture; 0: not said
-};
-
-/// A figure, whatever its size. Commands change it, undo and redo replace it.
-struct PreviewFigure {
-  Camera camera;
-  bool overview = true;  ///< all is shown, until the camera is moved
-  SurfaceKind kind = SurfaceKind::ses;
-  double probe_radius = kUsualProbe;  ///< Å; without effect while the surface has no probe
-  std::optional<Selection> show;      ///< atoms whose part of the surface is drawn; nothing: all
-  std::optional<Selection> patches;   ///< of these atoms, outlined; nothing: none
-  double least_patch = 10.0;          ///< Å²: smaller ones are not
-  ColorScheme color;
-  bool patch_kinds = false;  ///< coloured by kind of patch, whatever the scheme (figure 2 of Krone et al. 2010)
-  FigureRequest figure;
-  LookRequest look;
-  LookPreset preset = LookPreset::publication;  ///< the word that was chosen last
-  glm::vec3 background{1.0f};                   ///< sRGB
-  bool legend = false;
-  LegendStyle legend_style;
-  LetterStyle letters;
-  int samples = 4;  ///< rays per pixel of the full picture
-  ExportOptions export_options;
-  std::uint64_t edition = 0;  ///< a number of its own for all that was changed, but for the camera
-
-  /// What the colours are by, kinds of patch too.
-  ColorScheme shown_scheme() const;
-  /// What its light may do to them.
-  Hues hues() const {
-    const bool looks_inside = uses_atoms(figure.cuts);
-    if (!patch_kinds) return hues_of(color, looks_inside);
-    ColorScheme kinds;
-    kinds.opacities = color.opacities;
-    return hues_of(kinds, looks_inside);
+/// A figure, whatever its size on the screen: its scene, and the camera in place of the scene's. Commands change it,
+/// undo and redo replace it.
+struct PreviewFigure : Scene {
+  PreviewFigure() {
+    image.samples = 4;
+    image.background = glm::vec3(1.0f);
   }
-  /// How far from the atoms' balls something may be and still change their surface, Å.
-  double probe_reach() const { return growth_of(kind, probe_radius) + rolling_probe(kind, probe_radius); }
+  /// Takes a scene whose colours have the numbers of their file. Of its view only the projection, the size and the
+  /// resolution are kept.
+  explicit PreviewFigure(Scene scene);
+
+  Camera camera;
+  bool overview = true;                         ///< all is shown, until the camera is moved
+  bool has_size = false;                        ///< exported pictures have the size of the scene; else that of the page
+  LookPreset preset = LookPreset::publication;  ///< the word that was chosen last; the scene has its light
+  std::uint64_t edition = 0;                    ///< a number of its own for all that was changed, but for the camera
+
+  /// Returns the changes that light may make to the colours.
+  Hues hues() const { return hues_of(molecule.color, uses_atoms(figure.cuts)); }
+  /// Returns the background on the screen, sRGB: white if pictures are transparent.
+  glm::vec3 shown_background() const { return image.background.value_or(glm::vec3(1.0f)); }
+  /// Returns the length in Å by which the balls of the surface are grown.
+  double growth() const { return growth_of(molecule.surface.kind, molecule.surface.probe_radius); }
+  /// Returns the radius in Å of the probe that rolls over these balls.
+  double rolling_radius() const { return rolling_probe(molecule.surface.kind, molecule.surface.probe_radius); }
+  /// Returns how far in Å from the atoms' balls something may be and still change their surface.
+  double probe_reach() const { return growth() + rolling_radius(); }
 };
 
 /// Throws RequestError for a scheme whose numbers or parts come with surfaces that a preview does not make; so
@@ -92,8 +77,8 @@ struct PreviewState : PreviewFigure {
   std::uint64_t revision = 1;                 ///< grows with every change of what is seen
   bool ended = false;                         ///< a command asked to end
 
-  /// Of the full picture, its legend included.
-  Look full_look() const { return look_of(look, size, background, hues(), patches.has_value()); }
+  /// Returns the look of the full picture, its legend included.
+  Look full_look() const { return look_of(look, size, shown_background(), hues(), molecule.patches.has_value()); }
 };
 
 /// What a figure was before each step, for undo and redo. Steps of one kind that follow each other without end_step()
@@ -122,25 +107,20 @@ class EditHistory {
   std::string kind_;  ///< of the last step; empty: it is ended
 };
 
-/// A picture of a preview.
+/// A picture of a figure.
 struct RenderedView {
-  const PreviewFigure& figure;
   glm::ivec2 size;  ///< pixels, with the legend
   int samples = 1;
-  bool transparent = false;                    ///< instead of the background
-  std::optional<std::int32_t> model;           ///< that is shown, if the file has several
-  std::optional<std::uint64_t> frame;          ///< of a trajectory
-  std::optional<std::array<double, 2>> range;  ///< of numbers, where those of one model alone would have another
-  double dots_per_inch = 0.0;                  ///< of the printed picture; 0: not said
+  bool transparent = false;                      ///< true: without a background
+  std::optional<std::int32_t> model{};           ///< the model that is shown, if the file has several
+  std::optional<std::uint64_t> frame{};          ///< the frame of a trajectory
+  std::optional<std::array<double, 2>> range{};  ///< of numbers, if those of one model alone would have another
 };
 
-/// begun: the scene that the preview began with, which says what it does not change: the molecule, its run.
-Scene rendered_scene(const Scene& begun, const RenderedView& view);
+/// Returns the scene that `meniscus render` draws as this picture.
+Scene rendered_scene(const PreviewFigure& figure, const RenderedView& view);
 
 /// Returns a request for a look with these numbers. asked: has what is no number of a look.
 LookRequest look_request(LookRequest asked, Look look, bool outlines_patches);
-
-/// What commands change, as a scene has it; no camera. color: with the numbers of its file.
-PreviewFigure figure_of(const Scene& scene, const ColorScheme& color);
 
 }  // namespace meniscus

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command "set", which gives a property of the table another value, and what pages are told about properties.
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,8 +14,10 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
+#include "core/scene/annotations.h"
 #include "core/scene/molecule.h"
 #include "core/scene/scene_json.h"
+#include "core/scene/scene_lengths.h"
 #include "core/scene/scene_value.h"
 #include "core/scene/scene_values.h"
 
@@ -36,21 +37,9 @@ Renewal renewal_of(const Property& property, const PreviewFigure& figure) {
   if (section == "figure" || property.key == "shapes.bare") return Renewal::shapes;
   if (std::ranges::find(kOfCuts, property.key) != std::end(kOfCuts)) return Renewal::cuts;
   // Another surface has the same colours, but its patches have other areas.
-  if (changes_surface(property.key)) return figure.patches ? Renewal::colors : Renewal::legend;
+  if (changes_surface(property.key)) return figure.molecule.patches ? Renewal::colors : Renewal::legend;
   if (section == "surface" || section == "shapes") return Renewal::colors;
   return section == "camera" ? Renewal::nothing : Renewal::legend;
-}
-
-/// Returns the state as the scene of its picture, with the colours that it has beneath kinds of patch.
-Scene own_scene(const PreviewState& state, const Surroundings& around) {
-  PreviewFigure figure = state;
-  figure.patch_kinds = false;
-  const ExportOptions& options = state.export_options;
-  Scene scene = rendered_scene(around.exporter.context.scene.value_or(Scene{}),
-                               {figure, options.size.value_or(state.size), options.samples.value_or(state.samples),
-                                options.transparent, std::nullopt, std::nullopt, std::nullopt, options.dots_per_inch});
-  scene.picture.projection = state.camera.projection;
-  return scene;
 }
 
 /// Returns the property that "key" names.
@@ -58,7 +47,7 @@ const Property& live_property(const std::string& key) {
   std::vector<std::string_view> keys;
   for (const Property* property : properties()) {
     if (!property->has(live)) continue;
-    if (property->key == key || value_name(*property) == key) return *property;
+    if (property->key == key) return *property;
     keys.push_back(property->key);
   }
   const std::string_view nearest = nearest_word(key, keys);
@@ -80,6 +69,17 @@ Texts given_texts(const Property& property, Ordered value) {
   }
 }
 
+/// Returns the type of a property's control: "flag", "number", "count", "word", "color", "selection", "length",
+/// "direction" or "text".
+std::string_view control_of(const Property& property) {
+  constexpr std::string_view kTypes[] = {"flag", "number", "count", "word"};
+  if (property.type <= ValueType::word) return kTypes[static_cast<std::size_t>(property.type)];
+  if (property.key == "surface.probe") return "number";
+  if (property.has_range()) return "length";
+  if (property.key == "look.light") return "direction";
+  return property.value == "COLOR" ? "color" : property.value == "EXPR" ? "selection" : "text";
+}
+
 /// Throws RequestError if a list of the scene is longer than previews draw, or a text longer than they write.
 void check_extent(const Property& property, const Scene& scene) {
   constexpr std::size_t kMostEntries = 100, kMostCuts = 16, kLongestText = 200;
@@ -94,55 +94,39 @@ void check_extent(const Property& property, const Scene& scene) {
 }
 
 /// Throws RequestError for a value that contradicts others.
-void check_among_others(const Property& property, const Scene& scene, const Surroundings& around) {
-  const MoleculeRequest& molecule = scene.molecule;
-  const ColorScheme& color = molecule.color;
-  if (property.key == "surface.probe" && molecule.surface.kind == SurfaceKind::vdw)
+void check_among_others(const Property& property, const Scene& scene, const ShownMolecule& molecule) {
+  const ColorScheme& color = scene.molecule.color;
+  if (property.key == "surface.probe" && scene.molecule.surface.kind == SurfaceKind::vdw)
     throw RequestError("the van der Waals surface has no probe; choose another kind of surface first");
   if (!color.uses_scale() && (property.key == "surface.map" || property.key == "surface.color_range" ||
                               property.key == "surface.missing_color"))
     throw RequestError(fmt::format("is for colours by a number, not {}", in_quotes(scheme_word(color))));
-  if (property.key == "surface.patches" && molecule.patches)
-    patch_atoms(*molecule.patches, around.molecule.annotated_structure());
+  if (property.key == "surface.patches") patch_atoms(*scene.molecule.patches, molecule.annotated_structure());
+  if (property.key == "annotations.labels") annotations_of(scene.annotations, molecule.annotated_structure());
   if (property.key == kObjects)
     for (const FigureObjectRequest& object : scene.figure.objects)
       if (object.color) require_previewed(*object.color);
-  if (property.key == "legend.shown") require_legend_entries(scene.legend.within, color);
-  if (scene.picture.fits) throw RequestError("'auto' is not WIDTHxHEIGHT in pixels, such as 1920x1080");
+  if (property.key == "legend.shown" && scene.legend.within && color.by == ColorScheme::By::fixed &&
+      color.rules.empty())
+    throw RequestError("there is nothing to explain: everything has one colour; choose another scheme first");
+  if (scene.picture.fits) throw RequestError("'auto' is not a size in pixels, such as 1920x1080");
 }
 
-/// Takes the values of a scene, of which one property was set, into the state.
-void take_scene(const Property& property, Scene scene, PreviewState& state, const Surroundings& around) {
-  ColorScheme& color = scene.molecule.color;
+/// Changes what depends on a property that was set in the state. before: the state before that.
+void follow(const Property& property, PreviewState& state, const Surroundings& around) {
+  const PreviewState& before = around.state;
+  const ColorScheme& first = around.first.molecule.color;
+  ColorScheme& color = state.molecule.color;
   if (property.key == "surface.color") {
-    color = previewed_scheme(color, state.color, around.first.color, color.by == state.color.by);
-    state.patch_kinds = false;
+    color = previewed_scheme(color, before.molecule.color, first, color.by == before.molecule.color.by);
   }
-  if (property.key == "surface.map") color.own_map = color.map ? nullptr : around.first.color.own_map;
+  if (property.key == "surface.map") color.own_map = color.map ? nullptr : first.own_map;
   color.share_scale();
-  const Camera camera = state.camera.projection == scene.picture.projection
-                            ? state.camera
-                            : projected(state.camera, scene.picture.projection, balls_in_view(around.molecule));
-  PreviewFigure figure = figure_of(scene, color);
-  if (!color.uses_scale()) figure.color.title = state.color.title, figure.color.unit = state.color.unit;
-  if (property.key == "surface.color_title") figure.color.title = color.title;
-  if (property.key == "surface.color_unit") figure.color.unit = color.unit;
-  figure.camera = camera;
-  figure.overview = state.overview && property.section() != "camera";
-  figure.patch_kinds = state.patch_kinds;
-  figure.preset = state.preset;
-  if (!scene.image.background) figure.background = state.background;
-  figure.export_options = state.export_options;
-  figure.samples = state.samples;
-  ExportOptions& options = figure.export_options;
-  options.transparent = !scene.image.background;
-  options.dots_per_inch = scene.picture.dots_per_inch;
-  if (property.key == "image.samples") {
-    figure.samples = scene.image.samples;
-    options.samples.reset();
+  if (property.key == "camera.projection") {
+    state.camera = projected(state.camera, std::exchange(state.picture.projection, {}), balls_in_view(around.molecule));
+    state.overview = false;
   }
-  if (property.key == "image.size") options.size = scene.picture.size();
-  static_cast<PreviewFigure&>(state) = std::move(figure);
+  require_copies_apart(around.molecule.structure(), state, before.probe_reach());
 }
 
 /// Returns a value as scene files have it, lists always as lists; the default where the scene has none, and null where
@@ -161,16 +145,6 @@ Ordered value_json(const Property& property, const Scene& scene) {
   const bool has_one = property.initial.find_first_of(" @") == property.initial.npos && property.key != "surface.map";
   return property.initial.empty() || !has_one ? Ordered()
                                               : json_of_texts(property, {std::string(property.initial)}, "");
-}
-
-/// Returns the type of a property's control: "flag", "number", "count", "word", "color", "selection", "length" or
-/// "text".
-std::string_view control_of(const Property& property) {
-  constexpr std::string_view kTypes[] = {"flag", "number", "count", "word"};
-  if (property.type <= ValueType::word) return kTypes[static_cast<std::size_t>(property.type)];
-  if (property.key == "surface.probe") return "number";
-  if (property.has_range()) return "length";
-  return property.value == "COLOR" ? "color" : property.value == "EXPR" ? "selection" : "text";
 }
 
 std::string label_of(const Property& property) {
@@ -201,45 +175,47 @@ Outcome set_property(const CommandReader& command, PreviewState state, const Sur
   const std::string key = command.text("key");
   const Property& property = live_property(key);
   Ordered value(command.value("value"));
-  if (key.find('.') == key.npos && property.has(negated) && value.is_boolean()) value = !value.get<bool>();
-  const bool is_slid =
-      property.type != ValueType::flag && property.type != ValueType::word && !property.has(repeatable);
+  constexpr std::string_view kSlid[] = {"number", "count", "length", "color", "direction"};
+  const bool is_slid = !property.has(repeatable) && std::ranges::find(kSlid, control_of(property)) != std::end(kSlid);
   try {
     const Texts texts = given_texts(property, std::move(value));
-    Scene scene = own_scene(state, around);
     if (property.key == "look.preset") {
-      scene_values::replace_value(scene, property, texts);
-      return with_preset(std::move(state), scene.look.preset, around);
+      scene_values::replace_value(state, property, texts);
+      return with_preset(std::move(state), state.look.preset, around);
     }
-    scene_values::replace_value(scene, property, texts);
-    if (!texts.empty()) check_extent(property, scene);
-    if (!texts.empty()) check_among_others(property, scene, around);
-    take_scene(property, std::move(scene), state, around);
-    if (texts.empty() && property.key == "image.size") state.export_options.size.reset();
-    if (texts.empty() && property.key == "image.samples") state.samples = PreviewState{}.samples;
-    require_copies_apart(around.molecule.structure(), state, around.state.probe_reach());
+    scene_values::replace_value(state, property, texts);
+    if (property.section() == "image" || control_of(property) == "length") scene_values::complete_lengths(state);
+    if (!texts.empty()) check_extent(property, state);
+    if (!texts.empty()) check_among_others(property, state, around.molecule);
+    if (texts.empty() && property.key == "image.samples") state.image.samples = PreviewFigure().image.samples;
+    if (property.key == "image.size" || property.key == "image.width" || property.key == "image.height")
+      state.has_size = !texts.empty() || scene_values::has_lengths_of_sides(state);
+    follow(property, state, around);
   } catch (const SelectionError& error) {
     throw RequestError(fmt::format("set: {}: {}", key, error.sentence()));
   } catch (const RequestError& error) {
-    const std::string said = said_by("", error.what());  // without the word of another command, ": ..."
-    throw RequestError(fmt::format("set: {}{}{}", key, said.starts_with(": ") ? "" : ": ", said));
+    throw RequestError(fmt::format("set: {}: {}", key, error.what()));
   }
   const bool frames_all = property.key == "surface.kind" || property.section() == "legend";
   const Renewal renewal = renewal_of(property, state);
-  // A switch is a step by itself; the places of a slider that follow each other are one.
+  // The places of a slider that follow each other are one step; any other value is a step by itself.
+  nlohmann::json reply = nlohmann::json::object();
+  if (property.key == "surface.show") reply["atoms"] = around.molecule.count_shown(state);
   return {.state = std::move(state),
           .renewal = renewal,
+          .reply = std::move(reply),
           .frames_all = frames_all,
           .is_own_step = !is_slid,
           .step = "set " + std::string(property.key)};
 }
 
-nlohmann::json property_values(const Surroundings& around) {
-  const PreviewState& state = around.state;
-  Scene scene = own_scene(state, around);
-  scene.look = look_request(state.look, state.full_look(), state.patches.has_value());
+nlohmann::json property_values(const PreviewState& state) {
+  Scene scene = state;
+  if (!state.has_size) scene_values::replace_value(scene, property_of("image.size"), {});
+  scene.picture.projection = state.camera.projection;
+  scene.molecule.color_named = true;
+  scene.look = look_request(state.look, state.full_look(), state.molecule.patches.has_value());
   scene.look.preset = state.preset;
-  if (!state.export_options.size) scene_values::replace_value(scene, property_of("image.size"), {});
   nlohmann::json values = nlohmann::json::object();
   for (const Property* property : properties())
     if (property->has(live)) values[std::string(property->key)] = nlohmann::json(value_json(*property, scene));

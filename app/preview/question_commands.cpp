@@ -65,7 +65,7 @@ void add_figure(const PreviewState& state, Json& reply) {
   for (const RepresentationRequest& request : state.figure.representations.requests)
     representations.push_back({{"as", shape_word(request.kind)}, {"selection", escaped(request.atoms.text())}});
   Json& opacities = reply["opacities"] = Json::array();
-  for (const OpacityRule& rule : state.color.opacities) {
+  for (const OpacityRule& rule : state.molecule.color.opacities) {
     opacities.push_back({{"opacity", std::stod(fmt::format("{}", rule.opacity))}});
     if (rule.atoms) opacities.back()["selection"] = escaped(rule.atoms->text());
   }
@@ -78,11 +78,12 @@ void add_figure(const PreviewState& state, Json& reply) {
   for (const FigureObjectRequest& object : state.figure.objects)
     objects.push_back(Json::parse(json_line(figure_object_json(object))));
   reply["surface_hidden"] = state.figure.hides_surface;
-  reply["show"] = state.show ? Json(escaped(state.show->text())) : Json(nullptr);
-  reply["patches"] = {{"selection", state.patches ? Json(escaped(state.patches->text())) : Json(nullptr)},
-                      {"min_area", state.least_patch}};
-  const LegendStyle& style = state.legend_style;
-  reply["legend"] = {{"on", state.legend},
+  reply["show"] = state.molecule.show ? Json(escaped(state.molecule.show->text())) : Json(nullptr);
+  reply["patches"] = {
+      {"selection", state.molecule.patches ? Json(escaped(state.molecule.patches->text())) : Json(nullptr)},
+      {"min_area", state.molecule.least_patch}};
+  const LegendStyle& style = state.legend.style;
+  reply["legend"] = {{"on", state.legend.within},
                      {"title", style.title ? Json(escaped(*style.title)) : Json(nullptr)},
                      {"letters", or_null(style.letters)},
                      {"place", words_of(property_of("legend.place"))[static_cast<std::size_t>(style.place)]}};
@@ -126,7 +127,6 @@ Json get_state(const CommandReader&, const Surroundings& around) {
     high = glm::max(high, ball.center + ball.radius);
   }
   const std::size_t atoms = molecule.balls().size();
-  const ExportOptions& options = state.export_options;
   Json reply{
       {"file", escaped(structure.file)},
       {"atoms", atoms},
@@ -145,26 +145,26 @@ Json get_state(const CommandReader&, const Surroundings& around) {
       {"playing", state.playing},
       {"fps", state.frames_per_second},
       {"camera", Json(camera_object(state.camera))},
-      {"surface", kind_word(state.kind)},
-      {"probe_radius", state.probe_radius},
-      {"color", color_json(state.color)},
-      {"patch_kinds", state.patch_kinds},
+      {"surface", kind_word(state.molecule.surface.kind)},
+      {"probe_radius", state.molecule.surface.probe_radius},
+      {"color", color_json(state.molecule.color)},
+      {"patch_kinds", state.molecule.color.by == ColorScheme::By::kind},
       {"preset", words_of(property_of("look.preset"))[static_cast<std::size_t>(state.preset)]},
       {"look", look_json(state.full_look())},
       {"width", state.size.x},
       {"height", state.size.y},
-      {"samples", state.samples},
+      {"samples", state.image.samples},
       {"export",
-       {{"width", options.size ? Json(options.size->x) : Json(nullptr)},
-        {"height", options.size ? Json(options.size->y) : Json(nullptr)},
-        {"samples", or_null(options.samples)},
-        {"transparent", options.transparent}}},
+       {{"width", state.has_size ? Json(state.picture.width) : Json(nullptr)},
+        {"height", state.has_size ? Json(state.picture.height) : Json(nullptr)},
+        {"samples", state.has_size ? Json(state.image.samples) : Json(nullptr)},
+        {"transparent", !state.image.background}}},
       {"views", Json::array()},
       {"undo", around.history.undo_steps()},
       {"redo", around.history.redo_steps()},
       {"unsaved", !around.exporter.keeps(state)},
       {"drawn_by", around.pictures.draws_on_cpu() ? "cpu" : "gl"}};
-  reply["values"] = property_values(around);
+  reply["values"] = property_values(state);
   add_figure(state, reply);
   if (!molecule.legend_fault().empty()) reply["legend"]["fault"] = molecule.legend_fault();
   for (const auto& [name, camera] : state.named_views) reply["views"].push_back(escaped(name));
@@ -183,7 +183,7 @@ Json get_stats(const CommandReader&, const Surroundings& around) {
 }
 
 Json get_choices(const CommandReader&, const Surroundings& around) {
-  const ColorScheme& first = around.first.color;
+  const ColorScheme& first = around.first.molecule.color;
   Json schemes = Json::array(), maps = Json::array();
   for (const ColorSchemeMetadata& scheme : color_schemes()) {
     if (!is_previewed(scheme.by) && scheme.by != first.by) continue;
@@ -206,7 +206,6 @@ Json get_choices(const CommandReader&, const Surroundings& around) {
           {"keys", keys},
           {"actions", actions},
           {"presets", words_of(property_of("look.preset"))},
-          {"sliders", look_sliders()},
           {"properties", property_choices()},
           {"representations", {"sticks", "balls", "spheres", "tube", "bases", "glycans"}}};
 }

@@ -37,7 +37,7 @@ PreviewSession::PreviewSession(std::unique_ptr<PreviewRenderer> renderer, Struct
       molecule_(std::move(structure), std::move(trajectory), context.read_shown, state_),
       pictures_(std::move(renderer)),
       exporter_{std::move(export_folder), std::move(context)} {
-  require_previewed(state_.color);
+  require_previewed(state_.molecule.color);
   state_.overview = !camera;
   state_.camera = camera ? *camera : molecule_.overview(state_);
   validate_camera(state_.camera, "the view");
@@ -66,7 +66,7 @@ Json PreviewSession::apply(const Json& command) {
 }
 
 std::shared_ptr<const page::PackedFrame> PreviewSession::figure(const std::function<bool()>& stop) {
-  return tables_.packed(exporter_.context.scene.value_or(Scene{}), state_, molecule_, stop);
+  return tables_.packed(state_, molecule_, stop);
 }
 
 Json PreviewSession::carry_out(const Json& json) {

@@ -14,7 +14,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_key.h"
-#include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
 #include "core/image/color_space.h"
@@ -100,7 +99,7 @@ std::vector<Ball> sampled_balls(const TrajectoryPositions& trajectory, const Str
 /// before: beside the surface so far, of which only colours are changed where no shapes are to be made again.
 std::shared_ptr<const FigureExtras> extras_of(const Structure& marked, const PreviewFigure& figure, bool only_colors,
                                               const std::shared_ptr<const FigureExtras>& before) {
-  const ColorScheme scheme = figure.shown_scheme();
+  const ColorScheme& scheme = figure.molecule.color;
   if (!only_colors) return std::make_shared<const FigureExtras>(make_extras(marked, figure.figure, scheme));
   auto extras = std::make_shared<FigureExtras>(*before);
   color_extras(marked, figure.figure, scheme, *extras);
@@ -125,8 +124,9 @@ std::vector<Ball> balls_shown(const ShownMolecule& molecule, const PreviewFigure
 std::size_t count_of(const std::vector<bool>& shown, const PreviewFigure& figure, const ShownMolecule& molecule) {
   const auto count = static_cast<std::size_t>(std::ranges::count(shown, true));
   if (count > 0) return count;
-  throw RequestError(fmt::format("nothing would be left of the surface of {}; {}", in_quotes(figure.show->text()),
-                                 figure.show->why_none(molecule.atoms_in_view())));
+  throw RequestError(fmt::format("nothing would be left of the surface of {}; {}",
+                                 in_quotes(figure.molecule.show->text()),
+                                 figure.molecule.show->why_none(molecule.atoms_in_view())));
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ ShownMolecule::ShownMolecule(Structure structure, std::optional<TrajectoryPositi
   if (state.copies_apart) require_apart(structure_, state.probe_reach());
   if (trajectory_) sampled_ = sampled_balls(*trajectory_, structure_, atoms());
   become(state, Renewal::frame);
-  if (state.show) hidden_atoms(*state.show, marked_ ? *marked_ : structure_);  // that some are shown
+  if (state.molecule.show) hidden_atoms(*state.molecule.show, marked_ ? *marked_ : structure_);  // that some are shown
 }
 
 bool ShownMolecule::become(const PreviewState& state, Renewal renewal) {
@@ -148,7 +148,7 @@ bool ShownMolecule::become(const PreviewState& state, Renewal renewal) {
   if (next.coloring) coloring_ = std::move(*next.coloring);
   marked_ = std::move(next.marked);
   extras_ = std::move(next.extras);
-  const bool moves = renewal == Renewal::frame || growth_ != growth_of(state.kind, state.probe_radius);
+  const bool moves = renewal == Renewal::frame || growth_ != state.growth();
   if (moves) place_balls(state);
   if (renewal >= Renewal::legend) lay_out_legend(state);
   return moves;
@@ -189,9 +189,9 @@ ShownMolecule::Made ShownMolecule::made_at(const PreviewState& state) {
 ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal renewal, std::size_t frame) const {
   Made made{{}, marked_, extras_};
   if (renewal < Renewal::legend) return made;
-  if (!structure_.instances.empty() && !(figure.figure.plain() && figure.color.opacities.empty()))
+  if (!structure_.instances.empty() && !(figure.figure.plain() && figure.molecule.color.opacities.empty()))
     throw RequestError("copies of one surface (--instances) are shown whole and opaque; leave --instances out");
-  require_colors_shared(structure_, figure.color);
+  require_colors_shared(structure_, figure.molecule.color);
   if (renewal >= Renewal::shapes) {
     made.marked.reset();
     const bool has_companions =
@@ -208,7 +208,8 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
   }
   // Rules such as "within 4 of ligand" see the atoms beside the surface, unless the file has several models.
   const bool is_whole = made.marked && made.marked->atoms.size() == structure_.atoms.size();
-  if (renewal >= Renewal::colors) made.coloring = color_atoms(is_whole ? *made.marked : structure_, figure.color);
+  if (renewal >= Renewal::colors)
+    made.coloring = color_atoms(is_whole ? *made.marked : structure_, figure.molecule.color);
   if (!made.marked)
     made.extras.reset();
   else if (renewal >= Renewal::colors)
@@ -227,8 +228,8 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
 
 /// Of the atoms of the surface those that are shown, which may be told by what is beside them; nullptr: nothing.
 std::vector<bool> ShownMolecule::part_shown(const PreviewFigure& figure, const Structure* marked) const {
-  if (!figure.show) return std::vector<bool>(atoms().size(), true);
-  std::vector<bool> shown = figure.show->evaluate(marked ? shown_atoms(*marked) : frame_structure().atoms);
+  if (!figure.molecule.show) return std::vector<bool>(atoms().size(), true);
+  std::vector<bool> shown = figure.molecule.show->evaluate(marked ? shown_atoms(*marked) : frame_structure().atoms);
   shown.resize(atoms().size());
   return shown;
 }
@@ -238,7 +239,7 @@ std::size_t ShownMolecule::count_shown(const PreviewFigure& figure) const {
 }
 
 void ShownMolecule::place_balls(const PreviewFigure& figure) {
-  growth_ = growth_of(figure.kind, figure.probe_radius);
+  growth_ = figure.growth();
   balls_.clear();
   for (const std::uint32_t a : atoms()) balls_.push_back({structure_.atoms[a].position, structure_.atoms[a].radius});
   balls_ = grown(balls_, growth_);
@@ -252,19 +253,19 @@ ColorKey ShownMolecule::key(const PreviewFigure& figure) const {
   const std::vector<bool> shown = part_shown(figure, marked_.get());
   for (std::size_t n = 0; n < shown.size(); ++n)
     if (!shown[n]) drawn.atoms[marked_ ? n : atoms()[n]] = false;
-  return figure_key(structure, figure.shown_scheme(), std::move(drawn), figure.figure,
+  return figure_key(structure, figure.molecule.color, std::move(drawn), figure.figure,
                     extras_ ? *extras_ : FigureExtras());
 }
 
 void ShownMolecule::lay_out_legend(const PreviewState& state) {
   legend_.reset();
   legend_fault_.clear();
-  if (!state.legend) return;
+  if (!state.legend.within) return;
   const ColorKey colors = key(state);
   if (colors.empty()) return;
   try {
-    legend_ = std::make_shared<const LegendStrip>(colors, state.size, legend_style(state.legend_style, state.letters),
-                                                  state.background);
+    legend_ = std::make_shared<const LegendStrip>(
+        colors, state.size, legend_style(state.legend.style, state.annotations.letters), state.shown_background());
   } catch (const RequestError& error) {  // no room for it in this size
     legend_fault_ = error.what();
   }
@@ -272,11 +273,7 @@ void ShownMolecule::lay_out_legend(const PreviewState& state) {
 
 Coloring ShownMolecule::coloring(const PreviewFigure& figure) const {
   Coloring coloring = coloring_of(coloring_, atoms());
-  if (figure.patch_kinds) {
-    coloring.atom.assign(atoms().size(), default_missing_color(ColorMap::categorical));  // on caps
-    coloring.kind = kPatchKindColors;
-  }
-  if (figure.show) {
+  if (figure.molecule.show) {
     coloring.hidden = part_shown(figure, marked_.get());
     coloring.hidden.flip();
   }
@@ -284,9 +281,9 @@ Coloring ShownMolecule::coloring(const PreviewFigure& figure) const {
 }
 
 std::vector<bool> ShownMolecule::patch_marks(const PreviewFigure& figure) const {
-  if (!figure.patches) return {};
-  std::vector<bool> marks = figure.patches->evaluate(annotated_structure());
-  if (figure.least_patch <= 0.0 || std::ranges::find(marks, true) == marks.end()) return marks;
+  if (!figure.molecule.patches) return {};
+  std::vector<bool> marks = figure.molecule.patches->evaluate(annotated_structure());
+  if (figure.molecule.least_patch <= 0.0 || std::ranges::find(marks, true) == marks.end()) return marks;
   std::vector<AtomGroup> groups(1);  // that have a surface each: all, or what is copied together
   for (std::uint32_t a = 0; a < balls_.size(); ++a) groups[0].atoms.push_back(a);
   if (!structure_.instances.empty()) groups.clear();
@@ -298,8 +295,8 @@ std::vector<bool> ShownMolecule::patch_marks(const PreviewFigure& figure) const 
       balls.push_back(balls_[a]);
       chosen.push_back(marks[a]);
     }
-    const Surface surface = compute_surface_cpu(balls, rolling_probe(figure.kind, figure.probe_radius));
-    chosen = atoms_of_patches(surface, std::move(chosen), figure.least_patch);
+    const Surface surface = compute_surface_cpu(balls, figure.rolling_radius());
+    chosen = atoms_of_patches(surface, std::move(chosen), figure.molecule.least_patch);
     for (std::size_t n = 0; n < group.atoms.size(); ++n) marks[group.atoms[n]] = chosen[n];
   }
   return marks;
@@ -331,8 +328,7 @@ double ShownMolecule::aspect(const PreviewState& state) const {
 }
 
 Camera ShownMolecule::overview(const PreviewState& state) const {
-  const std::vector<Ball> own =
-      trajectory_ ? grown(sampled_, growth_of(state.kind, state.probe_radius)) : framing_balls();
+  const std::vector<Ball> own = trajectory_ ? grown(sampled_, state.growth()) : framing_balls();
   const Camera camera = meniscus::overview(own, aspect(state), state.camera.projection);
   if (trajectory_ || !extras_) return camera;
   const std::vector<Ball> all = balls_in_view(*this);

@@ -26,7 +26,9 @@ PreviewFigure figure_between(const PreviewFigure& from, const PreviewFigure& to,
   PreviewFigure figure = nearer;
   figure.overview = false;
   figure.camera = camera_between(nearer.camera, other.camera, way);
-  if (nearer.kind == other.kind) figure.probe_radius = radius_between(nearer.probe_radius, other.probe_radius, way);
+  if (nearer.molecule.surface.kind == other.molecule.surface.kind)
+    figure.molecule.surface.probe_radius =
+        radius_between(nearer.molecule.surface.probe_radius, other.molecule.surface.probe_radius, way);
   const auto shape_radius = [&](std::optional<double> ShapeRadii::*radius) {
     std::optional<double>& shown = figure.figure.representations.*radius;
     if (shown) shown = radius_between(*shown, (other.figure.representations.*radius).value_or(0.0), way);
@@ -35,16 +37,17 @@ PreviewFigure figure_between(const PreviewFigure& from, const PreviewFigure& to,
   shape_radius(&ShapeRadii::tube_radius);
 
   std::vector<Ball> balls = molecule.framing_balls();
-  for (Ball& ball : balls) ball.radius += std::max(from.probe_radius, to.probe_radius);
+  for (Ball& ball : balls)
+    ball.radius += std::max(from.molecule.surface.probe_radius, to.molecule.surface.probe_radius);
   figure.figure.cuts = cuts_at(planes_between(molecule.planes(from), molecule.planes(to), balls, share));
   if (nearer.figure.cuts.empty()) figure.figure.cap = other.figure.cap;
 
   const auto look = [&](const PreviewFigure& of) {
-    return look_of(of.look, around.state.size, of.background, of.hues(), of.patches.has_value());
+    return look_of(of.look, around.state.size, of.shown_background(), of.hues(), of.molecule.patches.has_value());
   };
   const Look between = look_between(look(nearer), look(other), way);
-  figure.look = look_request(nearer.look, between, nearer.patches.has_value());
-  figure.background = between.background;
+  figure.look = look_request(nearer.look, between, nearer.molecule.patches.has_value());
+  figure.image.background = between.background;
   return figure;
 }
 

@@ -139,15 +139,16 @@ bool ViewCache::draw(const PreviewState& state, const ShownMolecule& molecule, Q
     return true;
   };
   if (quality == Quality::balls) {
-    balls_ = {size, draw_balls(molecule.balls(), molecule.coloring(state), state.camera, size, state.background)};
+    balls_ = {size,
+              draw_balls(molecule.balls(), molecule.coloring(state), state.camera, size, state.shown_background())};
     return end();
   }
   RenderSettings settings;
   settings.size = quality == Quality::draft ? glm::max(size / 2, glm::ivec2(1)) : size;
-  settings.samples = quality == Quality::full ? state.samples : 1;
+  settings.samples = quality == Quality::full ? state.image.samples : 1;
   settings.look = quality == Quality::full ? state.full_look() : without_effects(state.full_look());
   settings.timing = quality == Quality::draft ? StageTiming::rough : StageTiming::exact;
-  if (!renderer_->draw(rolling_probe(state.kind, state.probe_radius), state.camera, settings, stop)) return false;
+  if (!renderer_->draw(state.rolling_radius(), state.camera, settings, stop)) return false;
   if (quality != Quality::draft || stages_.empty()) stages_ = renderer_->times();
   has_surface_ = true;
   balls_ = {};
@@ -176,7 +177,9 @@ std::optional<double> ViewCache::exposed_area(const PreviewState& state, const S
   };
   const std::vector<Instances>& copies = molecule.structure().instances;
   if (copies.empty())
-    return area({state.frame, 0, state.kind, state.probe_radius, molecule.balls(), renderer_->surface()}, atom);
+    return area({state.frame, 0, state.molecule.surface.kind, state.molecule.surface.probe_radius, molecule.balls(),
+                 renderer_->surface()},
+                atom);
   // Copies of a group are as if it were alone.
   std::size_t group = 0;
   while (!std::ranges::binary_search(copies[group].atoms, atom)) ++group;
@@ -185,7 +188,8 @@ std::optional<double> ViewCache::exposed_area(const PreviewState& state, const S
   balls.reserve(atoms.size());
   for (const std::uint32_t a : atoms) balls.push_back(molecule.balls()[a]);
   const auto place = static_cast<std::size_t>(std::ranges::lower_bound(atoms, atom) - atoms.begin());
-  return area({state.frame, group, state.kind, state.probe_radius, balls, nullptr}, place);
+  return area({state.frame, group, state.molecule.surface.kind, state.molecule.surface.probe_radius, balls, nullptr},
+              place);
 }
 
 }  // namespace meniscus

@@ -142,7 +142,7 @@ namespace {
 std::pair<std::vector<SurfaceObject>, std::string> complete_surfaces(const ExportedView& view,
                                                                      const ExportWatch& watch) {
   SurfaceRequest request;
-  request.probe_radius = rolling_probe(view.figure.kind, view.figure.probe_radius);  // the balls are grown already
+  request.probe_radius = view.figure.rolling_radius();  // the balls are grown already
   request.cpu = true;
   SurfaceComputer computer(request);
   computer.before_stages([&watch] { watch("surface", 0.0); });
@@ -177,11 +177,11 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
   check_image_path(target.path);
   check_output(target.path, target.existing);  // known to be possible before the work begins
   const PreviewFigure& figure = view.figure;
-  std::optional<glm::vec3> background = figure.background;
+  std::optional<glm::vec3> background = figure.shown_background();
   if (view.transparent) background.reset();
   std::optional<Legend> legend;
-  if (figure.legend && !view.colors.empty())
-    legend.emplace(view.colors, view.size, legend_style(figure.legend_style, figure.letters));
+  if (figure.legend.within && !view.colors.empty())
+    legend.emplace(view.colors, view.size, legend_style(figure.legend.style, figure.annotations.letters));
   Figure whole;
   whole.molecule.objects = complete_surfaces(view, watch).first;
   if (view.extras) whole.extras = *view.extras;
@@ -190,14 +190,14 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
   const Strips strips = strips_for(strip_contents(view.annotations), view.annotations.letters, settings.size);
   settings.size.y -= strips.top + strips.bottom;
   settings.samples = view.samples;
-  settings.look = look_of(figure.look, view.size, background, figure.hues(), figure.patches.has_value());
+  settings.look = look_of(figure.look, view.size, background, figure.hues(), figure.molecule.patches.has_value());
   settings.progress = [&watch](double share) { watch("picture", share); };
   SurfaceRequest on_cpu;
   on_cpu.cpu = true;
   const std::unique_ptr<PictureDevice> device = make_device ? make_device() : std::make_unique<PictureDevice>(on_cpu);
   ImageSettings settings_of_file{background, target.existing, figure.look.has_linear_alpha()};
   settings_of_file.scene = view.scene;
-  settings_of_file.dots_per_inch = view.dots_per_inch;
+  settings_of_file.dots_per_inch = figure.picture.dots_per_inch;
   PictureFile picture(target.path, {view.annotations, legend, strips}, figure.camera, settings_of_file, settings);
   draw(device->renderer(), std::move(whole), figure.figure, figure.camera, settings);
   watch("writing", 0.0);
@@ -213,7 +213,7 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target, 
   povray::SceneOptions options;
   options.width = view.size.x;
   options.height = view.size.y;
-  options.background = view.figure.background;
+  options.background = view.figure.shown_background();
   options.existing = target.existing;
   options.shadows = view.figure.look.shadows.value_or(0.0f);
   options.shadow_softness = look_of(view.figure.look, view.size, std::nullopt, Hues::free).shadow_softness;

@@ -76,7 +76,6 @@ struct ExportedView {
   int samples;                                 ///< rays per pixel
   bool transparent;                            ///< pictures have no background
   std::string scene;                           ///< what pictures say they were made of; empty: nothing
-  double dots_per_inch = 0.0;                  ///< of pictures; 0: not said
 };
 
 /// Where it goes.
@@ -113,22 +112,19 @@ std::filesystem::path export_path(const std::filesystem::path& folder, const std
 /// A figure that a scene file says, of the molecule that is shown.
 struct OpenedScene {
   PreviewFigure figure;
-  ExportOptions export_options;
   int frame = 0;  ///< of a file of several models, from 0
 };
 
 /// Optional callbacks that the program gives to a session.
 struct SessionContext {
   ReadShown read_shown;
-  std::optional<Scene> scene;     ///< that the preview began with; nothing: it writes no scenes
+  bool writes_scenes = false;     ///< the molecule has a file that scenes can name
   MakePictureDevice make_device;  ///< of exported pictures
-  /// Returns the annotations of exported pictures. structure: the molecule at a frame. extras: everything drawn in
-  /// addition to its surface; nullptr: nothing.
-  std::function<Annotations(const Structure& structure, const FigureExtras* extras)> annotations;
   /// Makes the film of a scene, as `meniscus render` does; empty: there are none. Throws RequestError, OutputError.
   std::function<void(const Scene& scene, const ExportTarget& target, const ExportWatch& watch)> make_film;
-  /// The camera by which render would draw a scene. The structure has the atoms that the scene draws.
-  std::function<Camera(const Scene& scene, const ColorScheme& color, const Structure& structure)> aim;
+  /// The camera by which render would draw a scene whose colours have the numbers of their file. The structure has the
+  /// atoms that the scene draws.
+  std::function<Camera(const Scene& scene, const Structure& structure)> aim;
   /// Reads a scene. Throws InputError, UsageError; RequestError where it is one of another molecule.
   std::function<OpenedScene(const std::filesystem::path& path)> open_scene;
 };

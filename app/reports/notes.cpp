@@ -105,7 +105,8 @@ void log_run(const SceneCommand& command, const FrameRun& frames) {
 
 void log_surface(const SceneCommand& command, const Molecule& molecule) {
   warn_beyond_map(command, molecule.beyond_map, "the surface");
-  log_line(command, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));
+  if (command.reporting.verbose)
+    log_line(command, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));
   log_grown_radii(command, change_of_radii(molecule.objects).grown_by);
 }
 
@@ -124,6 +125,7 @@ Molecule build_and_log(const SceneCommand& command, Structure structure) {
 Molecule load_molecule(const SceneCommand& command) { return build_and_log(command, read_and_log(command)); }
 
 void log_times(const SceneCommand& command, const std::string& device, std::span<const StageTime> stages) {
+  if (!command.reporting.verbose) return;
   std::string times;
   for (const StageTime& stage : stages)
     times += fmt::format("{}{} {:.1f} ms", times.empty() ? "" : ", ", stage.name, stage.milliseconds);

@@ -345,7 +345,7 @@ std::string report_table(const SurfaceReport& report) {
   if (report.context)
     fmt::format_to(out, "context       {} atoms: {}\n", n(report.context->atoms), escaped(report.context->selection));
   fmt::format_to(out, "device        {}\n", report.molecule.device);
-  for (const StageTime& stage : report.molecule.stages)
+  for (const StageTime& stage : report.timed ? report.molecule.stages : std::vector<StageTime>{})
     fmt::format_to(out, "time          {:>9.2f} ms  {}\n", stage.milliseconds, stage.name);
   text += chain_table(report);
   text += objects.size() > 1 ? object_table(report) : component_table(objects.front().surface);

@@ -44,13 +44,14 @@ struct ContextNote {
   std::size_t atoms = 0;
 };
 
-/// All numbers of a molecule's surfaces. `columns`: areas of its atoms.
+/// All numbers of a molecule's surfaces. `columns`: areas of its atoms; `timed`: the table has the times of stages.
 struct SurfaceReport {
   const Molecule& molecule;
   const MoleculeRequest& options;
   const std::vector<AreaColumn>& columns;
   const std::optional<ContextNote>& context;
   const std::optional<PatchReport>& patches;
+  bool timed = false;
 };
 
 /// Returns indented JSON that ends with a line feed.

@@ -31,15 +31,15 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kLegend, kShared | live | rare),
 
     text("annotations.panel", "--panel", "TEXT", "Letter of the panel, such as a, at the top left")
-        .in(kLabels, kShared | in_short_help),
+        .in(kLabels, kShared | live | in_short_help),
     text("annotations.title", "--title", "TEXT", "Title of the picture, at the top")
-        .in(kLabels, kShared | in_short_help),
+        .in(kLabels, kShared | live | in_short_help),
     text("annotations.scale_bar", "--scale-bar", "Å",
          "Draw a scale bar of this length, or of a round one (auto). With a perspective camera it is true at the "
          "camera's target")
         .proposes("auto")
         .initially("auto")
-        .in(kLabels, kShared | value_optional | in_short_help),
+        .in(kLabels, kShared | live | value_optional | in_short_help),
     text("annotations.letter_size", "--letter-size", "SIZE",
          "Height of all letters that have no size of their own: pixels, 8pt or 3mm")
         .from(6, 1000)
@@ -74,9 +74,9 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kLabels, kShared | live),
     text("annotations.labels", "--label", "EXPR=TEXT",
          "Write TEXT at these atoms, with a line to their centre. Repeatable")
-        .in(kLabels, kShared | repeatable | in_short_help),
+        .in(kLabels, kShared | live | repeatable | in_short_help),
     flag("annotations.lengths", "--hide-lengths", "Write no lengths beside dashed lines")
-        .in(kLabels, kShared | negated),
+        .in(kLabels, kShared | live | negated),
     flag("annotations.time_stamp", "--time-stamp", "Write the time of each frame in ps, ns or µs, or else its number")
         .in(kLabels, kShared),
     file("annotations.curve", "--curve", "FILE.csv",

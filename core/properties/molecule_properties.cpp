@@ -47,6 +47,7 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("summary")
         .in(kInput, in_bundle),
     flag("molecule.quiet", "-q,--quiet", "Print errors only").in(kInput, in_bundle | in_short_help),
+    flag("molecule.verbose", "--verbose", "Print the device and the time of each stage, too").in(kInput, in_bundle),
 
     word("molecule.hydrogens", "--hydrogens", "WORD",
          "Hydrogens: keep, drop or auto. auto: drop them if the radii of heavy atoms include them")

@@ -60,10 +60,10 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("1280x960; film 1920x1080, .gif 960x540")
         .in(kPicture, kShared | live | in_short_help),
     text("image.width", "--width", "LENGTH", "Width of the picture: 85mm, 8.5cm, 3.5in or 1000px")
-        .in(kPicture, kShared | in_short_help)
+        .in(kPicture, kShared | live | in_short_help)
         .excludes("image.size"),
     text("image.height", "--height", "LENGTH", "Height of the picture in the same units; auto: that of the molecule")
-        .in(kPicture, kShared)
+        .in(kPicture, kShared | live)
         .excludes("image.size"),
     text("image.margin", "--margin", "LENGTH", "Margin around the molecule of @size auto@ and @height auto@")
         .from(0, 10000)

@@ -100,6 +100,8 @@ void reset_size(const Property&, Scene& scene) {
   scene.picture.fits = false;
   scene.picture.width = usual_scene().picture.width;
   scene.picture.height = usual_scene().picture.height;
+  scene.lengths.erase("image.width");
+  scene.lengths.erase("image.height");
 }
 
 void read_side(const Property& property, Texts texts, Scene& scene) {
@@ -174,6 +176,11 @@ Written write_scale_bar(const Property&, const Scene& scene) {
   return {scene.annotations.bar_length ? fmt::format("{}", *scene.annotations.bar_length) : "auto"};
 }
 
+void reset_scale_bar(const Property&, Scene& scene) {
+  scene.annotations.scale_bar = false;
+  scene.annotations.bar_length.reset();
+}
+
 std::string label_text(const LabelRequest& label) { return label.atoms.text() + "=" + label.text; }
 
 void read_unit(const Property& property, Texts texts, Scene& scene) {
@@ -231,7 +238,7 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
     coded<auto_or_color, hex_color>("annotations.letter_color", [](auto& s) { return &s.annotations.letters.color; }),
     plain("annotations.panel", [](auto& s) { return &s.annotations.panel; }),
     plain("annotations.title", [](auto& s) { return &s.annotations.title; }),
-    {"annotations.scale_bar", read_scale_bar, write_scale_bar},
+    {"annotations.scale_bar", read_scale_bar, write_scale_bar, reset_scale_bar},
     coded<parse_label, label_text>("annotations.labels", [](auto& s) { return &s.annotations.labels; }),
     plain("annotations.lengths", [](auto& s) { return &s.annotations.hides_lengths; }),
     plain("annotations.time_stamp", [](auto& s) { return &s.annotations.time_stamp; }),

@@ -62,6 +62,9 @@ Written written_length(const Property& property, const Scene& scene, const std::
   return written(width, {});
 }
 
+/// Gives all lengths on paper their values in pixels. Throws ValueError for lengths that the properties cannot have.
+void complete_lengths(Scene& scene);
+
 /// Returns the size in pixels that lengths of sides give. If only one side is given, the picture has the default aspect
 /// ratio.
 glm::ivec2 size_by_lengths(const Scene& scene);

@@ -40,6 +40,11 @@ std::string SceneTrust::path(const Property& property, const std::string& text, 
   // folder.
   const bool reads = property.type != ValueType::new_file;
   if (reads && !fs::exists(path_of_text(path), ignored) && fs::exists(given, ignored)) path = text;
+  // Pictures and pages have the names of files without folders.
+  const auto has_name = [&](const std::string& word) { return path_of_text(word).filename() == given; };
+  if (const auto word = std::ranges::find_if(named, has_name);
+      reads && word != named.end() && !fs::exists(path_of_text(path), ignored))
+    return *word;
   if (is_whole) return path;
   if (reads) {
     const bool leads_out = given.is_absolute() || std::ranges::find(given, fs::path("..")) != given.end();

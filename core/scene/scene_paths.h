@@ -22,8 +22,8 @@ struct SceneTrust {
   std::string advice{};              ///< how the user can allow a file outside of the folder: the end of a sentence
 
   /// Returns a path of the scene relative to the working folder. A path to read is searched in the scene's folder, then
-  /// in the working folder. place: the place of the path in the scene. Throws InputError for a path that the scene may
-  /// not name.
+  /// in the working folder, then among the words of the earlier command line. place: the place of the path in the
+  /// scene. Throws InputError for a path that the scene may not name.
   std::string path(const Property& property, const std::string& text, const std::string& place) const;
 
  private:

@@ -150,11 +150,7 @@ void scene_values::replace_value(Scene& scene, const Property& property, Texts t
   if (!texts.empty()) set_value(scene, property, texts);
 }
 
-namespace {
-
-// The values that depend on each other follow.
-
-void complete_lengths(Scene& scene) {
+void scene_values::complete_lengths(Scene& scene) {
   if (scene.picture.dots_per_inch == 0.0 && std::ranges::any_of(scene.lengths, [](const auto& length) {
         return parse_length(length.second).per_inch != 0.0;
       }))
@@ -172,8 +168,6 @@ void complete_lengths(Scene& scene) {
   scene.picture.width = size.x;
   scene.picture.height = size.y;
 }
-
-}  // namespace
 
 bool operator==(const Scene& one, const Scene& other) {
   return std::ranges::all_of(properties(), [&](const Property* property) {

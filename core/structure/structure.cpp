@@ -33,7 +33,7 @@ constexpr ReasonWords kReasonWords[] = {
     {kExcludedElement, "of unknown element"},
     {kExcludedRadius, "of radius zero"},
     {kExcludedHydrogen, "hydrogen", "s"},
-    {kExcludedWater, "water"},
+    {kExcludedWater, "of water"},
     {kExcludedIon, "free ion", "s"},
     {kExcludedLigand, "of ligands"},
     {kExcludedLipid, "of lipids"},

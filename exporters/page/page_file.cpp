@@ -338,7 +338,7 @@ std::size_t PageWriter::bytes() const {
   return texts + static_cast<std::size_t>(kLettersPerByte * static_cast<double>(data_.size() + described_));
 }
 
-std::string PageWriter::text() const {
+std::string PageWriter::text(const std::string& scene) const {
   json description = *first_.description;
   description["frames"] = frames_;
   description["moments"] = moments_;
@@ -349,8 +349,11 @@ std::string PageWriter::text() const {
   fill("VERSION", MENISCUS_VERSION);
   fill("POLICY", std::string(template_text(page_templates(), "policy.html")));
   fill("STYLE", fmt::format("<style>{}</style>", template_text(page_templates(), "page.css")));
-  fill("SCRIPT", fmt::format("<script>{}{}</script>", template_text(page_templates(), "first.js"),
-                             template_text(page_templates(), "second.js")));
+  std::string in_html;  // in which no "<" of a JSON text may begin a tag
+  for (const char letter : scene) in_html += letter == '<' ? std::string("\\u003c") : std::string(1, letter);
+  fill("SCRIPT",
+       fmt::format("<script type=\"application/json\" id=\"scene\">{}</script>\n<script>{}{}</script>", in_html,
+                   template_text(page_templates(), "first.js"), template_text(page_templates(), "second.js")));
   fill("BYTES", std::to_string(packed.size()));
   fill("DATA", text_of_bytes(packed));
   return filled(template_text(page_templates(), "page.html"), texts);

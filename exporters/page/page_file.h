@@ -42,7 +42,8 @@ class PageWriter {
 
   std::size_t frame_count() const { return frames_.size(); }
   std::size_t bytes() const;  ///< of the text, within a few thousand
-  std::string text() const;   ///< of one frame at least
+  /// Returns the page, which has one frame at least. scene: the text of the scene that the page shows; may be empty.
+  std::string text(const std::string& scene = {}) const;
 
  private:
   PageData data_;

@@ -25,6 +25,7 @@
 #include "core/scene/cut.h"
 #include "core/scene/figure_key.h"
 #include "core/scene/representations.h"
+#include "core/scene/scene_json.h"
 #include "core/scene/scene_picture.h"
 
 namespace meniscus::page {
@@ -291,7 +292,7 @@ std::string scene_page(const Scene& requested) {
                          {}};
   PageWriter page;
   page.add(scene_frame(made.scene, std::move(made.figure), frame, png_still));
-  return page.text();
+  return page.text(scene_text(requested, ""));
 }
 
 std::string surface_page(const Surface& surface, const Coloring& colors, const Structure* structure, const Scene& look,

@@ -184,7 +184,8 @@ TEST_F(ColorCommand, ChargesThatAMapHasAndTheSurfaceHasNotAreSaid) {
     words.insert(words.end(), by_map.begin(), by_map.end());
     return said(words);
   };
-  EXPECT_NE(with({}).find("1 atom with charges is left out of the surface (1 water)"), std::string::npos) << with({});
+  EXPECT_NE(with({}).find("1 atom with charges is left out of the surface (1 of water)"), std::string::npos)
+      << with({});
   EXPECT_EQ(with({"--keep-water"}).find("charges"), std::string::npos);
   EXPECT_EQ(said({}).find("charges"), std::string::npos);
   // Chain B has no charge; an atom without a radius lies within its neighbour.

@@ -33,7 +33,7 @@ TEST(StandardInput, IsReadPlainAndPacked) {
   for (const char* command : {"cat ", "gzip -c "}) {
     const ProgramResult result = run_shell(std::string(command) + kUbiquitin);
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_TRUE(result.err.starts_with("meniscus: standard input: 660 atoms read; 58 water left out; 602 used\n"))
+    EXPECT_TRUE(result.err.starts_with("meniscus: standard input: 660 atoms read; 58 of water left out; 602 used\n"))
         << result.err;
     EXPECT_NE(result.out.find("standard input (PDB)"), std::string::npos) << result.out;
   }

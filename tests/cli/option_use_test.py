@@ -111,7 +111,7 @@ INPUTS = {
     "b.json": json.dumps({"meniscus_scene": 1, "molecule": {"file": "moved.pdb", "select": "chain B"}, "objects": [{"representation": "surface", "color": "bfactor"}]}),
     "chains.json": json.dumps({"meniscus_scene": 1, "molecule": {"file": "one.pdb"}, "objects": [{"representation": "surface", "color": "chain"}]}),
     "bent.pdb": molecule(1).replace("   2.000  -0.800   1.200", "   2.000  -0.900   0.700"),
-    "look.jsonl": "", "other.jsonl": '{"command": "color", "scheme": "chain"}\n',
+    "look.jsonl": "", "other.jsonl": '{"command": "set", "key": "surface.color", "value": "chain"}\n',
 }
 # What a preview is asked for: its state and a picture of each frame.
 QUESTIONS = [{"command": "state"}, {"command": "render_command"}]

@@ -202,7 +202,7 @@ TEST(Surface, ThreadsDoNotChangeTheNumbers) {
 
 TEST(Surface, NotesGoToStderrAndQuietSilencesThem) {
   const ProgramResult loud = meniscus_says({"surface", kUbiquitin});
-  EXPECT_NE(loud.err.find("660 atoms read; 58 water left out; 602 used"), std::string::npos);
+  EXPECT_NE(loud.err.find("660 atoms read; 58 of water left out; 602 used"), std::string::npos);
   EXPECT_NE(loud.out.find("closed        yes"), std::string::npos);
   EXPECT_EQ(meniscus_says({"surface", kUbiquitin, "--quiet"}).err, "");
 }

@@ -33,7 +33,7 @@ class RenderCommand : public ::testing::Test {
 
 TEST_F(RenderCommand, WritesEveryFormatAndNamesTheDevice) {
   for (const char* name : {"a.png", "a.jpg", "a.webp", "a.tif", "a.exr"}) {
-    const ProgramResult result = render({"-o", path(name)});
+    const ProgramResult result = render({"-o", path(name), "--verbose"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.out, "");
     EXPECT_NE(result.err.find("picture on "), std::string::npos) << result.err;

@@ -333,7 +333,7 @@ class PageTest(PageCase):
             self.assertIsNone(await page.evaluate("window.stolen"))
             self.assertEqual(await page.evaluate("fetch('https://example.org').then(() => 'came', () => 'refused')"), "refused")
         with open(path) as file:
-            self.assertEqual(file.read().count("<script"), 2)
+            self.assertEqual(file.read().count("<script"), 3)
 
     def test_a_page_of_five_thousand_atoms_is_small(self):
         size = os.path.getsize(self.export(TOXIN))

@@ -70,7 +70,7 @@ TEST_F(StoppingGpu, PicturesAreRefused) {
 TEST_F(StoppingGpu, PicturesOnTheCpuDoNotNotice) {
   const std::string picture = path("picture.png");
   const auto result = with_fault("drop_from 0", {"render", molecule_, "--device", "cpu", "--color", "element", "--size",
-                                                 "64x48", "--ambient-occlusion", "0.8", "-o", picture});
+                                                 "64x48", "--ambient-occlusion", "0.8", "--verbose", "-o", picture});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("picture on cpu"), std::string::npos) << result.err;
   EXPECT_TRUE(std::filesystem::exists(picture));

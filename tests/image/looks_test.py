@@ -133,8 +133,8 @@ class Looks(unittest.TestCase):
         words = [*LIGHTS, *WRITTEN_OUT]
         commands = [{"command": "choices"}]
         for word in [*WRITTEN_OUT, "soft"]:
-            commands += [{"command": "preset", "preset": word}, {"command": "state"}, {"command": "render_command", "samples": 1}]
-        commands += [{"command": "preset", "preset": "pretty"}, {"command": "quit"}]
+            commands += [{"command": "set", "key": "look.preset", "value": word}, {"command": "state"}, {"command": "render_command", "samples": 1}]
+        commands += [{"command": "set", "key": "look.preset", "value": "pretty"}, {"command": "quit"}]
         (self.folder / "c.jsonl").write_text("".join(json.dumps(line) + "\n" for line in commands[:-2]) + '{"command": "quit"}\n')
         done = subprocess.run([PROGRAM, "preview", "1hpv.pdb", "--serve", "--commands", "c.jsonl", "--size", "80x60", "--device", "cpu"],
                               cwd=self.folder, capture_output=True, text=True)

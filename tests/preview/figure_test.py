@@ -71,23 +71,23 @@ class Figures(unittest.TestCase):
 
     def test_the_same_made_by_commands(self):
         self.same_picture(MOLECULE, commands=[
-            {"command": "color", "scheme": "bfactor", "map": "magma", "range": "5:80"},
+            {"command": "set", "key": "surface.color", "value": "bfactor"}, {"command": "set", "key": "surface.map", "value": "magma"}, {"command": "set", "key": "surface.color_range", "value": "5:80"},
             {"command": "paint", "selection": "resid 5-30", "color": "orange"},
             {"command": "represent", "as": "tube", "selection": "chain C"},
             {"command": "represent", "as": "balls", "selection": "water and within 5 of chain C"},
             {"command": "represent", "as": "spheres", "selection": "resid 1"},
-            {"command": "set", "key": "stick_radius", "value": 0.3}, {"command": "set", "key": "tube_radius", "value": 0.5},
+            {"command": "set", "key": "shapes.stick_radius", "value": 0.3}, {"command": "set", "key": "shapes.tube_radius", "value": 0.5},
             {"command": "opacity", "opacity": 0.3},
             {"command": "opacity", "opacity": 1, "selection": "chain D"},
             {"command": "cut", "plane": "depth>0.45"},
-            {"command": "set", "key": "cap_color", "value": "atom"}, {"command": "set", "key": "cap_hatching", "value": 1.5},
+            {"command": "set", "key": "surface.cap_color", "value": "atom"}, {"command": "set", "key": "surface.cap_hatching", "value": 1.5},
             {"command": "hide", "selection": "resid 100-110"},
-            {"command": "preset", "preset": "flat"},
-            {"command": "look", "depth_cue": 0.3, "background": "#eef2ff"},
-            {"command": "legend", "on": True, "place": "below"},
+            {"command": "set", "key": "look.preset", "value": "flat"},
+            {"command": "set", "key": "look.depth_cue", "value": 0.3}, {"command": "set", "key": "image.background", "value": "#eef2ff"},
+            {"command": "set", "key": "legend.place", "value": "below"}, {"command": "set", "key": "legend.shown", "value": True},
             {"command": "orbit", "dx": 0.2, "dy": 0.05},
             {"command": "zoom", "factor": 1.4, "x": 100, "y": 60},
-            {"command": "probe", "radius": 1.7}])
+            {"command": "set", "key": "surface.probe", "value": 1.7}])
 
     def test_the_same_made_by_properties(self):
         values = {
@@ -139,14 +139,14 @@ class Figures(unittest.TestCase):
                 self.assertEqual((begun[0]["surface"], begun[0]["drawn_by"]), (kind, "cpu" if device == "cpu" else "gl"))
         # A figure on its way through all of them, and back to one.
         self.same_picture(MOLECULE, "--select", "chain D", "--surface", "vdw", commands=[
-            {"command": "surface", "kind": "sas"}, {"command": "probe", "radius": 2.5},
+            {"command": "set", "key": "surface.kind", "value": "sas"}, {"command": "set", "key": "surface.probe", "value": 2.5},
             {"command": "represent", "as": "tube", "selection": "chain D"}, {"command": "opacity", "opacity": 0.4},
-            {"command": "surface", "kind": "ses"}, {"command": "surface", "kind": "vdw"}, {"command": "cut", "plane": "depth>0.4"},
+            {"command": "set", "key": "surface.kind", "value": "ses"}, {"command": "set", "key": "surface.kind", "value": "vdw"}, {"command": "cut", "plane": "depth>0.4"},
             {"command": "undo"}, {"command": "undo"}, {"command": "undo"}])
 
     def test_kinds_of_patch(self):
         self.same_picture(MOLECULE, "--color", "chain", "--color", "chain A=red",
-                          commands=[{"command": "patch_kinds", "on": True},
+                          commands=[{"command": "set", "key": "surface.color", "value": "kind"},
                                     {"command": "represent", "as": "spheres", "selection": "chain A"}])
 
     def test_copies_in_frames(self):
@@ -181,15 +181,15 @@ class Figures(unittest.TestCase):
 
         # Fluctuations over the frames are there to be returned to, in scenes, too.
         run = (models, "--trajectory", f"{DATA}/dcd2k39_truncated.dcd", "--superpose", "name CA", "--color", "rmsf")
-        replies = self.same_picture(*run, commands=[{"command": "state"}, *commands[:2], {"command": "color", "scheme": "chain"},
-                                                    {"command": "color", "scheme": "rmsf"}, {"command": "state"},
+        replies = self.same_picture(*run, commands=[{"command": "state"}, *commands[:2], {"command": "set", "key": "surface.color", "value": "chain"},
+                                                    {"command": "set", "key": "surface.color", "value": "rmsf"}, {"command": "state"},
                                                     {"command": "choices"}])
         self.assertEqual(replies[0]["color"], replies[5]["color"])
         self.assertIn("rmsf", [scheme["word"] for scheme in replies[6]["schemes"]])
         export = {"command": "export", "format": "png", "force": True}
         replies = self.session(*run, commands=[
             {**export, "path": "before.png"}, {"command": "save", "path": "run.json", "force": True},
-            {"command": "color", "scheme": "chain"}, {"command": "open", "path": "run.json"}, {**export, "path": "after.png"}])
+            {"command": "set", "key": "surface.color", "value": "chain"}, {"command": "open", "path": "run.json"}, {**export, "path": "after.png"}])
         self.assertTrue(all(reply["ok"] for reply in replies), replies)
         self.same("before.png", "after.png")
         done = self.run_program("preview", models, "--serve", "--color", "rmsf", code=2)
@@ -226,7 +226,7 @@ class Figures(unittest.TestCase):
         begun = self.same_picture(MOLECULE, *options, commands=[{"command": "state"}])
         # To another scheme and back to what it was begun with.
         there = self.same_picture(MOLECULE, *options, commands=[
-            {"command": "color", "scheme": "chain"}, {"command": "color", "scheme": "file"}, {"command": "state"}])
+            {"command": "set", "key": "surface.color", "value": "chain"}, {"command": "set", "key": "surface.color", "value": "file"}, {"command": "state"}])
         self.assertEqual(begun[0]["color"], there[2]["color"])
         self.assertTrue(there[2]["color"]["own_map"])
 
@@ -301,16 +301,16 @@ class Figures(unittest.TestCase):
         export = {"command": "export", "format": "png", **SIZE, "samples": 2}
         replies = self.session(MOLECULE, "--select", "polymer", commands=[
             {"command": "state"}, {**export, "path": "first.png"},
-            {"command": "color", "scheme": "bfactor", "map": "magma", "range": "5:80"},
+            {"command": "set", "key": "surface.color", "value": "bfactor"}, {"command": "set", "key": "surface.map", "value": "magma"}, {"command": "set", "key": "surface.color_range", "value": "5:80"},
             {"command": "object", "object": {"selection": "chain C", "color": "gold", "opacity": "0.5",
                                              "clip": "depth>0.5"}},
             {"command": "object", "object": {"representation": "spheres", "selection": "resn HOH"}},
             {"command": "represent", "as": "tube", "selection": "chain D"},
-            {"command": "show", "selection": "within 8 of resn HOH"},
+            {"command": "set", "key": "surface.show", "value": "within 8 of resn HOH"},
             {"command": "opacity", "opacity": 0.5},
-            {"command": "legend", "on": True},
+            {"command": "set", "key": "legend.shown", "value": True},
             {"command": "orbit", "dx": 0.2, "dy": 0.05},
-            {**export, "path": "figure.png"},
+            {**export, "path": "figure.png"}, {**export, "path": "figure.tif"}, {**export, "path": "figure.jpg"},
             {"command": "save", "path": "figure.json", **SIZE, "samples": 2}])
         self.assertTrue(all(reply["ok"] for reply in replies), replies)
         self.run_program("render", "--scene", self.path("figure.json"), "--trust-scene", "-o", "rendered.png")
@@ -326,6 +326,16 @@ class Figures(unittest.TestCase):
         self.assertEqual(replies[1]["objects"], replies[-1]["objects"])
         for name, expected in (("opened", "figure"), ("undone", "first"), ("redone", "figure")):
             self.same(f"{name}.png", f"{expected}.png")
+        # Pictures carry their scenes, and so do pages.
+        options = (MOLECULE, "--select", "polymer", "--color", "chain", "--tube", "chain D", "--clip", "x<60", "--probe", "1.6")
+        self.run_program("export", "page", *options, "-o", "page.html")
+        self.run_program("render", *options, "--size", "240x180", "--samples", "2", "-o", "page.png")
+        for name, expected in (("figure.png", "figure.png"), ("figure.tif", "figure.png"), ("figure.jpg", "figure.png"),
+                               ("page.html", "page.png")):
+            replies = self.session(MOLECULE, "--select", "polymer", commands=[
+                {"command": "open", "path": name}, {**export, "path": "again.png", "force": True}])
+            self.assertTrue(all(reply["ok"] for reply in replies), replies)
+            self.same("again.png", expected)
 
     def frames_of(self, film):
         """How many pictures a film has, and their size."""
@@ -339,7 +349,7 @@ class Figures(unittest.TestCase):
         film = {"command": "export", "format": "film", "path": "film.mp4", "force": True, "width": 121, "height": 90,
                 "samples": 1}
         replies = self.session(MOLECULE, "--select", "chain D", commands=[
-            {"command": "color", "scheme": "chain"}, {**film, "seconds": 0.2}])
+            {"command": "set", "key": "surface.color", "value": "chain"}, {**film, "seconds": 0.2}])
         self.assertTrue(replies[-1]["path"].endswith("film.mp4"))
         self.assertEqual(self.frames_of("film.mp4"), (5, 120, 90, "25/1"))
         models = f"{DATA}/pdb2k39_truncated.pdb"

@@ -17,21 +17,25 @@ const Json kState = Json::parse(R"({"camera": {"projection": "perspective"}, "pr
   "frames": 3, "playing": false, "patch_kinds": false, "color": {"scheme": "element"},
   "look": {"background": "#ffffff"}})");
 
+Json setting(const char* key, const Json& value) { return {{"command", "set"}, {"key", key}, {"value", value}}; }
+
 Json typed(const char* key, const Json& state) { return key_meaning(key, state).command.value_or(Json()); }
 
 TEST(Keys, MeanWhatTheHelpSays) {
   EXPECT_EQ(typed("r", kState), Json({{"command", "reset_view"}}));
-  EXPECT_EQ(typed("o", kState), Json({{"command", "projection"}, {"projection", "orthographic"}}));
-  EXPECT_EQ(typed("1", kState), Json({{"command", "color"}, {"scheme", "element"}}));
-  EXPECT_EQ(typed("2", kState), Json({{"command", "color"}, {"scheme", "chain"}}));
-  EXPECT_EQ(typed("k", kState), Json({{"command", "patch_kinds"}, {"on", true}}));
+  EXPECT_EQ(typed("o", kState), setting("camera.projection", "orthographic"));
+  EXPECT_EQ(typed("1", kState), setting("surface.color", {"element"}));
+  EXPECT_EQ(typed("k", kState), setting("surface.color", "kind"));
+  Json painted = kState;
+  painted["color"]["rules"] = {"ligand=#ff0000"};
+  EXPECT_EQ(typed("2", painted), setting("surface.color", {"chain", "ligand=#ff0000"})) << "rules stay";
   EXPECT_EQ(typed(" ", kState), Json({{"command", "play"}}));
   EXPECT_EQ(typed("x", kState), Json());
   Json shaded = kState;
-  EXPECT_EQ(typed("a", shaded), Json({{"command", "look"}, {"ambient_occlusion", 1.0}}));
+  EXPECT_EQ(typed("a", shaded), setting("look.ambient_occlusion", 1.0));
   shaded["look"]["ambient_occlusion"] = 1.0;
-  EXPECT_EQ(typed("a", shaded), Json({{"command", "look"}, {"ambient_occlusion", 0.0}}));
-  EXPECT_EQ(typed("l", shaded), Json({{"command", "look"}, {"silhouettes", 1.5}}));
+  EXPECT_EQ(typed("a", shaded), setting("look.ambient_occlusion", 0.0));
+  EXPECT_EQ(typed("l", shaded), setting("look.silhouettes", 1.5));
   EXPECT_EQ(typed(".", kState), Json({{"command", "frame"}, {"index", 1}}));
   EXPECT_EQ(typed(",", kState), Json({{"command", "frame"}, {"index", 2}}));
   EXPECT_GT(typed("ArrowRight", kState)["dx"], 0.0);
@@ -73,10 +77,10 @@ TEST(Keys, AllThatTheHelpNamesMeanSomething) {
 
 TEST(Keys, ProbeStepsStayOnTenths) {
   Json state = kState;
-  for (int n = 0; n < 30; ++n) state["probe_radius"] = typed("[", state)["radius"];
+  for (int n = 0; n < 30; ++n) state["probe_radius"] = typed("[", state)["value"];
   EXPECT_EQ(state["probe_radius"], 0.0);
   for (int n = 1; n <= 17; ++n) {
-    state["probe_radius"] = typed("]", state)["radius"];
+    state["probe_radius"] = typed("]", state)["value"];
     EXPECT_EQ(state["probe_radius"].get<double>(), n / 10.0);
   }
 }

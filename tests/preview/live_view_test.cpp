@@ -104,15 +104,19 @@ TEST(LiveFigures, TheirSurfaceIsComputedOnceAndCanBeGivenUp) {
   const std::uint64_t first = session.figure_revision();
   EXPECT_GT(stages_after(R"({"command":"orbit","dx":0.1,"dy":0})"), 3);
   EXPECT_EQ(session.figure_revision(), first);
-  EXPECT_EQ(stages_after(R"({"command":"color","scheme":"chain"})"), 0);
+  EXPECT_EQ(stages_after(R"({"command":"set","key":"surface.color","value":"chain"})"), 0);
   EXPECT_GT(session.figure_revision(), first);
-  for (const char* same : {R"({"command":"look","ambient":0.2})", R"({"command":"show","selection":"name N CA"})",
-                           R"({"command":"resize","width":90,"height":80})", R"({"command":"patch_kinds","on":true})"})
+  for (const char* same :
+       {R"({"command":"set","key":"look.ambient","value":0.2})",
+        R"({"command":"set","key":"surface.show","value":"name N CA"})",
+        R"({"command":"resize","width":90,"height":80})", R"({"command":"set","key":"surface.color","value":"kind"})"})
     EXPECT_EQ(stages_after(same), 0) << same;
-  for (const char* other : {R"({"command":"probe","radius":1.5})", R"({"command":"surface","kind":"sas"})",
-                            R"({"command":"surface","kind":"vdw"})", R"({"command":"frame","index":1})"})
+  for (const char* other :
+       {R"({"command":"set","key":"surface.probe","value":1.5})",
+        R"({"command":"set","key":"surface.kind","value":"sas"})",
+        R"({"command":"set","key":"surface.kind","value":"vdw"})", R"({"command":"frame","index":1})"})
     EXPECT_GT(stages_after(other), 3) << other;
-  ASSERT_TRUE(session.apply({{"command", "surface"}, {"kind", "ses"}})["ok"]);
+  ASSERT_TRUE(session.apply({{"command", "set"}, {"key", "surface.kind"}, {"value", "ses"}})["ok"]);
   EXPECT_FALSE(session.figure([] { return true; }));
   EXPECT_TRUE(session.figure());
   // For another surface it is given up late, as a draft is: this one is there by then.
@@ -162,9 +166,9 @@ TEST(LivePictures, DraftsAreGivenUpForOtherSurfacesOnly) {
   EXPECT_FALSE(live.draw(Quality::plain, [] { return Change::view; }));
   EXPECT_TRUE(live.fault().empty());
   ASSERT_TRUE(live.draw(Quality::draft, [] { return Change::view; }));
-  ASSERT_TRUE(live.apply({{"command", "probe"}, {"radius", 2.0}})["ok"]);
+  ASSERT_TRUE(live.apply({{"command", "set"}, {"key", "surface.probe"}, {"value", 2.0}})["ok"]);
   ASSERT_TRUE(live.draw(Quality::draft, [] { return Change::surface; }));  // at once, so it is shown
-  EXPECT_EQ(change_of({{"command", "probe"}, {"radius", 2.0}}), Change::surface);
+  EXPECT_EQ(change_of({{"command", "set"}, {"key", "surface.probe"}, {"value", 2.0}}), Change::surface);
   EXPECT_EQ(change_of({{"command", "orbit"}}), Change::view);
   EXPECT_EQ(change_of({{"command", "export"}}), Change::none);
   EXPECT_EQ(change_of({{"command", "state"}}), Change::none);

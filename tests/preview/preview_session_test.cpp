@@ -67,28 +67,25 @@ TEST_P(PreviewSessionTest, BadCommandsAreAnsweredAndChangeNothing) {
            R"({"command":"zoom_to","selection":"chain Z"})",
            R"({"command":"zoom_to","selection":"chain ("})",
            R"({"command":"camera","camera":{"position":[0,0,0]}})",
-           R"({"command":"projection","projection":"fish"})",
-           R"({"command":"probe","radius":-1})",
-           R"({"command":"probe","radius":101})",
-           R"({"command":"probe","radius":1e-9})",
-           R"({"command":"probe","radius":null})",
-           R"({"command":"color","scheme":"rainbows"})",
-           R"({"command":"color","scheme":"component"})",
-           R"({"command":"color","scheme":"file"})",
-           R"({"command":"color","scheme":"charge"})",
-           R"({"command":"color","scheme":"chain","map":"viridis"})",
-           R"({"command":"color","scheme":"bfactor","map":"jet"})",
-           R"({"command":"look","background":"#12"})",
-           R"({"command":"look","glow":1})",
-           R"({"command":"look","ambient_occlusion":1.5})",
-           R"({"command":"look","silhouettes":-1})",
-           R"({"command":"look","light_direction":[0,0,0]})",
-           R"({"command":"look","light_direction":[1,2]})",
-           R"({"command":"look","light_direction":[1,2,"3"]})",
-           R"({"command":"look","silhouettes":17})",
-           R"({"command":"look","light_direction":[0,0,0]})",
-           R"({"command":"look","light_direction":[0,1]})",
-           R"({"command":"look","ambient_occlusion":0.5,"depth_cue":2})",
+           R"({"command":"set","key":"camera.projection","value":"fish"})",
+           R"({"command":"set","key":"surface.probe","value":-1})",
+           R"({"command":"set","key":"surface.probe","value":101})",
+           R"({"command":"set","key":"surface.probe","value":1e-09})",
+           R"({"command":"set","key":"surface.color","value":"rainbows"})",
+           R"({"command":"set","key":"surface.color","value":"component"})",
+           R"({"command":"set","key":"surface.color","value":"file"})",
+           R"({"command":"set","key":"surface.color","value":"charge"})",
+           R"({"command":"set","key":"surface.map","value":"viridis"})",
+           R"({"command":"set","key":"surface.map","value":"jet"})",
+           R"({"command":"set","key":"image.background","value":"#12"})",
+           R"({"command":"set","key":"look.glow","value":1})",
+           R"({"command":"set","key":"look.ambient_occlusion","value":1.5})",
+           R"({"command":"set","key":"look.silhouettes","value":-1})",
+           R"({"command":"set","key":"look.light","value":"0,0,0"})",
+           R"({"command":"set","key":"look.light","value":"1,2"})",
+           R"({"command":"set","key":"look.light","value":[1,2,"3"]})",
+           R"({"command":"set","key":"look.silhouettes","value":17})",
+           R"({"command":"set","key":"look.depth_cue","value":2})",
            R"({"command":"frame","index":2})",
            R"({"command":"frame","index":0.5})",
            R"({"command":"resize","width":80,"height":100000})",
@@ -99,7 +96,7 @@ TEST_P(PreviewSessionTest, BadCommandsAreAnsweredAndChangeNothing) {
            R"({"command":"export","format":"png","path":"x.gif"})",
            R"({"command":"play","fps":0})",
            R"({"command":"paint","selection":"name O","color":"component"})",
-           R"({"command":"show","selection":"chain Z"})",
+           R"({"command":"set","key":"surface.show","value":"chain Z"})",
        }) {
     const Json reply = apply(command);
     EXPECT_FALSE(reply["ok"]) << command;
@@ -132,7 +129,7 @@ TEST_P(PreviewSessionTest, EveryModelIsAFrame) {
 TEST_P(PreviewSessionTest, PicturesCanBeGivenUpBetweenSamples) {
   ASSERT_TRUE(session_->render(Quality::draft));
   const auto draft = session_->rgba();
-  expect_ok(R"({"command":"samples","count":4})");
+  expect_ok(R"({"command":"set","key":"image.samples","value":4})");
   int asked = 0;
   EXPECT_FALSE(session_->render(Quality::full, [&] { return ++asked == 2; }));
   EXPECT_EQ(asked, 2);
@@ -140,7 +137,7 @@ TEST_P(PreviewSessionTest, PicturesCanBeGivenUpBetweenSamples) {
   EXPECT_EQ(session_->rgba(), draft);
   ASSERT_TRUE(session_->render(Quality::full, [] { return false; }));
   const auto full = session_->rgba();
-  expect_ok(R"({"command":"samples","count":4})");
+  expect_ok(R"({"command":"set","key":"image.samples","value":4})");
   ASSERT_TRUE(session_->render(Quality::full));
   EXPECT_EQ(session_->rgba(), full);
 }
@@ -165,7 +162,7 @@ TEST_P(PreviewSessionTest, StatsTellByHowMuchRadiiGrew) {
   view.size = {80, 60};
   session_ = std::make_unique<PreviewSession>(renderer(), read_structure(test_file("corpus/one-point-4239.xyzr"), {}),
                                               view, std::nullopt, folder_.path());
-  expect_ok(R"({"command":"probe","radius":0.5})");
+  expect_ok(R"({"command":"set","key":"surface.probe","value":0.5})");
   session_->render(Quality::full);
   const double grown_by = apply(R"({"command":"stats"})")["radii_grown_by"];
   EXPECT_EQ(grown_by > 0.0, std::string(GetParam()) == "cpu");
@@ -204,14 +201,15 @@ TEST_P(PreviewSessionTest, AreasAreThoseOfTheKindOfSurface) {
   for (Ball& ball : balls) ball.radius += 1.4;
   const double accessible = area(0.0);
   EXPECT_EQ(told(), excluded);
-  expect_ok(R"({"command":"surface","kind":"sas"})");
+  expect_ok(R"({"command":"set","key":"surface.kind","value":"sas"})");
   EXPECT_EQ(told(), accessible);
-  expect_ok(R"({"command":"surface","kind":"vdw"})");
+  expect_ok(R"({"command":"set","key":"surface.kind","value":"vdw"})");
   EXPECT_EQ(told(), touched);
-  EXPECT_NE(apply(R"({"command":"probe","radius":1})").value("error", "").find("has no probe"), std::string::npos);
-  expect_ok(R"({"command":"surface","kind":"sas"})");
+  EXPECT_NE(apply(R"({"command":"set","key":"surface.probe","value":1})").value("error", "").find("has no probe"),
+            std::string::npos);
+  expect_ok(R"({"command":"set","key":"surface.kind","value":"sas"})");
   EXPECT_EQ(told(), accessible);
-  expect_ok(R"({"command":"surface","kind":"ses"})");
+  expect_ok(R"({"command":"set","key":"surface.kind","value":"ses"})");
   EXPECT_EQ(told(), excluded);
 }
 
@@ -272,16 +270,19 @@ TEST_P(PreviewSessionTest, AMouseAtRestHasNoSurfaceComputedForIt) {
   EXPECT_EQ(pick(true)["area_follows"], false);
 }
 
-TEST_P(PreviewSessionTest, PatchKindsColourWhateverTheSchemeIs) {
-  expect_ok(R"({"command":"color","scheme":"#ff0000"})");
-  expect_ok(R"({"command":"patch_kinds","on":true})");
+TEST_P(PreviewSessionTest, KindsOfPatchAreAScheme) {
+  expect_ok(R"({"command":"set","key":"surface.color","value":"#ff0000"})");
   session_->render(Quality::full);
-  const auto kinds = session_->rgba();
-  expect_ok(R"({"command":"patch_kinds","on":false})");
-  expect_ok(R"({"command":"color","scheme":"kind"})");
+  const auto red = session_->rgba();
+  expect_ok(R"({"command":"press","key":"k"})");
+  EXPECT_EQ(state()["patch_kinds"], true);
   session_->render(Quality::full);
-  EXPECT_EQ(session_->rgba(), kinds);
-  expect_ok(R"({"command":"color","scheme":"bfactor","map":"magma"})");
+  EXPECT_NE(session_->rgba(), red);
+  expect_ok(R"({"command":"undo"})");
+  session_->render(Quality::full);
+  EXPECT_EQ(session_->rgba(), red);
+  expect_ok(R"({"command":"set","key":"surface.color","value":"bfactor"})");
+  expect_ok(R"({"command":"set","key":"surface.map","value":"magma"})");
   EXPECT_EQ(state()["color"], Json::parse(R"({"scheme":"bfactor","map":"magma"})"));
 }
 
@@ -291,13 +292,14 @@ TEST_P(PreviewSessionTest, TheLookIsForPicturesAtRest) {
   session_->render(Quality::full);
   const auto full = session_->rgba();
   const Json look = Json::parse(R"({"ambient_occlusion":0.9,"silhouettes":2.0})");
-  expect_ok(R"({"command":"look","ambient_occlusion":0.9,"silhouettes":2})");
+  expect_ok(R"({"command":"set","key":"look.ambient_occlusion","value":0.9})");
+  expect_ok(R"({"command":"set","key":"look.silhouettes","value":2})");
   for (const auto& [key, value] : look.items()) EXPECT_EQ(state()["look"][key], value) << key;
   session_->render(Quality::draft);
   EXPECT_EQ(session_->rgba(), draft);
   session_->render(Quality::full);
   EXPECT_NE(session_->rgba(), full);
-  expect_ok(R"({"command":"look","light_direction":[1,0,0.5]})");
+  expect_ok(R"({"command":"set","key":"look.light","value":"1,0,0.5"})");
   session_->render(Quality::draft);
   EXPECT_NE(session_->rgba(), draft);
 }

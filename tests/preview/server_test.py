@@ -366,19 +366,19 @@ class Server(unittest.IsolatedAsyncioTestCase):
         fails(6, "--serve", "--record", self.file)
         fails(3, "--serve", "--token-file", self.path("missing"))
         with open(self.path("bad.jsonl"), "w") as file:
-            file.write('{"command":"state"}\n{"command":"probe","radius":-1}\n')
+            file.write('{"command":"state"}\n{"command":"set","key":"surface.probe","value":-1}\n')
         fails(3, "--serve", "--commands", self.path("bad.jsonl"))
         fails(3, "--serve", "--commands", self.path("missing.jsonl"))
 
     def test_a_refused_command_of_a_replay_is_named_by_its_line(self):
-        for command in ('{"command":"probe","radius":-1}', '{"command":"look"}', "[1]", '{"command":5}',
-                        '{"command":"probe","radius":"x"}'):
+        for command in ('{"command":"set","key":"surface.probe","value":-1}', '{"command":"pause"}', "[1]", '{"command":5}',
+                        '{"command":"set","key":"surface.probe","value":"x"}'):
             with open(self.path("bad.jsonl"), "w") as file:
                 file.write('{"command":"pause"}\n\n' + command + '\n{"command":"nonsense"}')
             result = subprocess.run([PROGRAM, "preview", self.file, "--no-open", "--commands", self.path("bad.jsonl")],
                                     capture_output=True, text=True, timeout=60)
             self.assertEqual(result.returncode, 3, command)
-            line = 4 if "look" in command else 3  # an empty look changes nothing
+            line = 4 if "pause" in command else 3  # the line after it is refused
             self.assertIn(f"bad.jsonl:{line}: ", result.stderr, command)
 
 

@@ -22,8 +22,7 @@ using Json = nlohmann::json;
 class SessionCase : public ::testing::Test {
  protected:
   /// Pictures have 80 x 60 pixels.
-  void begin(Structure structure, const SessionContext& context = {}) {
-    PreviewState view;
+  void begin(Structure structure, const SessionContext& context = {}, PreviewState view = {}) {
     view.size = {80, 60};
     session_ = std::make_unique<PreviewSession>(make_cpu_preview_renderer(), std::move(structure), view, std::nullopt,
                                                 folder_.path(), std::nullopt, context);

@@ -32,7 +32,7 @@ Structure peptides() {
 PreviewState view_of_copies() {
   PreviewState view;
   view.size = {160, 120};
-  view.samples = 1;
+  view.image.samples = 1;
   view.copies_apart = true;
   return view;
 }
@@ -73,18 +73,18 @@ TEST(PreviewCopies, AreDrawnPickedAndKeptApart) {
     EXPECT_EQ(apply(R"({"command":"zoom_to","selection":"name O"})")["atoms"], 1);
 
     const Json before = apply(R"({"command":"state"})");
-    const Json close = apply(R"({"command":"probe","radius":6})");
+    const Json close = apply(R"({"command":"set","key":"surface.probe","value":6})");
     EXPECT_FALSE(close["ok"]);
     EXPECT_NE(std::string(close["error"]).find("so near that a probe can touch both copies"), std::string::npos)
         << close;
-    EXPECT_FALSE(apply(R"({"command":"color","scheme":"copy"})")["ok"]);
+    EXPECT_FALSE(apply(R"({"command":"set","key":"surface.color","value":"copy"})")["ok"]);
     EXPECT_EQ(apply(R"({"command":"state"})"), before);
-    EXPECT_TRUE(apply(R"({"command":"probe","radius":2})")["ok"]);
+    EXPECT_TRUE(apply(R"({"command":"set","key":"surface.probe","value":2})")["ok"]);
     EXPECT_TRUE(session.render(Quality::draft));
   }
   const Structure structure = peptides();
   PreviewState near = view_of_copies();
-  near.probe_radius = 6.0;
+  near.molecule.surface.probe_radius = 6.0;
   EXPECT_THROW(
       PreviewSession(make_cpu_copies_renderer(structure.instances), structure, near, std::nullopt, folder.path()),
       InputError);

@@ -20,7 +20,7 @@ class SessionExports : public SessionCase {
  protected:
   SessionExports() {
     SessionContext context;
-    context.scene.emplace();
+    context.writes_scenes = true;
     begin(read_structure(folder_.file("two.pdb", kTwoModels)), context);
   }
 };
@@ -75,7 +75,7 @@ TEST_F(SessionExports, TellWhatIsNotSaved) {
   EXPECT_FALSE(unsaved());
   expect_ok(R"({"command":"orbit","dx":0.1,"dy":0})");
   EXPECT_FALSE(unsaved()) << "a look around";
-  const std::string change = R"({"command":"probe","radius":1.5})";
+  const std::string change = R"({"command":"set","key":"surface.probe","value":1.5})";
   expect_ok(change);
   EXPECT_TRUE(unsaved());
   expect_ok(R"({"command":"undo"})");

@@ -57,35 +57,39 @@ constexpr const char* kEdits[] = {
     R"({"command":"remove","of":"representations","index":0})",
     R"({"command":"object","object":{"selection":"ligand","color":"red"}})",
     R"({"command":"object","object":{"representation":"spheres","selection":"resn HOH","color":"#00ff00"}})",
-    R"({"command":"set","key":"hide_surface","value":true})",
+    R"({"command":"set","key":"surface.shown","value":false})",
     R"({"command":"object","index":0,"object":{"selection":"ligand","color":"blue","opacity":"0.6","clip":"x<6.5"}})",
-    R"({"command":"set","key":"hide_surface","value":false})",
+    R"({"command":"set","key":"surface.shown","value":true})",
     R"({"command":"remove","of":"objects","index":1})",
-    R"({"command":"show","selection":"within 5 of ligand"})",
-    R"({"command":"show"})",
-    R"({"command":"color","scheme":"bfactor","map":"magma","range":"10:20"})",
+    R"({"command":"set","key":"surface.show","value":"within 5 of ligand"})",
+    R"({"command":"set","key":"surface.show","value":null})",
+    R"({"command":"set","key":"surface.color","value":"bfactor"})",
+    R"({"command":"set","key":"surface.map","value":"magma"})",
+    R"({"command":"set","key":"surface.color_range","value":"10:20"})",
     R"({"command":"paint","selection":"name CA","color":"red"})",
     R"({"command":"opacity","opacity":0.5,"selection":"name O"})",
-    R"({"command":"set","key":"film_opacity","value":true})",
+    R"({"command":"set","key":"surface.film_opacity","value":true})",
     R"({"command":"cut","plane":"x<1"})",
-    R"({"command":"set","key":"cap_color","value":"#00ff00"})",
+    R"({"command":"set","key":"surface.cap_color","value":"#00ff00"})",
     R"({"command":"orbit","dx":0.0,"dy":0.1})",
-    R"({"command":"set","key":"cap_hatching","value":0.5})",
+    R"({"command":"set","key":"surface.cap_hatching","value":0.5})",
     R"({"command":"hide","selection":"name N"})",
-    R"({"command":"preset","preset":"flat"})",
-    R"({"command":"look","background":"#336699"})",
-    R"({"command":"patches","selection":"name CA CB"})",
-    R"({"command":"patches","min_area":25})",
-    R"({"command":"look","patch_lines":6,"patch_line_color":"yellow"})",
-    R"({"command":"legend","on":true,"title":"B"})",
+    R"({"command":"set","key":"look.preset","value":"flat"})",
+    R"({"command":"set","key":"image.background","value":"#336699"})",
+    R"({"command":"set","key":"surface.patches","value":"name CA CB"})",
+    R"({"command":"set","key":"surface.min_patch","value":25})",
+    R"({"command":"set","key":"look.patch_lines","value":6})",
+    R"({"command":"set","key":"look.patch_line_color","value":"yellow"})",
+    R"({"command":"set","key":"legend.title","value":"B"})",
+    R"({"command":"set","key":"legend.shown","value":true})",
     R"({"command":"resize","width":400,"height":300})",
-    R"({"command":"probe","radius":2})",
-    R"({"command":"surface","kind":"sas"})",
-    R"({"command":"probe","radius":1})",
-    R"({"command":"surface","kind":"vdw"})",
+    R"({"command":"set","key":"surface.probe","value":2})",
+    R"({"command":"set","key":"surface.kind","value":"sas"})",
+    R"({"command":"set","key":"surface.probe","value":1})",
+    R"({"command":"set","key":"surface.kind","value":"vdw"})",
     R"({"command":"reset_view"})",
     R"({"command":"orbit","dx":0.1,"dy":0.1})",
-    R"({"command":"patch_kinds","on":true})",
+    R"({"command":"set","key":"surface.color","value":"kind"})",
 };
 
 TEST_F(FigureSession, EveryStepChangesThePictureAndUndoBringsItBack) {
@@ -139,8 +143,8 @@ TEST_F(FigureSession, ADragIsOneStepUntilItIsEnded) {
   expect_ok(R"({"command":"undo"})");
   EXPECT_EQ(state(), before);
   // Something new forgets what was undone.
-  expect_ok(R"({"command":"probe","radius":1})");
-  expect_ok(R"({"command":"probe","radius":1.1})");
+  expect_ok(R"({"command":"set","key":"surface.probe","value":1})");
+  expect_ok(R"({"command":"set","key":"surface.probe","value":1.1})");
   const Json after = apply(R"({"command":"state"})");
   EXPECT_EQ(after["redo"], 0);
   EXPECT_EQ(after["undo"], 1) << "a slider moves in one step";
@@ -167,24 +171,24 @@ TEST_F(FigureSession, WhatIsRefusedChangesNothing) {
       {R"({"command":"opacity","opacity":1,"index":0})", "index"},
       {R"({"command":"cut","plane":"x=1"})", "there is no < or >"},
       {R"({"command":"cut","plane":"x<2","index":1})", "from 0 to 0"},
-      {R"({"command":"set","key":"cap_color","value":"greenish"})", "cap_color: 'greenish'"},
-      {R"({"command":"set","key":"cap_hatching","value":-1})", "cap_hatching: '-1'"},
-      {R"({"command":"set","key":"cap_hatching","value":[1]})", "cap_hatching: '[1]'"},
-      {R"({"command":"set","key":"film_opacity","value":"perhaps"})", "neither true nor false"},
+      {R"({"command":"set","key":"surface.cap_color","value":"greenish"})", "cap_color: 'greenish'"},
+      {R"({"command":"set","key":"surface.cap_hatching","value":-1})", "cap_hatching: '-1'"},
+      {R"({"command":"set","key":"surface.cap_hatching","value":[1]})", "cap_hatching: '[1]'"},
+      {R"({"command":"set","key":"surface.film_opacity","value":"perhaps"})", "neither true nor false"},
       {R"({"command":"set","key":"surface.shown","value":7})", "neither true nor false"},
       {R"({"command":"set","key":"surface.prob","value":2})", "did you mean surface.probe?"},
-      {R"({"command":"set","key":"cap_hatching"})", "value"},
+      {R"({"command":"set","key":"surface.cap_hatching"})", "value"},
       {R"({"command":"remove","of":"rules","index":0})", "there are no rules"},
       {R"({"command":"remove","of":"cuts","index":1})", "index"},
       {R"({"command":"remove","of":"atoms"})", "one of"},
       {R"({"command":"hide","selection":"all"})", "nothing would be left"},
-      {R"({"command":"show","selection":"resid 9"})", "nothing would be left"},
-      {R"({"command":"preset","preset":"loud"})", "publication"},
-      {R"({"command":"legend","place":"left"})", "one of auto, right, below"},
-      {R"({"command":"color","scheme":"bfactor","range":"9:1"})", "lo:hi"},
-      {R"({"command":"color","scheme":"chain","range":"1:9"})", "colours by a number"},
-      {R"({"command":"set","key":"stick_radius","value":0})", "stick_radius: '0'"},
-      {R"({"command":"surface","kind":"ms"})", "one of ses, sas, vdw"},
+      {R"({"command":"set","key":"surface.show","value":"resid 9"})", "nothing would be left"},
+      {R"({"command":"set","key":"look.preset","value":"loud"})", "publication"},
+      {R"({"command":"set","key":"legend.place","value":"left"})", "one of auto, right, below"},
+      {R"({"command":"set","key":"surface.color_range","value":"9:1"})", "lo:hi"},
+      {R"({"command":"set","key":"surface.color_range","value":"1:9"})", "colours by a number"},
+      {R"({"command":"set","key":"shapes.stick_radius","value":0})", "stick_radius: '0'"},
+      {R"({"command":"set","key":"surface.kind","value":"ms"})", "one of ses, sas, vdw"},
       {R"({"command":"recall_view","name":"front"})", "no view is called"},
       {R"({"command":"save_view","name":""})", "1 to 60"},
       {R"({"command":"center","x":0,"y":0})", "nothing is there"},
@@ -196,8 +200,8 @@ TEST_F(FigureSession, WhatIsRefusedChangesNothing) {
     EXPECT_NE(reply.value("error", "").find(part), std::string::npos) << command << " -> " << reply;
     EXPECT_EQ(apply(R"({"command":"state"})"), before) << command;
   }
-  expect_ok(R"({"command":"color","scheme":"#ff0000"})");
-  EXPECT_FALSE(apply(R"({"command":"legend","on":true})")["ok"]);
+  expect_ok(R"({"command":"set","key":"surface.color","value":"#ff0000"})");
+  EXPECT_FALSE(apply(R"({"command":"set","key":"legend.shown","value":true})")["ok"]);
 }
 
 TEST_F(FigureSession, AtomsBesideTheSurfaceAreThoseOfTheWholeFile) {
@@ -300,9 +304,9 @@ TEST_F(FigureSession, AFastWheelOverASlowPictureIsNotRefused) {
 
 TEST_F(FigureSession, TheLegendStandsBesideTheMolecule) {
   expect_ok(R"({"command":"resize","width":400,"height":300})");
-  expect_ok(R"({"command":"color","scheme":"element"})");
+  expect_ok(R"({"command":"set","key":"surface.color","value":"element"})");
   const auto without = picture();
-  expect_ok(R"({"command":"legend","on":true})");
+  expect_ok(R"({"command":"set","key":"legend.shown","value":true})");
   const auto with = picture();
   EXPECT_EQ(session_->picture_size(), glm::ivec2(400, 300));
   EXPECT_EQ(with.size(), without.size());
@@ -340,7 +344,7 @@ TEST_F(CompanionSession, TheLigandIsBesideTheSurfaceAndNoObjectOfTheUser) {
   EXPECT_EQ(pick["residue"], "LIG");
   EXPECT_EQ(pick["kind"], "shape");
   EXPECT_TRUE(state()["objects"].empty());
-  expect_ok(R"({"command":"show","selection":"within 5 of ligand"})");
+  expect_ok(R"({"command":"set","key":"surface.show","value":"within 5 of ligand"})");
   expect_ok(R"({"command":"paint","selection":"within 4.6 of ligand","color":"red"})");
 }
 
@@ -351,7 +355,7 @@ TEST_F(FigureSession, ObjectsHaveLooksAndAtomsOfTheirOwn) {
   EXPECT_EQ(told[0],
             Json::parse(R"({"representation":"surface","selection":"ligand","color":"#ffd700","specular":0.8})"));
   // The ligand is not an atom of the surface, yet it is picked.
-  expect_ok(R"({"command":"set","key":"hide_surface","value":true})");
+  expect_ok(R"({"command":"set","key":"surface.shown","value":false})");
   expect_ok(R"({"command":"zoom_to","selection":"ligand"})");
   const Json pick = apply(R"({"command":"pick","x":40,"y":30})");
   ASSERT_TRUE(pick["hit"]) << pick;
@@ -386,10 +390,11 @@ TEST_F(FigureSession, WhatItCannotShowIsRefusedInOneLine) {
     EXPECT_EQ(state(), before) << command;
   };
   for (const char* scheme : {"buried", "rmsf", "relative-accessibility", "component"})
-    refused(std::string(R"({"command":"color","scheme":")") + scheme + "\"}", "needs more than atoms");
+    refused(std::string(R"({"command":"set","key":"surface.color","value":")") + scheme + "\"}",
+            "needs more than atoms");
   refused(R"({"command":"paint","selection":"all","color":"buried"})", "needs more than atoms");
   refused(R"({"command":"object","object":{"selection":"ligand","color":"rmsf"}})", "needs more than atoms");
-  refused(R"({"command":"set","key":"hide_surface","value":true})", "nothing would be shown");
+  refused(R"({"command":"set","key":"surface.shown","value":false})", "nothing would be shown");
   refused(R"({"command":"object","object":{"selection":"resn XYZ"}})", "--object");
   refused(R"({"command":"object","object":{"selection":"ligand","colour":"red"}})", "colour");
   refused(R"({"command":"object","index":0,"object":{"selection":"ligand"}})", "index");
@@ -425,7 +430,7 @@ TEST_F(FigureSession, SchemesThatAreOfferedAreThoseItCanShow) {
     for (const Json& scheme : choices["schemes"])
       if (!scheme.contains("lacks")) words.insert(scheme["word"]);
     for (const std::string& word : words) {
-      const Json reply = session.apply({{"command", "color"}, {"scheme", word}});
+      const Json reply = session.apply({{"command", "set"}, {"key", "surface.color"}, {"value", word}});
       EXPECT_TRUE(reply["ok"]) << word << reply;
     }
     return words;
@@ -448,8 +453,8 @@ TEST_F(FigureSession, SchemesThatAreOfferedAreThoseItCanShow) {
   for (std::size_t n = 0; n < assembly.atoms.size(); ++n) assembly.atoms[n].copy = static_cast<std::uint32_t>(n % 2);
   PreviewState view;
   view.size = {80, 60};
-  view.color.by = ColorScheme::By::file;
-  view.color.file = {.path = "numbers.txt", .numbers = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}};
+  view.molecule.color.by = ColorScheme::By::file;
+  view.molecule.color.file = {.path = "numbers.txt", .numbers = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}};
   PreviewSession session(make_cpu_preview_renderer(), assembly, view, std::nullopt, folder_.path());
   const std::set<std::string> more = offered(session);
   EXPECT_TRUE(more.contains("copy"));

@@ -112,7 +112,7 @@ TEST(PreviewFrames, KeysOfTheCamera) {
   EXPECT_EQ(session.state().camera.position, path.at(20).position);
   EXPECT_GT(glm::distance(session.state().camera.position, first.position), 0.1);
   // Keys of two projections make no path.
-  apply(R"({"command":"projection","projection":"orthographic"})");
+  apply(R"({"command":"set","key":"camera.projection","value":"orthographic"})");
   EXPECT_FALSE(apply(R"({"command":"key"})")["ok"]);
   apply(R"({"command":"frame","index":3})");
   EXPECT_EQ(apply(R"({"command":"key","on":false})")["keys"], 1);

@@ -27,22 +27,23 @@ HETATM    7  O   HOH B   3       4.000   5.000   0.000  1.00 40.00           O
 END
 )";
 
-class Properties : public SessionCase {
+class PreviewProperties : public SessionCase {
  protected:
-  Properties() {
+  PreviewProperties() {
     const std::string file = folder_.file("three.pdb", kAtoms);
     ReadOptions reading;
     reading.selection = parse_selection("polymer");
     SessionContext context;
-    context.scene.emplace();
-    context.scene->molecule.file = file;
-    context.scene->molecule.reading = reading;
+    context.writes_scenes = true;
     context.read_shown = [file, reading](const FigureRequest& figure, std::size_t) {
       ReadOptions shown = reading;
       figure.mark_atoms(shown);
       return read_structure(file, shown);
     };
-    begin(read_structure(file, reading), context);
+    PreviewState view;
+    view.molecule.file = file;
+    view.molecule.reading = reading;
+    begin(read_structure(file, reading), context, view);
     expect_ok(R"({"command":"resize","width":200,"height":150})");
     expect_ok(R"({"command":"set","key":"figure.sticks","value":"ligand"})");
     expect_ok(R"({"command":"set","key":"surface.color","value":"bfactor"})");
@@ -111,7 +112,7 @@ const std::map<std::string, std::pair<Json, Json>>& examples() {
       {"look.shadow_softness", {8, 46}},
       {"look.silhouettes", {2, 17}},
       {"look.outer_lines", {3, 17}},
-      {"look.inner_lines", {2.5, 17}},
+      {"look.inner_lines", {"0.5pt", 17}},
       {"look.part_lines", {2, "2ft"}},
       {"look.patch_lines", {3, -1}},
       {"look.patch_line_color", {"#ffff00", "greenish"}},
@@ -119,6 +120,8 @@ const std::map<std::string, std::pair<Json, Json>>& examples() {
       {"look.linear_alpha", {true, "yes"}},
       {"camera.projection", {"orthographic", "fish"}},
       {"image.size", {"120x90", "auto"}},
+      {"image.width", {"85mm", "85 miles"}},
+      {"image.height", {"200px", "0mm"}},
       {"image.dpi", {150, 0}},
       {"image.samples", {2, 0}},
       {"image.background", {"#336699", "greenish"}},
@@ -127,6 +130,11 @@ const std::map<std::string, std::pair<Json, Json>>& examples() {
       {"legend.size", {12, 2}},
       {"legend.names", {{"A=Alpha"}, {{1}}}},
       {"legend.place", {"below", "left"}},
+      {"annotations.panel", {"b", {1}}},
+      {"annotations.title", {"Toxin", {1}}},
+      {"annotations.scale_bar", {5, "long"}},
+      {"annotations.labels", {{"name CA=here"}, "chain Q=here"}},
+      {"annotations.lengths", {false, 1}},
       {"annotations.letter_size", {14, 2}},
       {"annotations.font", {"DejaVu Sans", {1}}},
       {"annotations.letter_color", {"#ffffff", "greenish"}},
@@ -134,7 +142,7 @@ const std::map<std::string, std::pair<Json, Json>>& examples() {
   return all;
 }
 
-TEST_F(Properties, AllThatAreOfferedCanBeSet) {
+TEST_F(PreviewProperties, AllThatAreOfferedCanBeSet) {
   std::size_t count = 0;
   for (const Json& choice : choices()) {
     const std::string key = choice["key"];
@@ -180,7 +188,7 @@ TEST_F(Properties, AllThatAreOfferedCanBeSet) {
   EXPECT_EQ(count, examples().size());
 }
 
-TEST_F(Properties, ErrorsNameKeyValueAndLimits) {
+TEST_F(PreviewProperties, ErrorsNameKeyValueAndLimits) {
   const std::vector<std::pair<std::pair<const char*, Json>, const char*>> kRefused{
       {{"look.ambient", 2}, "set: look.ambient: '2' is not a number from 0 to 1"},
       {{"look.ambient", true}, "set: look.ambient: 'true' is neither a text nor a number"},
@@ -202,7 +210,7 @@ TEST_F(Properties, ErrorsNameKeyValueAndLimits) {
   EXPECT_NE(set("surface.probe", 2).value("error", "").find("has no probe"), std::string::npos);
 }
 
-TEST_F(Properties, SlidersOfOnePropertyAreOneStep) {
+TEST_F(PreviewProperties, SlidersOfOnePropertyAreOneStep) {
   expect_ok(R"({"command":"end_step"})");
   const int before = state()["undo"];
   for (const double radius : {1.5, 1.6, 1.7}) EXPECT_TRUE(set("surface.probe", radius)["ok"]);
@@ -214,7 +222,7 @@ TEST_F(Properties, SlidersOfOnePropertyAreOneStep) {
   EXPECT_EQ(state()["undo"], before + 4) << "each switch is a step";
 }
 
-TEST_F(Properties, AnotherSchemeHasAScaleOfItsOwnAndARuleKeepsIt) {
+TEST_F(PreviewProperties, AnotherSchemeHasAScaleOfItsOwnAndARuleKeepsIt) {
   EXPECT_TRUE(set("surface.map", "magma")["ok"]);
   EXPECT_TRUE(set("surface.color", {"bfactor", "name CA=#ff0000"})["ok"]);
   EXPECT_EQ(values()["surface.map"], "magma");
@@ -224,7 +232,7 @@ TEST_F(Properties, AnotherSchemeHasAScaleOfItsOwnAndARuleKeepsIt) {
   EXPECT_EQ(values()["surface.map"], "magma");
 }
 
-TEST_F(Properties, AreOfferedWithWhatControlsNeed) {
+TEST_F(PreviewProperties, AreOfferedWithWhatControlsNeed) {
   std::map<std::string, Json> offered;
   for (const Json& choice : choices()) {
     const std::string help = choice["help"], label = choice["label"];

@@ -23,16 +23,20 @@ class StripSession : public SessionCase {
 
 TEST_F(StripSession, GoesFromSceneToSceneAsFilmsDo) {
   EXPECT_FALSE(apply(R"({"command":"strip","place":0})")["ok"]);
-  for (const char* command : {R"({"command":"probe","radius":1})", R"({"command":"cut","plane":"x<3"})",
-                              R"({"command":"look","ambient":0.2,"background":"#000000"})",
-                              R"({"command":"color","scheme":"element"})", R"({"command":"keep_scene"})"})
+  for (const char* command :
+       {R"({"command":"set","key":"surface.probe","value":1})", R"({"command":"cut","plane":"x<3"})",
+        R"({"command":"set","key":"look.ambient","value":0.2})",
+        R"({"command":"set","key":"image.background","value":"#000000"})",
+        R"({"command":"set","key":"surface.color","value":"element"})", R"({"command":"keep_scene"})"})
     expect_ok(command);
   const Json first = state();
   const auto first_picture = picture();
   const Camera from = session_->state().camera;
-  for (const char* command : {R"({"command":"probe","radius":2})", R"({"command":"cut","plane":"x<1","index":0})",
-                              R"({"command":"look","ambient":0.6,"background":"#ffffff"})",
-                              R"({"command":"color","scheme":"chain"})", R"({"command":"orbit","dx":0.3,"dy":0.1})"})
+  for (const char* command :
+       {R"({"command":"set","key":"surface.probe","value":2})", R"({"command":"cut","plane":"x<1","index":0})",
+        R"({"command":"set","key":"look.ambient","value":0.6})",
+        R"({"command":"set","key":"image.background","value":"#ffffff"})",
+        R"({"command":"set","key":"surface.color","value":"chain"})", R"({"command":"orbit","dx":0.3,"dy":0.1})"})
     expect_ok(command);
   const Camera to = session_->state().camera;
   EXPECT_EQ(apply(R"({"command":"keep_scene"})")["scenes"], 2);

@@ -168,7 +168,7 @@ class Atoms(Files):
         self.assertEqual(set(s.classes), {"polymer"})
         self.assertEqual(set(s.altlocs) | set(s.insertion_codes) | set(s.segments), {""})
         self.assertEqual((s.file, s.format, s.radii_set, s.model_count), (str(self.pdb), "PDB", "bondi", 1))
-        self.assertEqual(s.report, "65 atoms read; 1 water left out; 64 used")
+        self.assertEqual(s.report, "65 atoms read; 1 of water left out; 64 used")
         self.assertEqual(repr(s), f"<meniscus.Structure: {self.pdb}, PDB: {s.report}>")
         self.assertFalse(s.positions.flags.writeable)
         np.testing.assert_allclose(meniscus.read(self.folder / "helix.pqr").charges[:3], [-0.1, 0, 0.1], atol=1e-7)

@@ -242,7 +242,7 @@ class ServedSession {
     const Json asked{{"command", "scene"},
                      {"width", state.size.x},
                      {"height", state.size.y},
-                     {"samples", state.samples},
+                     {"samples", state.image.samples},
                      {"transparent", false}};
     return session_.apply(asked).value("text", "");
   }

@@ -37,9 +37,9 @@ function plane_range(plane, state) {
   return { axis, sign, min: Math.floor(reach(Math.min)), max: Math.ceil(reach(Math.max)), step: 0.1, value };
 }
 
-/// Shows what the figure has, each with its controls; command(word, values) changes it. Returns show(state), and
+/// Shows what the figure has, each with its controls; command(word, values) and set(key, value) change it. Returns show(state), and
 /// forget_fault(), which takes back what was said of the atoms.
-export function figure_controls({ command, say, viewer }) {
+export function figure_controls({ command, set, say, viewer }) {
   let known = "";  // what the chips show: they are made anew when there are others, not when a slider moves
 
   const fault = (text) => {
@@ -54,8 +54,8 @@ export function figure_controls({ command, say, viewer }) {
     const act = event.submitter?.value ?? "sticks";
     if (!selection) return fault("Name some atoms first, such as: ligand");
     const [word, values] = {
-      hide: ["hide", { selection }], only: ["show", { selection }], zoom: ["zoom_to", { selection }],
-      outline: ["patches", { selection }],
+      hide: ["hide", { selection }], only: ["set", { key: "surface.show", value: selection }], zoom: ["zoom_to", { selection }],
+      outline: ["set", { key: "surface.patches", value: selection }],
       paint: ["paint", { selection, color: $("paint").value }], fade: ["opacity", { selection, opacity: 0.4 }],
       surface: ["object", { object: { selection, color: $("paint").value } }],
     }[act] ?? ["represent", { as: act, selection }];
@@ -72,19 +72,11 @@ export function figure_controls({ command, say, viewer }) {
     const opacity = $("opacity").valueAsNumber / 100, index = latest.opacities.findIndex((rule) => rule.selection === undefined);
     command("opacity", index < 0 ? { opacity } : { opacity, index });
   });
-  $("surface-shown").addEventListener("change", (event) =>
-    command("set", { key: "hide_surface", value: !event.target.checked }).then((reply) => { if (!reply) event.target.checked = true; }));
-  $("rims").addEventListener("change", (event) => command("set", { key: "film_opacity", value: event.target.checked }));
   $("cap").addEventListener("change", (event) =>
-    command("set", { key: "cap_color", value: event.target.value === "own" ? $("cap-color").value : event.target.value }));
-  $("cap-color").addEventListener("input", (event) => command("set", { key: "cap_color", value: event.target.value }));
-  $("hatching").addEventListener("input", (event) => command("set", { key: "cap_hatching", value: event.target.valueAsNumber }));
+    set("surface.cap_color", event.target.value === "own" ? $("cap-color").value : event.target.value));
+  $("cap-color").addEventListener("input", (event) => set("surface.cap_color", event.target.value));
   $("undo").addEventListener("click", () => command("undo"));
   $("redo").addEventListener("click", () => command("redo"));
-  $("legend-on").addEventListener("change", (event) =>
-    command("legend", { on: event.target.checked }).then((reply) => { if (!reply) event.target.checked = false; }));
-  $("legend-title").addEventListener("change", (event) => command("legend", { title: event.target.value || null }));
-  $("legend-place").addEventListener("change", (event) => command("legend", { place: event.target.value }));
   $("view-form").addEventListener("submit", async (event) => {
     event.preventDefault();
     if (await command("save_view", { name: $("view-name").value.trim() })) {
@@ -146,12 +138,12 @@ export function figure_controls({ command, say, viewer }) {
     if (state.show !== null) {
       const what = `surface of ${state.show}`;
       list.push(element("li", {}, element("span", { textContent: what }),
-        remove_button(what, () => command("show"))));
+        remove_button(what, () => set("surface.show", null))));
     }
     if (state.patches.selection !== null) {
       const what = `patches of ${state.patches.selection}`;
       list.push(element("li", {}, element("span", { textContent: what }),
-        remove_button(what, () => command("patches"))));
+        remove_button(what, () => set("surface.patches", null))));
     }
     state.representations.forEach(({ as, selection }, n) => list.push(chip(`${as}: ${selection}`, "representations", n)));
     state.objects.forEach((object, n) => list.push(object_chip(object, n)));
@@ -204,9 +196,7 @@ export function figure_controls({ command, say, viewer }) {
       $("chips").replaceChildren(...chips(state));
       $("kept-views").replaceChildren(...views(state));
     }
-    $("surface-shown").checked = !state.surface_hidden;
     $("surface-shown").parentElement.hidden = state.representations.length + state.objects.length === 0;
-    $("rims").checked = state.film_opacity;
     $("rims").parentElement.hidden = state.opacities.length === 0;
     const of_all = state.opacities.find((rule) => rule.selection === undefined), cut = state.cuts[slider_cut(state)];
     if ($("opacity") !== document.activeElement) $("opacity").value = 100 * (of_all?.opacity ?? 1);
@@ -217,15 +207,11 @@ export function figure_controls({ command, say, viewer }) {
     $("cap").value = named ? state.cap.color : "own";
     $("cap-color-row").hidden = named;
     if (state.cap.color !== "atom") $("cap-color").value = state.cap.color;
-    $("hatching").value = state.cap.hatching;
     for (const id of ["cap", "hatching"]) $(id).parentElement.hidden = state.cuts.length === 0;
     $("cap-color-row").hidden ||= state.cuts.length === 0;
     $("undo").disabled = state.undo === 0;
     $("redo").disabled = state.redo === 0;
-    $("legend-on").checked = state.legend.on;
     for (const row of document.querySelectorAll(".of-legend")) row.hidden = !state.legend.on;
-    if ($("legend-title") !== document.activeElement) $("legend-title").value = state.legend.title ?? "";
-    $("legend-place").value = state.legend.place;
     $("legend-fault").textContent = state.legend.fault ?? "";
     $("legend-fault").hidden = !state.legend.fault;
   }

@@ -4,6 +4,7 @@ import { answers, Connection } from "./connection.js";
 import { figure_controls } from "./figure.js";
 import { follow_lamp, place_lamp } from "./lamp.js";
 import { Pictures } from "./pictures.js";
+import { property_controls } from "./properties.js";
 import { strip_controls } from "./strip.js";
 
 const $ = element;
@@ -12,7 +13,6 @@ remember_sections(["cutting", "viewing"]);
 
 const canvas = $("picture"), stage = $("stage");
 const numbered = new Set();  // colour schemes that take a map
-const strengths = [];  // keys of the look that have a slider
 let viewer = null;     // from the first state on
 let state = null;      // what the program shows
 let told_states = 0;   // how many states were asked for and told
@@ -59,8 +59,8 @@ const tells_only = new Set(["pick", "export", "export_state", "cancel_export", "
 const changes_state = new Set(["key", "save_view", "forget_view", "keep_scene", "forget_scene", "play", "pause", "save"]);
 let last_change = 0;
 
-/// What an error says, without the word of its command, which is a program's and no reader's.
-const sentence_of = (error, word) => error.startsWith(`${word}: `) ? error.slice(word.length + 2) : error;
+/// What an error says, without the words of its command and its property, which are a program's and no reader's.
+const sentence_of = (error, word) => error.replace(new RegExp(`^${word}: ([a-z]+\\.[a-z_]+: )?`), "");
 
 /// Carries out a command; a refusal is said, to the controls it came from if they can tell it. Returns the reply, or
 /// null.
@@ -82,6 +82,9 @@ async function command(word, values = {}, refuse = (text) => tell(text, true)) {
   if (reply.ok && reply.revision === undefined && changes_state.has(word)) ask_state();
   return reply.ok ? reply : null;
 }
+
+/// Sets a property; if that is refused the controls show again what there is.
+const set = (key, value) => command("set", { key, value }).then((reply) => { if (!reply && state) apply_state(state); });
 
 /// Asks the program what it has, with the camera that is seen here.
 function ask(question) {
@@ -260,8 +263,9 @@ new ResizeObserver(fit).observe(stage);
 
 // State
 
-const context = { command, ask, say: (text, is_error) => tell(text, is_error), viewer: () => viewer };
+const context = { command, set, ask, say: (text, is_error) => tell(text, is_error), viewer: () => viewer };
 const figure = figure_controls(context);
+const properties = property_controls(set);
 const show_strip = strip_controls(context);
 
 /// Unless somebody is at it: what is typed, or dragged ahead of the pictures, stays.
@@ -299,16 +303,13 @@ function apply_state(next) {
   document.title = `${name} · Meniscus`;
   document.querySelector("h1").textContent = name;
   $("file").textContent = `${next.atoms.toLocaleString("en")} atoms`;
-  set_value($("surface-kind"), next.surface);
   $("probe").disabled = $("probe-number").disabled = next.surface === "vdw";
-  set_value($("probe"), next.probe_radius);
-  set_value($("probe-number"), Number(next.probe_radius.toFixed(3)));
+  properties.show(next, set_value);
   set_value($("scheme"), next.color.scheme);
   set_value($("map"), next.color.map ?? "");
   $("map-row").hidden = $("range-row").hidden = !numbered.has(next.color.scheme);
   set_value($("range"), next.color.range ?? "");
   if ($("map").options[0]) $("map").options[0].text = next.color.own_map ? "the file's" : "its own";
-  set_value($("preset"), next.preset);
   figure.show(next);
   show_strip(next);
   take_wishes(next);
@@ -316,7 +317,6 @@ function apply_state(next) {
   $("kinds-key").hidden = !(next.patch_kinds || next.color.scheme === "kind");
   set_value($("background"), next.look.background);
   stage.style.background = next.look.background;
-  for (const key of strengths) set_value($(key), next.look[key]);
   $("shade").checked = next.look.ambient_occlusion > 0;
   $("lines").checked = next.look.silhouettes > 0;
   place_lamp($("lamp"), next.look.light_direction);
@@ -342,7 +342,8 @@ function fill_choices(choices) {
   }
   $("map").add(new Option("its own", ""));
   for (const map of choices.maps) $("map").add(new Option(map, map));
-  choices.sliders.forEach(add_slider);
+  for (const property of choices.properties)
+    if (property.slider_end) properties.add_slider(property, $("strengths"));
   $("shapes").prepend(...choices.representations.map((as) =>
     Object.assign(document.createElement("button"), { name: "do", value: as, textContent: as[0].toUpperCase() + as.slice(1) })));
   for (const preset of choices.presets) $("preset").add(new Option(preset, preset));
@@ -352,38 +353,19 @@ function fill_choices(choices) {
 
 // Controls
 
-$("surface-kind").addEventListener("change", (event) =>
-  command("surface", { kind: event.target.value }).then((reply) => reply ?? apply_state(state)));
-const set_probe = (radius) => {
-  if (Number.isFinite(radius)) command("probe", { radius: Math.round(radius * 1000) / 1000 });
+let beneath_kinds = "auto";  // the colours before kinds of patch were shown
+const set_scheme = (scheme) => {
+  if (scheme === "kind") beneath_kinds = state.values["surface.color"];
+  set("surface.color", scheme === "kind" ? scheme : [scheme, ...state.color.rules ?? []]);  // rules colour atoms
 };
-$("probe").addEventListener("input", (event) => set_probe(event.target.valueAsNumber));
-$("probe-number").addEventListener("change", (event) => set_probe(event.target.valueAsNumber));
-
-const set_color = () => {
-  const scheme = $("scheme").value, map = $("map").value, range = $("range").value.trim();
-  const values = { scheme };
-  if (numbered.has(scheme) && map) values.map = map;
-  if (numbered.has(scheme) && range) values.range = range;
-  command("color", values).then((reply) => reply ?? apply_state(state));
-};
-$("scheme").addEventListener("change", () => { $("range").value = ""; set_color(); });
-$("range").addEventListener("change", set_color);
-$("preset").addEventListener("change", (event) => command("preset", { preset: event.target.value }));
-$("map").addEventListener("change", set_color);
-$("kinds").addEventListener("change", (event) => command("patch_kinds", { on: event.target.checked }));
+$("scheme").addEventListener("change", (event) => set_scheme(event.target.value));
+$("range").addEventListener("change", (event) => set("surface.color_range", event.target.value.trim() || null));
+$("map").addEventListener("change", (event) => set("surface.map", event.target.value || null));
+$("kinds").addEventListener("change", (event) => event.target.checked ? set_scheme("kind") : set("surface.color", beneath_kinds));
 $("projection").addEventListener("change", (event) => set_projection(viewer, event.target.value === "orthographic"));
-$("background").addEventListener("input", (event) => command("look", { background: event.target.value }));
+$("background").addEventListener("input", (event) => set("image.background", event.target.value));
 for (const [id, key] of [["shade", "a"], ["lines", "l"]]) $(id).addEventListener("change", () => command("press", { key }));
-function add_slider({ key, label, end, help }) {
-  const slider = Object.assign(document.createElement("input"), { id: key, type: "range", min: 0, max: end, step: end > 2 ? 0.5 : 0.05 });
-  slider.addEventListener("input", () => command("look", { [key]: slider.valueAsNumber }));
-  const row = Object.assign(document.createElement("label"), { htmlFor: key, title: help });
-  row.append(`${label} `, slider);
-  $("strengths").append(row);
-  strengths.push(key);
-}
-follow_lamp($("lamp"), (light_direction) => { if (controls) command("look", { light_direction }); });
+follow_lamp($("lamp"), (direction) => { if (controls) set("look.light", direction.join(",")); });
 $("reset").addEventListener("click", () => command("reset_view"));
 $("zoom-form").addEventListener("submit", async (event) => {
   event.preventDefault();
@@ -474,7 +456,8 @@ $("write").addEventListener("submit", async (event) => {
   follow_export();
 });
 $("open-scene").addEventListener("click", async () => {
-  const reply = await command("open", { path: `${$("export-name").value}.json` });
+  const name = $("export-name").value;
+  const reply = await command("open", { path: /\.(json|png|tiff?|jpe?g|html)$/.test(name) ? name : `${name}.json` });
   if (reply) tell(`Opened: ${reply.path}`);
 });
 

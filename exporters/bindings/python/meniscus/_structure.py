@@ -45,7 +45,7 @@ class Structure:
 
     >>> molecule = meniscus.read("helix.pdb")
     >>> molecule
-    <meniscus.Structure: helix.pdb, PDB: 65 atoms read; 1 water left out; 64 used>"""
+    <meniscus.Structure: helix.pdb, PDB: 65 atoms read; 1 of water left out; 64 used>"""
 
     __slots__ = ("_columns", "_handle", "_report", "__weakref__")
 
@@ -104,7 +104,7 @@ class Structure:
         """A sentence about the atoms that were read, left out and used.
 
         >>> molecule.report
-        '65 atoms read; 1 water left out; 64 used'"""
+        '65 atoms read; 1 of water left out; 64 used'"""
         return self._report.sentence
 
     @property
