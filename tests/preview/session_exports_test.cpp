@@ -175,7 +175,7 @@ TEST_F(SessionExports, AFilmOfTheStripIsAStoryboard) {
   ASSERT_TRUE(film("")["ok"]);
   EXPECT_EQ(ordered.words[1], "render") << "of frames, where there are two models";
   expect_ok(R"({"command":"keep_scene"})");
-  expect_ok(R"({"command":"probe","radius":2})");
+  expect_ok(R"({"command":"set","key":"surface.probe","value":2})");
   expect_ok(R"({"command":"frame","index":1})");
   expect_ok(R"({"command":"keep_scene"})");
   expect_ok(R"({"command":"time_scene","index":0,"transition":0.5})");

@@ -90,11 +90,12 @@ TEST_F(StripSession, GoesFromSceneToSceneAsFilmsDo) {
 // What is edited while the film plays would be gone with its next picture.
 TEST_F(StripSession, AnEditPausesTheFilm) {
   begin_with_two_frames();
-  for (const char* command :
-       {R"({"command":"keep_scene"})", R"({"command":"probe","radius":2})", R"({"command":"keep_scene"})"})
+  for (const char* command : {R"({"command":"keep_scene"})", R"({"command":"set","key":"surface.probe","value":2})",
+                              R"({"command":"keep_scene"})"})
     expect_ok(command);
-  for (const char* edit : {R"({"command":"look","ambient":0.9})", R"({"command":"orbit","dx":0.3,"dy":0.1})",
-                           R"({"command":"frame","index":1})", R"({"command":"undo"})"}) {
+  for (const char* edit :
+       {R"({"command":"set","key":"look.ambient","value":0.9})", R"({"command":"orbit","dx":0.3,"dy":0.1})",
+        R"({"command":"frame","index":1})", R"({"command":"undo"})"}) {
     expect_ok(R"({"command":"strip","place":0.5})");
     expect_ok(R"({"command":"play","strip":true})");
     expect_ok(R"({"command":"next_frame"})");
@@ -105,7 +106,7 @@ TEST_F(StripSession, AnEditPausesTheFilm) {
     EXPECT_EQ(state()["strip"]["playing"], false) << edit;
   }
   expect_ok(R"({"command":"play"})");
-  expect_ok(R"({"command":"look","ambient":0.5})");
+  expect_ok(R"({"command":"set","key":"look.ambient","value":0.5})");
   EXPECT_TRUE(session_->state().playing) << "frames do not change what is edited";
 }
 
