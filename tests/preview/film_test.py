@@ -56,8 +56,8 @@ class Films(unittest.TestCase):
 
     def test_it_is_that_of_the_same_scenes(self):
         self.preview("a.pdb", commands=[
-            ("color", {"scheme": "chain"}), ("cut", {"plane": "z<2"}), ("keep_scene", {}), ("save", {"path": "one.json", **self.SIZE}),
-            ("probe", {"radius": 2}), ("orbit", {"dx": 0.3, "dy": 0.1}), ("look", {"background": "#203040"}), ("keep_scene", {}),
+            ("set", {"key": "surface.color", "value": "chain"}), ("cut", {"plane": "z<2"}), ("keep_scene", {}), ("save", {"path": "one.json", **self.SIZE}),
+            ("set", {"key": "surface.probe", "value": 2}), ("orbit", {"dx": 0.3, "dy": 0.1}), ("set", {"key": "image.background", "value": "#203040"}), ("keep_scene", {}),
             ("save", {"path": "two.json", **self.SIZE}), ("time_scene", {"index": 0, "hold": 0.16, "transition": 0.24}),
             ("time_scene", {"index": 1, "hold": 0.08}), self.EXPORT, ("save", {"path": "story.json", "strip": True, **self.SIZE})])
         words = ("--device", "cpu")
@@ -92,9 +92,9 @@ class Films(unittest.TestCase):
 
     def test_a_strip_that_was_saved_is_there_again(self):
         replies = self.preview("two.pdb", commands=[
-            ("color", {"scheme": "chain"}), ("keep_scene", {}), ("frame", {"index": 1}), ("probe", {"radius": 2.5}), ("keep_scene", {}),
+            ("set", {"key": "surface.color", "value": "chain"}), ("keep_scene", {}), ("frame", {"index": 1}), ("set", {"key": "surface.probe", "value": 2.5}), ("keep_scene", {}),
             ("time_scene", {"index": 0, "hold": 1, "transition": 0.5}), ("save", {"path": "story.json", "strip": True, **self.SIZE}),
-            ("forget_scene", {"index": 0}), ("forget_scene", {"index": 0}), ("probe", {"radius": 1}), ("open", {"path": "story.json"}),
+            ("forget_scene", {"index": 0}), ("forget_scene", {"index": 0}), ("set", {"key": "surface.probe", "value": 1}), ("open", {"path": "story.json"}),
             ("state", {}), ("strip", {"place": 1}), ("state", {}), ("save", {"path": "again.json", "strip": True, **self.SIZE})])
         first, second = replies[11], replies[13]
         self.assertEqual([(kept["frame"], kept["hold"], kept["transition"]) for kept in first["strip"]["kept"]], [(0, 1, 0.5), (1, 2, 0.5)])
