@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/commands/command_table.h"
 #include "app/commands/picture_sink.h"
@@ -17,6 +18,7 @@
 #include "app/film/film.h"
 #include "app/options/named_files.h"
 #include "app/options/property_options.h"
+#include "app/options/storyboard_file.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/progress.h"
@@ -137,6 +139,20 @@ TakenProperties film_properties() {
                      {film_need(), fixed_size_need()});
 }
 
+/// Puts the scenes of a storyboard file in its place, and takes the times that the command line does not set.
+void open_storyboard(FilmCommand& film, const CLI::App& command) {
+  const std::optional<StoryboardFile> story =
+      film.files.size() == 1 ? read_storyboard(film.files.front()) : std::nullopt;
+  if (!story) return;
+  const std::string file = std::exchange(film.files, {}).front();
+  for (std::size_t n = 1; n <= story->scenes.size(); ++n) film.files.push_back(fmt::format("{}#{}", file, n));
+  const auto take = [&command](const char* option, std::string& times, const std::vector<double>& seconds) {
+    if (command.count(option) == 0 && !seconds.empty()) times = fmt::format("{}", fmt::join(seconds, ","));
+  };
+  take("--hold", film.hold, story->hold);
+  take("--transition", film.transition, story->transition);
+}
+
 void run(const DeclaredFilm& declared) {
   const FilmCommand& command = declared.state;
   const bool is_film = is_film_path(command.scene.output);
@@ -161,6 +177,7 @@ void add_film(CLI::App& command) {
       "  meniscus film a.png b.png c.png -o story.mp4\n"
       "  meniscus film apo.json holo.json -o story.mp4 --hold 2,4 --transition 1.5 --size 1920x1080\n"
       "  meniscus film a.json b.json -o 'story_####.png' --ease even\n"
+      "  meniscus film story.json -o story.mp4                    the storyboard that meniscus preview saved\n"
       "  meniscus film a.json b.json --to povray -o story         a scene for POV-Ray; it prints how to render it\n"
       "  meniscus film a.json b.json --to blender -o story        surfaces and keys for Blender's add-on to import",
       "Scenes are files of --save-scene or pictures that meniscus render made. On the way from one to the next the "
@@ -179,6 +196,7 @@ void add_film(CLI::App& command) {
   declared->options.option("image.size")->description("Size of the film in pixels [that of the first scene]");
   command.callback([declared] {
     declared->options.take();
+    open_storyboard(declared->state, declared->options.command());
     run(*declared);
   });
 }

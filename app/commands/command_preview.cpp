@@ -174,6 +174,10 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
 void show_address(const PreviewCommand& command, const ServedAddress& address) {
   std::cout << address.url << std::endl;
   log_line(command, fmt::format("from another machine: ssh -L {0}:127.0.0.1:{0} {1}", address.port, host_name()));
+  const std::string path = address.url.substr(address.url.find('/', std::string_view("http://").size()));
+  for (const std::string& host : command.trusted_hosts)
+    log_line(command,
+             fmt::format("through {}: the proxy's address for port {}, and then {}", host, address.port, path));
   log_line(command, "Ctrl-C ends the preview");
   if (command.port || command.no_open) return;
   // The browser may end after this function, so the callback has a copy of the command.
@@ -219,6 +223,11 @@ void serve(DeclaredPreview& declared) {
   const std::vector<WrittenCommand> commands = written_commands(command);
   ServeOptions options;
   options.port = command.port.value_or(0);
+  options.address = command.address;
+  options.trusted_hosts = command.trusted_hosts;
+  for (const std::string& host : options.trusted_hosts)
+    if (const std::string fault = host_fault(host); !fault.empty())
+      throw UsageError(fmt::format("--trust-host {}: {}", in_quotes(host), fault));
   options.token = token_of(command);
   options.ready = [&](const ServedAddress& address) { show_address(command, address); };
   const PictureDevice device(command.scene.molecule.surface);

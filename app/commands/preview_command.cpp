@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <numeric>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -34,13 +35,16 @@
 namespace meniscus {
 namespace {
 
-std::uint16_t parse_port(const std::string& text) {
-  if (text.empty()) return 0;
-  std::uint16_t port = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+/// Parses "PORT" or "ADDRESS:PORT"; empty: any port.
+void parse_port(const std::string& text, PreviewCommand& command) {
+  command.port = 0;
+  if (text.empty()) return;
+  const std::size_t colon = text.rfind(':');
+  if (colon != std::string::npos) command.address = text.substr(0, colon);
+  const char* const begin = text.data() + (colon == std::string::npos ? 0 : colon + 1);
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), *command.port);
   if (error != std::errc() || end != text.data() + text.size())
     throw CLI::ValidationError("--serve", in_quotes(text) + " is not a port from 0 to 65535; put FILE before --serve");
-  return port;
 }
 
 }  // namespace
@@ -77,7 +81,8 @@ void add_preview_options(CLI::App& command, DeclaredPreview& declared) {
       ->description("A colour (white, grey, #rrggbb), or transparent in exported pictures [white]");
   PropertyOptions options(command);
   PreviewCommand& state = declared.state;
-  options.add_parsed("preview.serve", [&state](const std::string& text) { state.port = parse_port(text); });
+  options.add_parsed("preview.serve", [&state](const std::string& text) { parse_port(text, state); });
+  options.add("preview.trusted_hosts", state.trusted_hosts);
   options.add("preview.no_open", state.no_open);
   options.add("preview.token_file", state.token_file);
   options.add("preview.commands", state.commands);
@@ -168,16 +173,20 @@ Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, cons
   return aim.camera(layout, given, aim.viewed(objects));
 }
 
-void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch) {
+void make_film(const FilmOrder& order, const ExportTarget& target, const ExportWatch& watch) {
   using namespace std::chrono_literals;
   using Json = nlohmann::json;
-  if (scene.molecule.file == "-")
-    throw RequestError("export: a molecule from standard input cannot be read again; give FILE to make a film");
   check_output(target.path, target.existing);
-  scene.output = target.path.string();
-  std::vector<std::string> words = render_words(scene);
+  std::vector<std::string> words = order.words;
   words.front() = system_file::program_path().string();
-  words.insert(words.end(), {"-q", "--progress", "json"});
+  std::optional<OutputFile> storyboard;  // never committed, so that it vanishes with this object
+  if (order.storyboard.empty()) {
+    words.insert(words.end(), {"-q", "--progress", "json"});
+  } else {
+    storyboard.emplace(target.path.string() + ".json", Existing::replace);
+    storyboard->write(order.storyboard);
+    words.push_back(storyboard->temporary_path().string());
+  }
   if (target.existing == Existing::replace) words.emplace_back("--force");
   const StopHandler handler([] { stop_children(); }, std::nullopt);
   ChildProcess child(words, ".");
@@ -190,6 +199,11 @@ void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch
       if (!child.has_news(100ms)) continue;
       const std::optional<std::string> line = child.next_line();
       if (!line) break;
+      if (line->starts_with("film: ")) {
+        std::string word;
+        std::istringstream(*line) >> word >> done >> word >> frames;
+        continue;
+      }
       const Json event = Json::parse(*line, nullptr, false);
       if (!event.is_object()) fault = *line;
       if (!event.is_object()) continue;

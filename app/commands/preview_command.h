@@ -23,7 +23,9 @@ struct PreviewCommand : SceneCommand {
   bool aims = false;                  ///< true if the scene sets the first camera
   bool has_size = false;              ///< true if the scene has the size of exported pictures
   std::optional<std::uint16_t> port;  ///< the value of --serve
-  bool no_open = false;               ///< true if the user opens the page
+  std::string address = "127.0.0.1";  ///< the address in it
+  std::vector<std::string> trusted_hosts;
+  bool no_open = false;  ///< true if the user opens the page
   std::string record, commands, token_file, output_folder = ".";
 
   /// Returns the request for the molecule: all models, if each is a frame.
@@ -67,8 +69,8 @@ class ShownReader {
 /// The scene's colours have the numbers of their file. Throws InputError, RequestError.
 Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, const Structure& structure);
 
-/// Makes a film like `meniscus render`, in a child process that `watch` can cancel. Throws RequestError, OutputError.
-void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch);
+/// Makes a film in a child process that `watch` can cancel. Throws RequestError, OutputError.
+void make_film(const FilmOrder& order, const ExportTarget& target, const ExportWatch& watch);
 
 /// Opens scenes of one molecule.
 class SceneOpener {

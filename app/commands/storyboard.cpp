@@ -163,7 +163,7 @@ void Storyboard::play(FilmMaker& maker, const EglContext* context, std::uint64_t
             Shot{scene.run.scene(), std::move(frame.figure), frame.camera, scene.layout, std::move(annotations)});
         return [this, &maker, &scene, context, n, shot, count, place = frame.place] {
           if (place == 0 && n > 0) go_over(*shot, timing_.between[n - 1], maker, context);
-          maker.show(*shot, place, scene.run.is_run() ? 1 : timing_.held[n]);
+          maker.show(*shot, place, scene.plays() ? 1 : timing_.held[n]);
           if (place + 1 == count) last_ = std::move(*shot);
           return MadeFrame{};
         };

@@ -42,7 +42,9 @@ struct FilmScene {
   /// extent: FigureRun::aim()
   FilmScene(const SceneCommand& command, bool extent);
 
-  std::uint64_t pictures(std::uint64_t held) { return run.is_run() ? run.frames().numbers().size() : held; }
+  /// True if the scene shows more than one frame, each of them once.
+  bool plays() { return run.is_run() && run.frames().numbers().size() > 1; }
+  std::uint64_t pictures(std::uint64_t held) { return plays() ? run.frames().numbers().size() : held; }
 };
 
 /// Makes a film from shots and transitions: pictures, or a scene for another renderer.

@@ -21,6 +21,7 @@
 #include "app/options/command_tree.h"
 #include "app/options/named_files.h"
 #include "app/options/property_options.h"
+#include "app/options/storyboard_file.h"
 #include "app/process/program_main.h"
 #include "core/base/binary_file.h"
 #include "core/base/error.h"
@@ -475,6 +476,7 @@ std::string carried_scene(const std::string& file) {
 
 std::string read_scene_text(const std::string& file) {
   constexpr std::size_t kLargestScene = std::size_t{16} << 20;  // bytes
+  if (std::optional<std::string> scene = scene_of_storyboard(file)) return *std::move(scene);
   const std::string extension = std::filesystem::path(file).extension().string();
   constexpr std::string_view kCarriers[] = {".tif", ".tiff", ".jpg", ".jpeg", ".html"};
   const bool is_carrier = is_png(file) || std::ranges::find(kCarriers, extension) != std::end(kCarriers);

@@ -161,7 +161,8 @@ class SceneOutput {
 /// scene_text().
 std::string scene_text_for(const Scene& scene, const std::string& path, std::span<const AddedFile> added = {});
 
-/// Returns the JSON of a scene file, or of the picture that carries it. Throws InputError.
+/// Returns the JSON of a scene file, of the picture that carries it, or of a scene of a storyboard ("story.json#2").
+/// Throws InputError.
 std::string read_scene_text(const std::string& file);
 
 /// Returns the folder for indices of frames and compiled kernels, among other caches of the user; empty if there is

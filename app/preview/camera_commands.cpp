@@ -62,9 +62,11 @@ Outcome at_frame(PreviewState state, std::size_t frame, const Surroundings& arou
 }
 
 Outcome played(const CommandReader& command, PreviewState state, bool plays) {
-  state.frames_per_second = command.number_or(state.frames_per_second, "fps", 0.1, 240.0);
+  const bool strip = command.flag_or(false, "strip");
+  double& rate = strip ? state.strip_rate : state.frames_per_second;
+  rate = command.number_or(rate, "fps", 0.1, 240.0);
   state.playing = plays;
-  state.plays_strip = plays && command.flag_or(false, "strip");
+  state.plays_strip = plays && strip;
   return {std::move(state), Renewal::nothing, {{"playing", plays}}};
 }
 

@@ -53,7 +53,7 @@ bool is_question(const nlohmann::json& command) {
   const std::string word = command_word(command);
   if (word == "pick") return command.value("wait", nlohmann::json()) == false;
   return word == "state" || word == "stats" || word == "choices" || word == "scene" || word == "render_command" ||
-         word == "export_state" || word == "contents" || word == "locate";
+         word == "export_state" || word == "films" || word == "contents" || word == "locate";
 }
 
 bool changes_surface(std::string_view key) { return key == "surface.kind" || key == "surface.probe"; }

@@ -24,8 +24,8 @@ std::string json_line(const nlohmann::json& json);
 /// The text under "command"; empty if there is none.
 std::string command_word(const nlohmann::json& command);
 
-/// Does the command only ask: state, stats, choices, scene, render_command, export_state, contents, locate, or a pick
-/// that does not wait? Any client may send it, and it is not recorded.
+/// Does the command only ask: state, stats, choices, scene, render_command, export_state, films, contents, locate, or a
+/// pick that does not wait? Any client may send it, and it is not recorded.
 bool is_question(const nlohmann::json& command);
 
 /// True if another value of this property makes another surface.

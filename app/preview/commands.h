@@ -68,6 +68,8 @@ struct Command {
 
   bool is_step() const { return effect == Effect::edit || effect == Effect::slide || effect == Effect::motion; }
   bool makes_picture() const { return effect != Effect::none && effect != Effect::ends_step; }
+  /// True if the next picture of a film that plays would undo what the command does.
+  bool pauses_film() const { return makes_picture() && word != "next_frame" && word != "resize"; }
   /// Steps of one kind that follow each other are one; empty: this is a step by itself.
   std::string_view kind_of_step() const {
     if (effect == Effect::edit) return {};
@@ -113,13 +115,14 @@ Reducer set_property;                                                   // prope
 Reducer paint, set_opacity;                                             // look_commands.cpp
 /// The next picture of a strip that plays; at its end playing ends.
 Outcome next_of_strip(PreviewState state, const Surroundings& around);
-Reducer keep_scene, forget_scene, show_strip;                                             // strip_commands.cpp
-Reducer undo, redo, end_step, quit;                                                       // commands.cpp
-Translator press;                                                                         // commands.cpp
-Reducer look_into, take_away, bring_back;                                                 // content_commands.cpp
-Service get_contents, locate;                                                             // content_commands.cpp
-Service get_stats, get_choices, pick;                                                     // question_commands.cpp
-Service export_view, export_state, cancel_export, save_scene, get_scene, render_command;  // export_commands.cpp
-Reducer open_scene;                                                                       // export_commands.cpp
+Reducer keep_scene, forget_scene, time_scene, show_strip;  // strip_commands.cpp
+Reducer undo, redo, end_step, quit;                        // commands.cpp
+Translator press;                                          // commands.cpp
+Reducer look_into, take_away, bring_back;                  // content_commands.cpp
+Service get_contents, locate;                              // content_commands.cpp
+Service get_stats, get_choices, pick;                      // question_commands.cpp
+Service export_view, get_films, export_state, cancel_export, save_scene, get_scene,
+    render_command;  // export_commands.cpp
+Reducer open_scene;  // export_commands.cpp
 
 }  // namespace meniscus

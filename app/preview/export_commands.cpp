@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The commands that write and read files of the output folder: exports, scenes, the command line of a picture.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "app/film/film.h"
 #include "app/options/property_options.h"
+#include "app/options/storyboard_file.h"
 #include "app/preview/commands.h"
 #include "app/preview/preview_state.h"
 #include "core/base/error.h"
@@ -21,6 +26,7 @@
 #include "core/render/image_output.h"
 #include "core/scene/scene_json.h"
 #include "core/scene/scene_paths.h"
+#include "core/scene/scene_values.h"
 
 namespace meniscus {
 namespace {
@@ -71,36 +77,76 @@ void check_ending(const std::string& name, Format format) {
 }
 
 /// The work of an export of what takes long.
-Json written(const ExportedView& view, Format format, const MakePictureDevice& make_device, const ExportTarget& target,
-             const ExportWatch& watch) {
+Json written(const ExportedView& view, Format format, bool archives, const MakePictureDevice& make_device,
+             const ExportTarget& target, const ExportWatch& watch) {
   Json reply{{"path", target.path.string()}};
+  const std::string archive = archives && format == Format::povray ? target.path.string() + ".zip" : "";
+  if (!archive.empty()) reply["archive"] = archive;
   if (format == Format::blender && (!view.figure.figure.plain() || (view.extras && !view.extras->empty())))
     reply["note"] = "without cuts and shapes beside the surface; meniscus export has options for these";
   if (format == Format::png) export_picture(view, make_device, target, watch);
-  if (format == Format::povray) reply["render_with"] = export_povray(view, target, watch);
+  if (format == Format::povray) reply["render_with"] = export_povray(view, target, archive, watch);
   if (format == Format::blender) export_blender(view, target, watch);
   return reply;
 }
 
-/// The scene of the film that a command requests: the run, or the molecule as it is, turned once around.
-Scene film_scene(const CommandReader& command, const Surroundings& around) {
+enum class FilmOf { strip, turntable, frames };
+constexpr std::array<std::string_view, 3> kFilms{"strip", "turntable", "frames"};
+constexpr double kFilmRate = 25.0;  // pictures per second, as --fps has it
+
+/// Returns the films that can be made of the preview; the first is the default.
+std::vector<FilmOf> possible_films(const Surroundings& around) {
+  std::vector<FilmOf> films;
+  if (around.state.strip.size() > 1) films.push_back(FilmOf::strip);
+  if (around.molecule.frame_count() > 1) films.push_back(FilmOf::frames);
+  films.push_back(FilmOf::turntable);
+  return films;
+}
+
+/// Returns the number of pictures of a film.
+std::uint64_t pictures_of(FilmOf film, const CommandReader& command, const Surroundings& around) {
+  constexpr double kTurnSeconds = 6.0, kLongest = 600.0;
+  if (film == FilmOf::frames) return around.molecule.frame_count();
+  if (film == FilmOf::turntable)
+    return static_cast<std::uint64_t>(
+        std::lround(kFilmRate * command.number_or(kTurnSeconds, "seconds", 0.1, kLongest)));
+  const std::vector<KeptScene>& strip = around.state.strip;
+  std::uint64_t count = 0;
+  for (const KeptScene& kept : strip) count += kept.held(kFilmRate) + kept.between(kFilmRate);
+  return count - strip.back().between(kFilmRate);
+}
+
+/// Returns the size of a film's pictures, which is even, because most encoders need that.
+glm::ivec2 film_size(const PictureOptions& options) { return 2 * (options.size / 2); }
+
+/// Sets the frames of a scene to one frame of the trajectory. number: ShownMolecule::number_of().
+void show_one_frame(Scene& scene, std::uint64_t number) {
+  if (scene.frames.interpolate > 1)
+    throw RequestError("export: a film cannot hold a frame between two of the trajectory; leave --interpolate out");
+  scene.frames.frames = fmt::format("{}", number / scene.frames.repeat);
+  scene.frames.repeat = scene.frames.stride = 1;
+  scene.frames.begin = scene.frames.end = scene.frames.only = "";
+}
+
+/// The scene of a turntable or of a film of the frames.
+Scene film_scene(FilmOf film, const CommandReader& command, const Surroundings& around) {
   const PreviewState& state = around.state;
   const ShownMolecule& molecule = around.molecule;
-  const bool is_run = molecule.frame_count() > 1;
+  const bool is_run = film == FilmOf::frames;
   if (is_run && state.follows_keys && !state.keys.empty())
     throw RequestError(
         "export: a film along the keys of a camera is made by meniscus render --camera-path; export them");
-  constexpr double kTurnRate = 25.0, kTurnSeconds = 6.0, kLongest = 600.0;
   const PictureOptions options = picture_options(command, state);
-  const glm::ivec2 even = 2 * (options.size / 2);  // as most encoders want it
-  Scene scene = rendered_scene(state, {even, options.samples});
+  Scene scene = rendered_scene(state, {film_size(options), options.samples});
   scene.run_camera = {};
   scene.run_camera.turns = command.number_or(is_run ? 0.0 : 1.0, "turns", -100.0, 100.0);
-  scene.film.frames_per_second = is_run ? state.frames_per_second : kTurnRate;
-  const double seconds = command.number_or(kTurnSeconds, "seconds", 0.1, kLongest);
-  if (!is_run) scene.frames.repeat = static_cast<std::uint64_t>(std::lround(kTurnRate * seconds));
-  if (!molecule.has_trajectory()) scene.frames.frames = is_run ? "all" : "0";
-  if (is_run && !molecule.has_trajectory()) scene.molecule.reading.model = {};
+  scene.film.frames_per_second = is_run ? state.frames_per_second : kFilmRate;
+  if (is_run && !molecule.has_trajectory()) scene.frames.frames = "all";
+  if (!is_run) {
+    show_one_frame(scene, molecule.number_of(state.frame));
+    scene.frames.repeat = pictures_of(film, command, around);
+  }
+  if (molecule.has_models()) scene.molecule.reading.model = {};
   return scene;
 }
 
@@ -118,12 +164,62 @@ Scene shown_scene(const CommandReader& command, const Surroundings& around) {
           fmt::format("{}: {} counts the atoms of all models here, and those of one in a picture by "
                       "render; choose another scheme",
                       command.word(), in_quotes(scheme_word(state.molecule.color))));
-    view.model = molecule.structure().atoms[molecule.atoms().front()].model;
+    view.model = molecule.model_of(state.frame);
     // A model alone would have a scale of its own.
     if (state.molecule.color.has_scale() && !(state.molecule.color.takes_file() && state.molecule.color.file.of_colors))
       view.range = color_scale(molecule.structure(), state.molecule.color).range;
   }
   return rendered_scene(state, view);
+}
+
+/// Returns the scenes of the strip as a storyboard file. folder: paths are relative to it.
+std::string strip_text(const CommandReader& command, const Surroundings& around, const std::string& folder) {
+  StoryboardFile story;
+  for (const KeptScene& kept : around.state.strip) {
+    PreviewState state = around.state;
+    static_cast<PreviewFigure&>(state) = kept.figure;
+    state.picture = around.state.picture;
+    state.has_size = around.state.has_size;
+    state.frame = kept.frame;
+    const Surroundings then{state, around.first, around.history, around.molecule, around.pictures, around.exporter};
+    Scene scene = shown_scene(command, then);
+    const glm::ivec2 size = film_size(picture_options(command, state));
+    scene.picture.width = size.x;
+    scene.picture.height = size.y;
+    scene.image.background = kept.figure.shown_background();
+    scene.output.clear();
+    if (around.molecule.has_trajectory()) show_one_frame(scene, around.molecule.number_of(kept.frame));
+    if (const std::string fault = scene_fault(scene); !fault.empty())
+      throw RequestError(fmt::format("{}: {}", command.word(), fault));
+    story.scenes.push_back(scene_text(scene, folder, around.molecule.structure().added));
+    story.hold.push_back(kept.hold);
+    story.transition.push_back(kept.transition);
+  }
+  story.transition.pop_back();  // after the last scene
+  return storyboard_text(story);
+}
+
+/// Returns what makes the film that a command requests.
+FilmOrder film_order(const CommandReader& command, const Surroundings& around, const ExportTarget& target) {
+  const std::vector<FilmOf> films = possible_films(around);
+  const FilmOf film =
+      command.has("of") ? static_cast<FilmOf>(command.choice("of", {kFilms.begin(), kFilms.end()})) : films.front();
+  if (std::ranges::find(films, film) == films.end())
+    throw RequestError(film == FilmOf::strip ? "export: a film of the strip needs two scenes or more; keep them first"
+                                             : "export: there is one frame; choose a turntable");
+  if (around.state.molecule.file == "-")
+    throw RequestError("export: a molecule from standard input cannot be read again; give FILE to make a film");
+  if (film != FilmOf::strip) {
+    Scene scene = film_scene(film, command, around);
+    scene.output = target.path.string();
+    return {render_words(scene), {}};
+  }
+  FilmOrder order{{"meniscus", "film", "--trust-scene", "-o", target.path.string()},
+                  strip_text(command, around, target.path.parent_path().string())};
+  const Property& device = property_of("surface.device");
+  for (const std::string& text : value_texts(around.state, device))
+    order.words.insert(order.words.end(), {std::string(device.long_option()), text});
+  return order;
 }
 
 /// The same as the text that pictures carry; empty where there is none.
@@ -156,7 +252,10 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   if (format == Format::png) check_image_path(target.path);
   if (format == Format::camera) export_camera(state.camera, target);
   if (format == Format::camera_path) export_camera_path(camera_keys(molecule, state), target);
-  if (format >= Format::camera) return {{"path", target.path.string()}};
+  if (format >= Format::camera) {
+    Exporter::add_once(exporter.written, target.path);
+    return {{"path", target.path.string()}};
+  }
   exporter.forget_job();
   const auto begin = [&](ExportJob::Work work, std::optional<std::uint64_t> edition) {
     exporter.job_edition = edition;
@@ -165,9 +264,9 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   };
   if (format == Format::film) {
     if (!exporter.context.make_film) throw RequestError("export: this preview makes no films");
-    const auto make = [scene = film_scene(command, around), target,
+    const auto make = [order = film_order(command, around, target), target,
                        make = exporter.context.make_film](const ExportWatch& watch) {
-      make(scene, target, watch);
+      make(order, target, watch);
       return Json{{"path", target.path.string()}};
     };
     return begin(make, {});
@@ -182,14 +281,34 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
       ExportedView{molecule.structure(), molecule.atoms(), molecule.balls(), std::move(coloring), molecule.key(state),
                    state, molecule.extras(), std::move(annotations), options.size, options.samples, options.transparent,
                    format == Format::png ? scene_of(command, around) : ""});
-  const auto write = [view, target, format, make_device](const ExportWatch& watch) {
-    return written(*view, format, make_device, target, watch);
+  const auto write = [view, target, format, archives = command.flag_or(false, "archive"),
+                      make_device](const ExportWatch& watch) {
+    return written(*view, format, archives, make_device, target, watch);
   };
   return begin(write, view->scene.empty() ? std::nullopt : std::optional(state.edition));
 }
 
+Json get_films(const CommandReader& command, const Surroundings& around) {
+  const glm::ivec2 size = film_size(picture_options(command, around.state));
+  Json films = Json::array();
+  for (const FilmOf film : possible_films(around)) {
+    const std::uint64_t pictures = pictures_of(film, command, around);
+    const double rate = film == FilmOf::frames ? around.state.frames_per_second : kFilmRate;
+    films.push_back({{"of", kFilms.at(static_cast<std::size_t>(film))},
+                     {"pictures", pictures},
+                     {"seconds", static_cast<double>(pictures) / rate}});
+  }
+  return {{"films", films}, {"width", size.x}, {"height", size.y}};
+}
+
 Json export_state(const CommandReader&, const Surroundings& around) {
-  return around.exporter.job ? around.exporter.job->state() : Json{{"running", false}};
+  const Exporter& exporter = around.exporter;
+  Json reply = exporter.job ? exporter.job->state() : Json{{"running", false}};
+  reply["written"] = Json::array();
+  for (const std::filesystem::path& path : exporter.written_paths())
+    reply["written"].push_back(
+        {{"name", path.filename().string()}, {"path", path.string()}, {"folder", std::filesystem::is_directory(path)}});
+  return reply;
 }
 
 Json cancel_export(const CommandReader&, const Surroundings& around) {
@@ -215,12 +334,17 @@ Json save_scene(const CommandReader& command, const Surroundings& around) {
   if (!name.ends_with(".json"))
     throw RequestError(fmt::format("save: \"path\" is {}; a scene's name must end in .json", in_quotes(name)));
   const ExportTarget target = target_of(command, exporter.folder);
+  const std::string folder = target.path.parent_path().string();
+  const bool is_strip = command.flag_or(false, "strip");
+  if (is_strip && around.state.strip.empty()) throw RequestError("save: no scene is kept");
   const Scene scene = shown_scene(command, around);
   if (const std::string fault = scene_fault(scene); !fault.empty()) throw RequestError("save: " + fault);
   OutputFile file(target.path, target.existing);
-  file.write(scene_text(scene, target.path.parent_path().string(), around.molecule.structure().added));
+  file.write(is_strip ? strip_text(command, around, folder)
+                      : scene_text(scene, folder, around.molecule.structure().added));
   file.commit();
-  around.exporter.saved = around.state.edition;
+  Exporter::add_once(around.exporter.written, target.path);
+  if (!is_strip) around.exporter.saved = around.state.edition;
   return {{"path", target.path.string()}};
 }
 
@@ -229,16 +353,33 @@ Outcome open_scene(const CommandReader& command, PreviewState state, const Surro
   const Exporter& exporter = around.exporter;
   if (!exporter.context.open_scene) throw RequestError("open: this preview reads no scenes");
   const std::string name = command.text("path");
-  OpenedScene opened = exporter.context.open_scene(export_path(exporter.folder, name));
-  const ColorScheme& first = around.first.molecule.color;
-  ColorScheme& color = opened.figure.molecule.color;
-  if (color.by == ColorScheme::By::rmsf && color.by == first.by) color.file = first.file;
-  require_previewed(color);
-  static_cast<PreviewFigure&>(state) = std::move(opened.figure);
-  require_copies_apart(molecule.structure(), state, around.state.probe_reach());
-  if (molecule.has_models()) state.frame = static_cast<std::size_t>(opened.frame);
-  if (state.frame >= molecule.frame_count())
-    throw RequestError(fmt::format("open: {} is of a model that is not there", name));
+  const std::filesystem::path path = export_path(exporter.folder, name);
+  const std::optional<StoryboardFile> story = read_storyboard(path.string());
+  const auto opened_scene = [&](std::size_t n) {
+    return exporter.context.open_scene(story ? fmt::format("{}#{}", path.string(), n + 1) : path.string());
+  };
+  const auto take = [&](OpenedScene opened) {
+    const ColorScheme& first = around.first.molecule.color;
+    ColorScheme& color = opened.figure.molecule.color;
+    if (color.by == ColorScheme::By::rmsf && color.by == first.by) color.file = first.file;
+    require_previewed(color);
+    static_cast<PreviewFigure&>(state) = std::move(opened.figure);
+    require_copies_apart(molecule.structure(), state, around.state.probe_reach());
+    if (molecule.has_models()) state.frame = static_cast<std::size_t>(opened.frame);
+    if (state.frame >= molecule.frame_count())
+      throw RequestError(fmt::format("open: {} is of a model that is not there", name));
+  };
+  if (story) state.strip.clear();
+  for (std::size_t n = story ? story->scenes.size() : 1; n-- > 0;) {
+    take(opened_scene(n));
+    if (!story) continue;
+    KeptScene kept{state, state.frame};
+    kept.number = ++state.last_kept;
+    if (!story->hold.empty()) kept.hold = story->hold[std::min(n, story->hold.size() - 1)];
+    if (!story->transition.empty()) kept.transition = story->transition[std::min(n, story->transition.size() - 1)];
+    state.strip.insert(state.strip.begin(), std::move(kept));
+  }
+  state.strip_place = 0.0;
   const Renewal renewal = state.frame == around.state.frame ? Renewal::shapes : Renewal::frame;
   Outcome next{std::move(state), renewal, {{"path", (exporter.folder / name).string()}}, true};
   next.is_saved = true;

@@ -69,8 +69,9 @@ void FigureTables::color(const Structure& structure, const PreviewState& state, 
   // Parts of a model count from 0, as those of all frames do.
   const std::uint32_t first_part = coloring.part.empty() ? 0 : *std::ranges::min_element(coloring.part);
   for (std::uint32_t& part : coloring.part) part -= first_part;
-  if (const std::optional<Selection>& patches = state.molecule.patches)
-    coloring.in_patch = atoms_of_patches(object_.surface, patches->evaluate(structure), state.molecule.least_patch);
+  const MoleculeRequest& request = state.molecule;
+  if (request.patches)
+    coloring.in_patch = atoms_of_patches(object_.surface, request.patches->evaluate(structure), request.least_patch);
 }
 
 std::shared_ptr<const page::PackedFrame> FigureTables::packed(const PreviewState& state, const ShownMolecule& molecule,

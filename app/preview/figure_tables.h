@@ -10,7 +10,6 @@
 #include "app/preview/shown_molecule.h"
 #include "core/math/ball.h"
 #include "core/queries/surface_object.h"
-#include "core/scene/scene.h"
 
 namespace meniscus {
 
@@ -22,8 +21,8 @@ struct PackedFrame;
 /// depends on the atoms and the probe alone. Used by one thread.
 class FigureTables {
  public:
-  /// Returns the frame, packed plainly, with the colours of the figure and no others. stop: called before each stage
-  /// of a surface and after the last one; if it returns true, the figure is given up and the result is nullptr. Throws
+  /// Returns the frame, packed plainly, with the colours of the figure and no others. stop: called before each stage of
+  /// a surface and after the last one; if it returns true, the figure is given up and the result is nullptr. Throws
   /// RequestError with a plain sentence if pages cannot show the figure, and OpenSurfaceError and CapacityError.
   std::shared_ptr<const page::PackedFrame> packed(const PreviewState& state, const ShownMolecule& molecule,
                                                   const std::function<bool()>& stop);

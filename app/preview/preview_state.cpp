@@ -2,6 +2,8 @@
 // Remembers figures for undo and redo, and turns what is shown into a scene and back.
 #include "app/preview/preview_state.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -95,6 +97,14 @@ Scene rendered_scene(const PreviewFigure& figure, const RenderedView& view) {
     color.range = view.range;
   }
   return scene;
+}
+
+std::uint64_t KeptScene::held(double rate) const {
+  return std::max<std::uint64_t>(static_cast<std::uint64_t>(std::llround(hold * rate)), 1);
+}
+
+std::uint64_t KeptScene::between(double rate) const {
+  return static_cast<std::uint64_t>(std::llround(transition * rate));
 }
 
 PreviewFigure::PreviewFigure(Scene scene) : Scene(std::move(scene)), preset(look.preset) {

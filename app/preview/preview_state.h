@@ -55,6 +55,19 @@ struct PreviewFigure : Scene {
   double probe_reach() const { return growth() + rolling_radius(); }
 };
 
+/// A scene that is kept for a film.
+struct KeptScene {
+  PreviewFigure figure;
+  std::size_t frame = 0;                ///< from 0
+  double hold = 2.0, transition = 2.0;  ///< seconds that it is shown, and from it to the next scene
+  std::uint64_t number = 0;             ///< a number of its own, by which a page knows it again
+
+  /// Return the numbers of its pictures and of those on the way to the next scene, as `meniscus film` counts them.
+  /// rate: pictures per second.
+  std::uint64_t held(double rate) const;
+  std::uint64_t between(double rate) const;
+};
+
 /// Throws RequestError for a scheme whose numbers or parts come with surfaces that a preview does not make; so
 /// for those of its rules.
 void require_previewed(const ColorScheme& color);
@@ -71,12 +84,17 @@ struct PreviewState : PreviewFigure {
   glm::ivec2 size{1024, 768};                 ///< of the full picture with its legend, in pixels
   bool copies_apart = false;                  ///< no probe may touch two copies of the structure (Structure::instances)
   std::map<std::string, Camera> named_views;  ///< kept by the user
-  std::vector<PreviewFigure> strip;           ///< scenes kept for a film, in its order
+  std::vector<KeptScene> strip;               ///< scenes kept for a film, in its order
+  std::uint64_t last_kept = 0;                ///< the number of the scene that was kept last
   double strip_place = 0.0;                   ///< of the strip, which was shown last
+  std::uint64_t strip_shown = 0;              ///< how many pictures of a film that plays show the scene there
+  double strip_rate = 25.0;                   ///< pictures per second of the strip while it plays
   bool plays_strip = false;                   ///< playing goes along the strip, not through the frames
   std::uint64_t revision = 1;                 ///< grows with every change of what is seen
   bool ended = false;                         ///< a command asked to end
 
+  /// Returns the pictures per second of what plays.
+  double rate() const { return plays_strip ? strip_rate : frames_per_second; }
   /// Returns the look of the full picture, its legend included.
   Look full_look() const { return look_of(look, size, shown_background(), hues(), molecule.patches.has_value()); }
 };

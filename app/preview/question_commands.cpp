@@ -164,6 +164,9 @@ Json get_state(const CommandReader&, const Surroundings& around) {
       {"redo", around.history.redo_steps()},
       {"unsaved", !around.exporter.keeps(state)},
       {"drawn_by", around.pictures.draws_on_cpu() ? "cpu" : "gl"}};
+  for (const KeptScene& kept : state.strip)
+    reply["strip"]["kept"].push_back(
+        {{"number", kept.number}, {"frame", kept.frame}, {"hold", kept.hold}, {"transition", kept.transition}});
   reply["values"] = property_values(state);
   add_figure(state, reply);
   if (!molecule.legend_fault().empty()) reply["legend"]["fault"] = molecule.legend_fault();

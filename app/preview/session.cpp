@@ -36,7 +36,7 @@ PreviewSession::PreviewSession(std::unique_ptr<PreviewRenderer> renderer, Struct
     : state_(std::move(state)),
       molecule_(std::move(structure), std::move(trajectory), context.read_shown, state_),
       pictures_(std::move(renderer)),
-      exporter_{std::move(export_folder), std::move(context)} {
+      exporter_{std::filesystem::absolute(export_folder).lexically_normal(), std::move(context)} {
   require_previewed(state_.molecule.color);
   state_.overview = !camera;
   state_.camera = camera ? *camera : molecule_.overview(state_);
@@ -104,6 +104,7 @@ Json PreviewSession::become(const Command& command, const std::function<Outcome(
       next = reduce(std::move(next.state));
     }
   }
+  if (state_.plays_strip && command.pauses_film()) next.state.playing = next.state.plays_strip = false;
   if (next.frames_all && next.state.overview) next.state.camera = molecule_.overview(next.state);
   pictures_.take(next.state, molecule_, next.renewal, moves);
   if (command.makes_picture()) next.reply["revision"] = ++next.state.revision;
@@ -204,7 +205,7 @@ Quality LiveView::at_once() const {
   if (!drawn() && session_.wants_balls()) return Quality::balls;
   if (!session_.state().playing || !draft_cost_) return Quality::draft;
   constexpr int kMostLikely = 3;  // drafts of a quarter of the pixels that a plain picture takes
-  const std::chrono::duration<double> frame(0.8 / session_.state().frames_per_second);
+  const std::chrono::duration<double> frame(0.8 / session_.state().rate());
   return plain_cost_.value_or(kMostLikely * *draft_cost_) < frame ? Quality::plain : Quality::draft;
 }
 

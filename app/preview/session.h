@@ -67,6 +67,8 @@ class PreviewSession {
   /// A command asked to end.
   bool wants_to_quit() const { return state_.ended; }
   const PreviewState& state() const { return state_; }
+  /// Returns the files and folders that exports and saved scenes have written.
+  std::vector<std::filesystem::path> written_paths() const { return exporter_.written_paths(); }
   /// At the frame of the state.
   const Structure& structure() const { return molecule_.structure(); }
   /// Of the figure's cuts: a sentence for each that cuts nothing or leaves nothing.

@@ -14,7 +14,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_key.h"
-#include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
 #include "core/image/color_space.h"

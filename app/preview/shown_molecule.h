@@ -80,6 +80,8 @@ class ShownMolecule {
   bool has_trajectory() const { return trajectory_.has_value(); }
   std::size_t frame_count() const { return trajectory_ ? trajectory_->numbers.size() : models_.size(); }
   bool has_models() const { return models_.size() > 1; }
+  /// Returns the number of the model that a frame shows, as the file has it. There must be no trajectory.
+  std::int32_t model_of(std::size_t frame) const { return structure_.atoms[models_[frame].atoms.front()].model; }
   /// Of a frame, as its trajectory counts.
   std::uint64_t number_of(std::size_t frame) const { return trajectory_ ? trajectory_->numbers[frame] : frame; }
 

@@ -15,7 +15,7 @@ namespace meniscus {
 namespace {
 
 constexpr std::size_t kMostScenes = 50;
-constexpr double kSecondsBetween = 2.0;  // as --transition has it
+constexpr double kLongest = 3600.0;  // seconds of a scene, as `meniscus film` has it
 
 /// Numbers change steadily; all else is that of the nearer scene.
 PreviewFigure figure_between(const PreviewFigure& from, const PreviewFigure& to, double share,
@@ -53,18 +53,21 @@ PreviewFigure figure_between(const PreviewFigure& from, const PreviewFigure& to,
 
 /// place: from 0 to the last scene.
 Outcome at_place(PreviewState state, double place, const Surroundings& around) {
-  const std::vector<PreviewFigure>& strip = around.state.strip;
+  const std::vector<KeptScene>& strip = around.state.strip;
   const auto scene = static_cast<std::size_t>(place);
   const double share = eased(place - std::floor(place), Pace::smooth);
   static_cast<PreviewFigure&>(state) =
-      share > 0.0 ? figure_between(strip[scene], strip[scene + 1], share, around) : strip[scene];
+      share > 0.0 ? figure_between(strip[scene].figure, strip[scene + 1].figure, share, around) : strip[scene].figure;
+  state.frame = strip[share < 0.5 ? scene : scene + 1].frame;
   state.strip_place = place;
+  state.strip_shown = 1;
   require_copies_apart(around.molecule.structure(), state, around.state.probe_reach());
-  return {std::move(state), Renewal::shapes};
+  const Renewal renewal = state.frame == around.state.frame ? Renewal::shapes : Renewal::frame;
+  return {std::move(state), renewal};
 }
 
 /// The scene that "index" names.
-std::vector<PreviewFigure>::iterator scene_in(const CommandReader& command, PreviewState& state) {
+std::vector<KeptScene>::iterator scene_in(const CommandReader& command, PreviewState& state) {
   if (state.strip.empty()) throw RequestError(fmt::format("{}: no scene is kept", command.word()));
   return state.strip.begin() + command.integer("index", 0, static_cast<int>(state.strip.size()) - 1);
 }
@@ -79,20 +82,38 @@ Outcome with_strip(PreviewState& state) {
 }  // namespace
 
 Outcome keep_scene(const CommandReader& command, PreviewState state, const Surroundings&) {
-  const PreviewFigure& figure = state;
+  KeptScene kept{state, state.frame};
+  kept.number = ++state.last_kept;
+  const auto with_times_of = [&](const KeptScene& other) {
+    kept.hold = other.hold;
+    kept.transition = other.transition;
+  };
   if (command.has("index")) {
-    *scene_in(command, state) = figure;
-    return with_strip(state);
+    const auto replaced = scene_in(command, state);
+    with_times_of(*replaced);
+    *replaced = std::move(kept);
+  } else {
+    if (state.strip.size() == kMostScenes)
+      throw RequestError(fmt::format("keep_scene: at most {} scenes are kept; forget one", kMostScenes));
+    if (!state.strip.empty()) with_times_of(state.strip.back());
+    state.strip.push_back(std::move(kept));
+    state.strip_place = static_cast<double>(state.strip.size() - 1);
   }
-  if (state.strip.size() == kMostScenes)
-    throw RequestError(fmt::format("keep_scene: at most {} scenes are kept; forget one", kMostScenes));
-  state.strip.push_back(figure);
-  state.strip_place = static_cast<double>(state.strip.size() - 1);
-  return with_strip(state);
+  const std::uint64_t number = state.last_kept;
+  Outcome next = with_strip(state);
+  next.reply["number"] = number;
+  return next;
 }
 
 Outcome forget_scene(const CommandReader& command, PreviewState state, const Surroundings&) {
   state.strip.erase(scene_in(command, state));
+  return with_strip(state);
+}
+
+Outcome time_scene(const CommandReader& command, PreviewState state, const Surroundings&) {
+  const auto scene = scene_in(command, state);
+  scene->hold = command.number_or(scene->hold, "hold", 0.0, kLongest);
+  scene->transition = command.number_or(scene->transition, "transition", 0.0, kLongest);
   return with_strip(state);
 }
 
@@ -103,12 +124,26 @@ Outcome show_strip(const CommandReader& command, PreviewState state, const Surro
 }
 
 Outcome next_of_strip(PreviewState state, const Surroundings& around) {
-  const double last = static_cast<double>(state.strip.size()) - 1.0;
-  constexpr double kRounding = 1e-6;  // of sums, which would miss the scenes themselves
-  double place = std::min(state.strip_place + 1.0 / (kSecondsBetween * state.frames_per_second), last);
-  if (std::abs(place - std::round(place)) < kRounding) place = std::round(place);
-  Outcome next = at_place(std::move(state), place, around);
-  if (place == last) next.state.playing = next.state.plays_strip = false;
+  const auto scene = static_cast<std::size_t>(state.strip_place);
+  const KeptScene& kept = state.strip[scene];
+  const double rate = state.strip_rate, way = state.strip_place - std::floor(state.strip_place);
+  const bool is_last = scene + 1 == state.strip.size();
+  Outcome next;
+  if (way == 0.0 && state.strip_shown < kept.held(rate)) {
+    next.state = std::move(state);
+    ++next.state.strip_shown;
+  } else if (is_last) {
+    next.state = std::move(state);
+  } else {
+    const double steps = static_cast<double>(kept.between(rate)) + 1.0;
+    constexpr double kRounding = 1e-6;  // of a share that is a whole number of steps
+    const double share = (std::floor(way * steps + kRounding) + 1.0) / steps;
+    next = at_place(std::move(state), static_cast<double>(scene) + std::min(share, 1.0), around);
+  }
+  PreviewState& shown = next.state;
+  const double place = shown.strip_place;
+  if (place + 1.0 == static_cast<double>(shown.strip.size()) && shown.strip_shown >= shown.strip.back().held(rate))
+    shown.playing = shown.plays_strip = false;
   next.reply["place"] = place;
   return next;
 }

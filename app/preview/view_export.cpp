@@ -15,6 +15,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/camera/camera_json.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/queries/copies.h"
@@ -30,6 +31,7 @@
 #include "core/surface/compute_surface.h"
 #include "exporters/blender/mns_file.h"
 #include "exporters/blender/surface_file.h"
+#include "exporters/mesh_files/zip_archive.h"
 #include "exporters/povray/povray_scene.h"
 
 namespace meniscus {
@@ -204,7 +206,9 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
   picture.commit();
 }
 
-std::string export_povray(const ExportedView& view, const ExportTarget& target, const ExportWatch& watch) {
+std::string export_povray(const ExportedView& view, const ExportTarget& target, const std::filesystem::path& archive,
+                          const ExportWatch& watch) {
+  if (!archive.empty()) check_output(archive, target.existing);
   const FigureRequest& figure = view.figure.figure;
   if (figure.hides_surface || !figure.objects.empty())
     throw RequestError(
@@ -231,7 +235,15 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target, 
   options.cut.planes =
       surface_planes(figure, view.extras ? view.extras->cut_atoms : CutAtoms(), view.figure.camera, surfaces);
   watch("writing", 0.0);
-  return write_scene(surfaces, view.figure.camera, options, target.path).command;
+  const povray::SceneReport scene = write_scene(surfaces, view.figure.camera, options, target.path);
+  if (archive.empty()) return scene.command;
+  ZipArchive zip;
+  for (const std::filesystem::path& file : scene.files)
+    zip.add_deflated((target.path.filename() / file.filename()).generic_string(), read_file_bytes(file.string()));
+  OutputFile output(archive, target.existing);
+  output.write(zip.finish());
+  output.commit();
+  return scene.command;
 }
 
 void export_blender(const ExportedView& view, const ExportTarget& target, const ExportWatch& watch) {

@@ -94,7 +94,9 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
                     const ExportWatch& watch);
 
 /// As `meniscus export povray`, whole but for objects, which are refused; returns the command that renders it.
-std::string export_povray(const ExportedView& view, const ExportTarget& target, const ExportWatch& watch);
+/// archive: a zip file that gets a copy of the scene; empty: none.
+std::string export_povray(const ExportedView& view, const ExportTarget& target, const std::filesystem::path& archive,
+                          const ExportWatch& watch);
 
 /// As `meniscus export blender`.
 void export_blender(const ExportedView& view, const ExportTarget& target, const ExportWatch& watch);
@@ -115,13 +117,19 @@ struct OpenedScene {
   int frame = 0;  ///< of a file of several models, from 0
 };
 
+/// A film that a command of this program makes.
+struct FilmOrder {
+  std::vector<std::string> words;  ///< "meniscus", the command, and its options
+  std::string storyboard;          ///< the text of the storyboard file that the command reads; empty: none
+};
+
 /// Optional callbacks that the program gives to a session.
 struct SessionContext {
   ReadShown read_shown;
   bool writes_scenes = false;     ///< the molecule has a file that scenes can name
   MakePictureDevice make_device;  ///< of exported pictures
-  /// Makes the film of a scene, as `meniscus render` does; empty: there are none. Throws RequestError, OutputError.
-  std::function<void(const Scene& scene, const ExportTarget& target, const ExportWatch& watch)> make_film;
+  /// Makes a film; empty: there are none. Throws RequestError, OutputError.
+  std::function<void(const FilmOrder& order, const ExportTarget& target, const ExportWatch& watch)> make_film;
   /// The camera by which render would draw a scene whose colours have the numbers of their file. The structure has the
   /// atoms that the scene draws.
   std::function<Camera(const Scene& scene, const Structure& structure)> aim;
@@ -139,7 +147,21 @@ struct Exporter {
   bool all_recorded = false;                   ///< a log has every command
   /// The molecule with all atoms of its file, once something has needed them; nullptr before.
   std::shared_ptr<const Structure> everything{};
+  std::vector<std::filesystem::path> written{};  ///< files and folders that were written, but for the job's
 
+  /// Returns all that the session has written, in its order.
+  std::vector<std::filesystem::path> written_paths() const {
+    std::vector<std::filesystem::path> paths = written;
+    if (!job || !job->done()) return paths;
+    const nlohmann::json reply = job->result();
+    for (const char* key : {"path", "archive"})
+      if (reply.contains(key)) add_once(paths, reply[key].get<std::string>());
+    return paths;
+  }
+  static void add_once(std::vector<std::filesystem::path>& paths, const std::filesystem::path& path) {
+    std::erase(paths, path);
+    paths.push_back(path);
+  }
   /// Whether the end of the preview loses nothing of the figure but its camera.
   bool keeps(const PreviewFigure& figure) const {
     return all_recorded || figure.edition == saved || (job_edition == figure.edition && job->done());
@@ -147,6 +169,7 @@ struct Exporter {
   /// The latest job, which has ended, makes room for another.
   void forget_job() {
     if (job_edition && job->done()) saved = *job_edition;
+    written = written_paths();
     job_edition.reset();
     job.reset();
   }

@@ -54,10 +54,15 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kOutput),
 
     text("preview.serve", "--serve", "[PORT]",
-         "Serve the page on this port of 127.0.0.1, and open no browser. PORT: by default any free one")
+         "Serve the page on this port of 127.0.0.1, and open no browser. PORT: by default any free one; ADDRESS:PORT "
+         "listens at another address of this machine, as the port of a container needs")
         .in(kSession, value_optional | in_short_help),
     flag("preview.no_open", "--no-open", "Print the address of the page, and open no browser")
         .in(kSession, in_short_help),
+    text("preview.trusted_hosts", "--trust-host", "HOST",
+         "Serve the page through the proxy at this host, too. HOST: such as localhost:8888 for JupyterLab; the page "
+         "is refused under all other names")
+        .in(kSession, repeatable),
     file("preview.token_file", "--token-file", "FILE",
          "Take the token of the page's address from this file. The address then stays; the token has 16 to 128 letters "
          "and digits. Without this option the variable MENISCUS_TOKEN is read")
@@ -88,7 +93,9 @@ constexpr auto kTable = std::to_array<Property>({
     flag("panels.one_scale", "--one-scale", "Colour all panels by one range, from the least number to the greatest")
         .in(kPanels, in_short_help),
 
-    file("storyboard.scenes", "SCENE", "", "Scene files, or pictures of meniscus render, in their order")
+    file(
+        "storyboard.scenes", "SCENE", "",
+        "Scene files, or pictures of meniscus render, in their order. Or a storyboard file that meniscus preview saved")
         .in(kStoryboard),
     text("storyboard.hold", "--hold", "SECONDS",
          "Time that each scene is shown. One number, or one for each scene, with commas between. A scene with a run of "

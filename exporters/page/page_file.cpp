@@ -332,7 +332,7 @@ void PageWriter::add(PackedFrame frame) {
 
 std::size_t PageWriter::bytes() const {
   constexpr double kLettersPerByte = 16.0 / 13.0 * 1.0005;  // text_of_bytes(), and ends of lines
-  constexpr std::size_t kOthers = 85'000;                   // scripts, style, shaders
+  constexpr std::size_t kOthers = 98'000;                   // scripts, style, shaders
   std::size_t texts = kOthers;
   for (const Filling& filling : first_.texts) texts += filling.text.size();
   return texts + static_cast<std::size_t>(kLettersPerByte * static_cast<double>(data_.size() + described_));

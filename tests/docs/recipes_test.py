@@ -59,6 +59,7 @@ NOT_RUN = [
     (r"\b(1ihm\.pdb|capsid\.cif)\b", "a capsid of 677,040 atoms"),
     (r"\b1ubq\.(pqr|in)\b", "tests/export/color/electrostatics_test.py"),
     (r"\b(adk\.xtc|film\.json|pymol\.txt|membrane\.gro)\b", "a file that only the reader has"),
+    (r"\bstory\.json\b", "a storyboard that a preview saved: tests/preview/film_test.py"),
     (r"\b(tetgen|pymol) ", "other programs: tests/export"),
     (r"^ln -s|^export ", "changes settings of the reader"),
 ]

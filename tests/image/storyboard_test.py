@@ -111,6 +111,32 @@ class Storyboards(unittest.TestCase):
         self.assertEqual(int((film[0][strip] < 200).sum()), 0)
         self.assertGreater(int((last[strip] < 200).sum()), 20)
 
+    def test_a_storyboard_file_has_scenes_and_times(self):
+        self.scene("one", "--color", "red")
+        self.scene("two", "--color", "blue")
+        scenes = [json.loads((self.folder / f"{name}.json").read_text()) for name in ("one", "two")]
+        story = {"meniscus_storyboard": 1, "hold": [0.08, 0.12], "transition": [0.04], "scenes": scenes}
+        (self.folder / "story.json").write_text(json.dumps(story))
+        whole = self.film("story.json")
+        self.assertEqual(len(whole), 2 + 1 + 3)
+        apart = self.film("one.json", "two.json", "--hold", "0.08,0.12", "--transition", "0.04", "--force")
+        self.assertTrue(all((a == b).all() for a, b in zip(whole, apart)))
+        self.run_program("render", "--scene", "story.json#2", "-o", "second.png", "--device", "cpu")
+        self.assertTrue((pixels_of(self.folder / "second.png") == whole[-1]).all())
+        for name in self.folder.glob("f_*.png"):
+            name.unlink()
+        self.assertEqual(len(self.film("story.json", "--hold", "0.04", "--transition", "0")), 2)
+        self.assertIn("has 2 scenes", self.run_program("render", "--scene", "story.json#3", "-o", "third.png", code=3))
+        (self.folder / "story.json").write_text(json.dumps({**story, "scenes": 3}))
+        self.assertIn("storyboard", self.run_program("film", "story.json", "-o", "g_##.png", code=3))
+
+    def test_a_run_of_one_frame_is_held(self):
+        self.scene("one", "--color", "red")
+        self.scene("run", "--frames", "1", "--color", "red", molecule="run.pdb")
+        film = self.film("one.json", "run.json", "--hold", "0.12", "--transition", "0")
+        self.assertEqual(len(film), 6)
+        self.assertTrue((film[3] == film[5]).all())
+
     def test_titles_are_not_read_over_each_other(self):
         for name, title in (("one", "HHHH"), ("two", "oooo"), ("three", "oooo")):
             self.scene(name, "--title", title, "--color", "white", "--preset", "flat", "--outer-lines", "0", "--inner-lines", "0")

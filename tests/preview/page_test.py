@@ -298,6 +298,15 @@ class Page(PageCase):
             await page.until("JSON.parse(document.getElementById('picture').dataset.state).probe_radius === 2")
             await page.click("#keep-scene")
             await page.until(f"{scenes} === 2 && !document.getElementById('play-strip').disabled")
+            await page.until("document.querySelectorAll('#scenes canvas').length === 2")
+            self.assertGreater(await page.evaluate("""(() => {  // colours of a small picture
+                const canvas = document.querySelector('#scenes canvas'), {width, height} = canvas;
+                return new Set(new Uint32Array(canvas.getContext('2d').getImageData(0, 0, width, height).data.buffer)).size; })()"""), 50)
+            self.assertEqual(await page.evaluate("document.getElementById('film-of').value"), "strip")
+            for item, what, seconds in ((1, "hold", 0.2), (1, "transition", 0.8), (2, "hold", 0.2)):
+                await page.evaluate(f"""const field = document.querySelector('#scenes li:nth-child({item}) [name={what}]');
+                    field.value = {seconds}; field.dispatchEvent(new Event('change')); 0""".replace("const field", "var field"))
+            await page.until("document.getElementById('film-of').selectedOptions[0].text.includes('Strip: 1.2 s, 30 pictures, ')")
             await page.click("#scenes li:first-child .recall")
             await page.until("JSON.parse(document.getElementById('picture').dataset.state).probe_radius === 1")
             await page.evaluate("""window.radii = new Set();
@@ -310,6 +319,24 @@ class Page(PageCase):
             self.assertEqual(radii[-1], 2)
             self.assertGreater(len([radius for radius in radii if 1 < radius < 2]), 3, radii)
             await self.shoot(page, "film.png")
+            # An edit while it plays pauses it, and stays.
+            await page.click("#play-strip")
+            await page.until("document.getElementById('play-strip').textContent === 'Pause film'")
+            key = await page.evaluate("""var slider = document.querySelector('#strengths input[type=range]'); slider.value = slider.max;
+                slider.dispatchEvent(new Event('input')); slider.id""")
+            await page.until("document.getElementById('play-strip').textContent === 'Play film'")
+            self.assertEqual((await self.state(page))["look"][key], await page.evaluate("slider.valueAsNumber"))
+            # The film is written, and comes by a click on its link.
+            await page.evaluate("""document.getElementById('width').value = 64; document.getElementById('height').value = 48;
+                document.getElementById('export-samples').value = 1; 0""")
+            await page.click("#writers [value=film]")
+            await page.until("document.getElementById('message').textContent.includes('Written')", 120)
+            await page.click("#save-story")
+            await page.until("document.querySelectorAll('#written a').length === 2")
+            await page.click("#written a[download=\"figure.mp4\"]")
+            with open(self.path("figure.mp4"), "rb") as written, open(await self.downloaded(page, "figure.mp4"), "rb") as got:
+                self.assertEqual(got.read(), written.read())
+            await self.shoot(page, "written.png")
             await page.click("#scenes li:first-child .remove")
             await page.until(f"{scenes} === 1 && document.getElementById('play-strip').disabled")
             self.assertEqual(page.complaints, [])

@@ -6,6 +6,7 @@ Arguments as of page_case.py. With MENISCUS_SCREENSHOTS=FOLDER pictures are left
 import asyncio
 import json
 import math
+import sys
 import unittest
 
 from browser import Browser
@@ -111,7 +112,7 @@ class Selecting(PageCase):
                     await page.at_rest()
                     # The middle of the pixels of its colour.
                     off, count = await page.evaluate("""(() => {
-                        const canvas = document.getElementById('picture'), {width, height} = canvas;
+                        const canvas = document.getElementById('pictures'), {width, height} = canvas;
                         const {data} = canvas.getContext('2d').getImageData(0, 0, width, height);
                         const ring = document.querySelector('#rings circle');
                         const [cx, cy] = ['cx', 'cy'].map((name) => Number(ring.getAttribute(name)));
@@ -201,4 +202,4 @@ class Selecting(PageCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=["select_test"])
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])

@@ -78,6 +78,8 @@ class Server(unittest.IsolatedAsyncioTestCase):
         wrong = ("0" if token[0] != "0" else "1") + token[1:]
         for path in ("/", f"/{wrong}/", f"/{token}", f"/{token[:-1]}/", f"/{wrong}/page.js", "/favicon.ico"):
             self.assertEqual(self.get(path)[0], 403, path)
+        self.assertEqual(self.get("?token=of-a-proxy")[:2], self.get()[:2])
+        self.assertEqual(self.get(f"/?/{token}/")[0], 403)
         self.assertEqual(self.get("nothing.html")[0], 404)
         self.assertEqual(self.get("../../etc/passwd")[0], 404)
         self.assertEqual(self.get(method="POST")[0], 405)
@@ -172,6 +174,106 @@ class Server(unittest.IsolatedAsyncioTestCase):
         await self.refused(403, origin=None)
         async with self.preview.socket(origin=f"http://localhost:{self.preview.port}"):
             pass
+
+    async def test_a_proxy_is_trusted_by_its_name_and_no_other(self):
+        """What jupyter-server-proxy 4 sends: Host and Origin of the page that the user sees, behind http or https."""
+        self.preview = self.serve("--size", "64x48", "--trust-host", "hub.example.org", "--trust-host", "localhost:8888")
+        for host in ("hub.example.org", "localhost:8888", f"127.0.0.1:{self.preview.port}"):
+            self.assertEqual(self.get(Host=host)[0], 200, host)
+        for host in ("hub.example.org:80", "hub.example.org.evil.com", "evil.hub.example.org", "localhost", "localhost:8889", "*", ""):
+            self.assertEqual(self.get(Host=host)[0], 403, host)
+        self.assertEqual(self.get("/" + "0" * 32 + "/", Host="hub.example.org")[0], 403, "without the token")
+        policy = self.get(Host="hub.example.org")[2]["Content-Security-Policy"]
+        self.assertIn("wss://hub.example.org", policy)
+        self.assertNotIn("*", policy)
+        for origin in ("http://hub.example.org", "https://hub.example.org", "https://localhost:8888"):
+            address = f"ws://hub.example.org/{self.preview.url.split('/')[3]}/socket"
+            async with websockets.connect(address, host="127.0.0.1", port=self.preview.port, origin=origin) as client:
+                self.assertTrue((await ask(client, {"command": "state"}))["ok"], origin)
+        for origin in ("https://hub.example.org:444", "https://hub.example.org.evil.com", "ws://hub.example.org", "null",
+                       "https://hub.example.org/", "https://HUB.example.org@evil.com", f"https://127.0.0.1:{self.preview.port}"):
+            await self.refused(403, origin=origin)
+        for wrong in ("*", "*.example.org", "https://hub.example.org", "hub.example.org/lab", "", "Hub.example.org", "a b"):
+            result = subprocess.run([PROGRAM, "preview", self.file, "--serve", "--trust-host", wrong], capture_output=True,
+                                    text=True, timeout=60)
+            self.assertEqual((result.returncode, result.stdout), (2, ""), wrong)
+            self.assertIn("a host is a name", result.stderr)
+
+    def test_names_of_others_stay_refused_at_every_address(self):
+        """In a container it listens everywhere; a name that someone's DNS points there (rebinding) is still none of ours."""
+        own = Preview(PROGRAM, self.file, "--output-dir", self.folder.name, port="0.0.0.0:0")
+        self.addCleanup(own.end)
+        self.preview = own
+        with open("/proc/net/tcp") as file:
+            self.assertIn(f"00000000:{own.port:04X}", file.read())
+        self.assertEqual(self.get()[0], 200)
+        for host in (f"0.0.0.0:{own.port}", f"evil.com:{own.port}", "evil.com", f"192.168.1.5:{own.port}"):
+            self.assertEqual(self.get(Host=host)[0], 403, host)
+        result = subprocess.run([PROGRAM, "preview", self.file, "--serve", "nowhere:8080"], capture_output=True, text=True,
+                                timeout=60)
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("nowhere", result.stderr)
+
+    async def test_what_was_written_can_be_downloaded_and_nothing_else(self):
+        with open(self.path("foreign.txt"), "w") as file:
+            file.write("precious")
+        async with self.preview.socket() as client:
+            self.assertTrue((await ask(client, {"command": "save", "path": "fig.json"}))["ok"])
+            self.assertTrue((await ask(client, {"command": "export", "format": "png", "path": "p.png", "width": 600, "height": 400}))["ok"])
+            self.assertTrue((await ask(client, {"command": "export", "format": "povray", "path": "scene", "archive": True}))["ok"])
+            written = (await ask(client, {"command": "export_state"}))["written"]
+            self.assertEqual([row["name"] for row in written], ["fig.json", "p.png", "scene", "scene.zip"])
+            for row in written:
+                self.assertEqual(row["path"], os.path.join(os.path.realpath(self.folder.name), row["name"]))
+            for name in ("fig.json", "p.png", "scene.zip"):
+                status, data, headers = self.get("files/" + name)
+                with open(self.path(name), "rb") as file:
+                    self.assertEqual((status, data), (200, file.read()), name)
+                self.assertEqual(headers["Content-Disposition"], f'attachment; filename="{name}"')
+                self.assertEqual(headers["Content-Type"], "application/octet-stream")
+                self.assertEqual(headers["X-Content-Type-Options"], "nosniff")
+                self.assertIn("default-src 'none'", headers["Content-Security-Policy"])
+            for name in ("foreign.txt", "five.pdb", "", "../five.pdb", "scene/surface.pov", "%66ig.json", "./fig.json", "files/fig.json",
+                         "fig.json/", "fig.json%00", self.file, "/etc/passwd", "//etc/passwd"):
+                self.assertEqual(self.get("files/" + name)[0], 404, name)
+            self.assertEqual(self.get("files/scene")[0], 410, "a folder")
+            self.assertEqual(self.get("files/fig.json", method="POST")[0], 405)
+            self.assertEqual(self.get("files/fig.json", Host="evil.com")[0], 403)
+            self.assertEqual(self.get("/" + "0" * 32 + "/files/fig.json")[0], 403)
+            os.remove(self.path("fig.json"))
+            os.symlink(self.path("foreign.txt"), self.path("fig.json"))
+            self.assertEqual(self.get("files/fig.json")[0], 410, "a link elsewhere has come in its place")
+            os.remove(self.path("p.png"))
+            self.assertEqual(self.get("files/p.png")[0], 410)
+        await self.still_serves()
+
+    async def test_a_long_file_comes_whole_to_slow_readers_and_does_not_hold_up_others(self):
+        async with self.preview.socket() as client:
+            self.assertTrue((await ask(client, {"command": "export", "format": "png", "path": "p.png", "width": 16, "height": 16}))["ok"])
+            with open(self.path("p.png"), "ab") as file:
+                file.write(os.urandom(12 << 20))
+            token = self.preview.url.split("/")[3]
+            slow = socket.create_connection(("127.0.0.1", self.preview.port))
+            slow.sendall(f"GET /{token}/files/p.png HTTP/1.1\r\nHost: 127.0.0.1:{self.preview.port}\r\n\r\n".encode())
+            await asyncio.sleep(0.3)
+            self.assertTrue((await ask(client, {"command": "state"}))["ok"], "while it is being read")
+            data, begin = b"", time.monotonic()
+            while piece := slow.recv(1 << 20):
+                data += piece
+                await asyncio.sleep(0.05)
+            slow.close()
+            with open(self.path("p.png"), "rb") as file:
+                self.assertEqual(data.split(b"\r\n\r\n", 1)[1], file.read())
+            lazy = socket.create_connection(("127.0.0.1", self.preview.port))
+            lazy.sendall(f"GET /{token}/files/p.png HTTP/1.1\r\nHost: 127.0.0.1:{self.preview.port}\r\n\r\n".encode())
+            await asyncio.sleep(12)
+            lazy.settimeout(5)
+            with self.assertRaises((ConnectionError, AssertionError)):
+                while lazy.recv(1 << 20):
+                    pass
+                raise AssertionError("it was ended, for nobody read it")
+            lazy.close()
+        await self.still_serves()
 
     async def test_a_wrong_token_opens_no_socket(self):
         with self.assertRaises(websockets.exceptions.InvalidStatusCode) as caught:

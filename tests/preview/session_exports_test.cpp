@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Exports of a session: beside the pictures, to be cancelled, and under names that say what they are.
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <map>
@@ -129,6 +130,68 @@ TEST_F(SessionExports, AnExportIsMadeBesideThePicturesAndCanBeCancelled) {
   EXPECT_NE(done.value("path", std::string()).find("small.png"), std::string::npos);
   EXPECT_FALSE(done.contains("error")) << done;
   EXPECT_EQ(folder_.entries(), (std::vector<std::string>{"small.png", "two.pdb"}));
+}
+
+// Browsers may have these files, and no others.
+TEST_F(SessionExports, ListWhatTheyHaveWritten) {
+  folder_.file("foreign.png", "precious");
+  const auto names = [&] {
+    std::vector<std::string> found;
+    for (const std::filesystem::path& path : session_->written_paths()) found.push_back(path.filename());
+    return found;
+  };
+  EXPECT_TRUE(names().empty());
+  expect_ok(R"({"command":"save","path":"a.json"})");
+  expect_ok(R"({"command":"export","format":"camera","path":"b.json"})");
+  expect_ok(R"({"command":"export","format":"png","path":"c.png","width":20,"height":20})");
+  EXPECT_FALSE(apply(R"({"command":"export","format":"png","path":"foreign.png","width":20,"height":20})")["ok"]);
+  std::filesystem::create_directory(folder_.path() / "scene");
+  folder_.file("scene/mine.txt", "precious");
+  expect_ok(R"({"command":"export","format":"povray","path":"scene","archive":true,"force":true})");
+  EXPECT_EQ(names(), (std::vector<std::string>{"a.json", "b.json", "c.png", "scene", "scene.zip"}));
+  const Json written = apply(R"({"command":"export_state"})")["written"];
+  EXPECT_EQ(written[3]["folder"], true);
+  EXPECT_EQ(written[4]["folder"], false);
+  EXPECT_EQ(written[4]["path"], (folder_.path() / "scene.zip").string());
+  const std::string archive = read_bytes(folder_.path() / "scene.zip");
+  EXPECT_TRUE(archive.starts_with("PK"));
+  EXPECT_NE(archive.find("scene/surface.pov"), std::string::npos);
+  EXPECT_EQ(archive.find("mine.txt"), std::string::npos) << "which the session did not write";
+}
+
+// A film of the strip is made by `meniscus film` of the scenes as `save` writes them.
+TEST_F(SessionExports, AFilmOfTheStripIsAStoryboard) {
+  FilmOrder ordered;
+  SessionContext context;
+  context.writes_scenes = true;
+  context.make_film = [&](const FilmOrder& order, const ExportTarget&, const ExportWatch&) { ordered = order; };
+  ReadOptions reading;
+  reading.model.all = true;
+  begin(read_structure(folder_.file("two.pdb", kTwoModels), reading), context);
+  const auto film = [&](const std::string& more) {
+    return apply(R"({"command":"export","format":"film","path":"f.mp4","width":81,"height":60)" + more + "}");
+  };
+  EXPECT_FALSE(film(R"(,"of":"strip")")["ok"]);
+  ASSERT_TRUE(film("")["ok"]);
+  EXPECT_EQ(ordered.words[1], "render") << "of frames, where there are two models";
+  expect_ok(R"({"command":"keep_scene"})");
+  expect_ok(R"({"command":"set","key":"surface.probe","value":2})");
+  expect_ok(R"({"command":"frame","index":1})");
+  expect_ok(R"({"command":"keep_scene"})");
+  expect_ok(R"({"command":"time_scene","index":0,"transition":0.5})");
+  ASSERT_TRUE(film("")["ok"]);
+  EXPECT_EQ(ordered.words[1], "film");
+  expect_ok(R"({"command":"save","path":"story.json","strip":true,"width":81,"height":60})");
+  EXPECT_EQ(read_bytes(folder_.path() / "story.json"), ordered.storyboard);
+  const Json story = Json::parse(ordered.storyboard);
+  EXPECT_EQ(story["hold"], Json::parse("[2.0,2.0]"));
+  EXPECT_EQ(story["transition"], Json::parse("[0.5]"));
+  expect_ok(R"({"command":"save","path":"two.json","width":80,"height":60})");
+  EXPECT_EQ(story["scenes"][1], Json::parse(read_bytes(folder_.path() / "two.json")));
+  EXPECT_EQ(story["scenes"][1]["molecule"]["model"], 2);
+  ASSERT_TRUE(film(R"(,"of":"turntable","seconds":2)")["ok"]);
+  EXPECT_EQ(ordered.words[1], "render");
+  EXPECT_NE(std::ranges::find(ordered.words, "50"), ordered.words.end()) << "pictures in two seconds";
 }
 
 }  // namespace

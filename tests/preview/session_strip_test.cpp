@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The strip of kept scenes: on the way numbers are those of a film, all else is that of the nearer scene.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -19,6 +20,11 @@ namespace {
 class StripSession : public SessionCase {
  protected:
   StripSession() { begin(read_structure(folder_.file("two.pdb", kTwoModels), {})); }
+  void begin_with_two_frames() {
+    ReadOptions reading;
+    reading.model.all = true;
+    begin(read_structure(folder_.file("two.pdb", kTwoModels), reading));
+  }
 };
 
 TEST_F(StripSession, GoesFromSceneToSceneAsFilmsDo) {
@@ -57,23 +63,83 @@ TEST_F(StripSession, GoesFromSceneToSceneAsFilmsDo) {
   expect_ok(R"({"command":"undo"})");  // all of the strip is a step
   EXPECT_EQ(state()["probe_radius"], second["probe_radius"]);
 
+  // The pictures of the film one after another: 0.4 s of the first scene, 2 s of the way, 1 s of the second scene.
+  expect_ok(R"({"command":"time_scene","index":0,"hold":0.4})");
+  expect_ok(R"({"command":"time_scene","index":1,"hold":1})");
   expect_ok(R"({"command":"strip","place":0})");
   EXPECT_EQ(apply(R"({"command":"play","strip":true,"fps":5})")["playing"], true);
-  double place = 0.0;
-  int pictures = 0;
-  for (; session_->state().playing && pictures < 100; ++pictures) {
+  std::vector<double> places{0.0};
+  while (session_->state().playing && places.size() < 100) {
     const Json reply = apply(R"({"command":"next_frame"})");
     ASSERT_TRUE(reply["ok"]) << reply;
-    EXPECT_GT(reply["place"].get<double>(), place);
-    place = reply["place"];
+    places.push_back(reply["place"]);
   }
-  EXPECT_EQ(pictures, 10);  // 2 s
-  EXPECT_EQ(place, 1.0);
+  std::vector<double> expected{0.0, 0.0};
+  for (int n = 1; n <= 10; ++n) expected.push_back(n / 11.0);
+  expected.insert(expected.end(), 5, 1.0);
+  ASSERT_EQ(places.size(), expected.size());
+  for (std::size_t n = 0; n < places.size(); ++n) EXPECT_NEAR(places[n], expected[n], 1e-12) << n;
+  EXPECT_EQ(state()["fps"], 10.0) << "frames have a rate of their own";
   EXPECT_EQ(state()["cuts"], second["cuts"]);
   EXPECT_FALSE(apply(R"({"command":"strip","place":1.01})")["ok"]);
   EXPECT_FALSE(apply(R"({"command":"keep_scene","index":2})")["ok"]);
   EXPECT_EQ(apply(R"({"command":"forget_scene","index":0})")["scenes"], 1);
   EXPECT_EQ(apply(R"({"command":"play","strip":true})")["playing"], false);
+}
+
+// What is edited while the film plays would be gone with its next picture.
+TEST_F(StripSession, AnEditPausesTheFilm) {
+  begin_with_two_frames();
+  for (const char* command : {R"({"command":"keep_scene"})", R"({"command":"set","key":"surface.probe","value":2})",
+                              R"({"command":"keep_scene"})"})
+    expect_ok(command);
+  for (const char* edit :
+       {R"({"command":"set","key":"look.ambient","value":0.9})", R"({"command":"orbit","dx":0.3,"dy":0.1})",
+        R"({"command":"frame","index":1})", R"({"command":"undo"})"}) {
+    expect_ok(R"({"command":"strip","place":0.5})");
+    expect_ok(R"({"command":"play","strip":true})");
+    expect_ok(R"({"command":"next_frame"})");
+    expect_ok(R"({"command":"resize","width":90,"height":60})");
+    EXPECT_TRUE(session_->state().playing) << edit;
+    expect_ok(edit);
+    EXPECT_FALSE(session_->state().playing) << edit;
+    EXPECT_EQ(state()["strip"]["playing"], false) << edit;
+  }
+  expect_ok(R"({"command":"play"})");
+  expect_ok(R"({"command":"set","key":"look.ambient","value":0.5})");
+  EXPECT_TRUE(session_->state().playing) << "frames do not change what is edited";
+}
+
+TEST_F(StripSession, ScenesKeepTheirFramesAndTimes) {
+  begin_with_two_frames();
+  expect_ok(R"({"command":"keep_scene"})");
+  expect_ok(R"({"command":"time_scene","index":0,"hold":1.5,"transition":0})");
+  expect_ok(R"({"command":"frame","index":1})");
+  expect_ok(R"({"command":"keep_scene"})");
+  expect_ok(R"({"command":"time_scene","index":1,"hold":3})");
+  expect_ok(R"({"command":"keep_scene","index":1})");
+  const Json kept = state()["strip"]["kept"];
+  EXPECT_EQ(kept[0]["frame"], 0);
+  EXPECT_EQ(kept[1]["frame"], 1);
+  EXPECT_EQ(kept[0]["hold"], 1.5);
+  EXPECT_EQ(kept[1]["hold"], 3.0);
+  EXPECT_EQ(kept[1]["transition"], 0.0) << "that of the scene before it";
+  EXPECT_NE(kept[0]["number"], kept[1]["number"]);
+  for (const auto& [place, frame] : {std::pair(0.0, 0), std::pair(0.4, 0), std::pair(0.6, 1), std::pair(1.0, 1)}) {
+    expect_ok(fmt::format(R"({{"command":"strip","place":{}}})", place));
+    EXPECT_EQ(state()["frame"], frame) << place;
+  }
+  // 1.5 s, a cut and 3 s at 25 pictures a second; one turn; two frames at 10 a second.
+  const Json told = apply(R"({"command":"films","width":101,"height":60})");
+  EXPECT_EQ(told["width"], 100);
+  EXPECT_EQ(told["films"], Json::parse(R"([{"of":"strip","pictures":113,"seconds":4.52},
+      {"of":"frames","pictures":2,"seconds":0.2},{"of":"turntable","pictures":150,"seconds":6.0}])"));
+  for (const char* wrong :
+       {R"({"command":"time_scene","index":2,"hold":1})", R"({"command":"time_scene","index":0,"hold":-1})",
+        R"({"command":"time_scene","index":0,"transition":3601})"})
+    EXPECT_FALSE(apply(wrong)["ok"]) << wrong;
+  expect_ok(R"({"command":"forget_scene","index":0})");
+  EXPECT_EQ(apply(R"({"command":"films"})")["films"][0]["of"], "frames");
 }
 
 }  // namespace

@@ -130,10 +130,26 @@ bool is_own_origin(std::string_view origin, std::uint16_t port) {
   return origin.starts_with(kScheme) && is_own_host(origin.substr(kScheme.size()), port);
 }
 
+std::string host_fault(std::string_view host) {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789.-:[]_";
+  if (!host.empty() && host.find_first_not_of(kLetters) == host.npos) return {};
+  return "a host is a name in small letters with its port, such as hub.example.org or localhost:8888";
+}
+
 Admission admit(std::string_view target, std::string_view token) {
   if (target.size() < token.size() + 2 || target[0] != '/' || target[token.size() + 1] != '/') return {};
   if (!equal_in_constant_time(target.substr(1, token.size()), token)) return {};
   return {true, target.substr(token.size() + 2)};
+}
+
+bool Clients::is_host(std::string_view host) const {
+  return is_own_host(host, port) || std::ranges::find(trusted, host) != trusted.end();
+}
+
+bool Clients::is_origin(std::string_view origin) const {
+  return is_own_origin(origin, port) || std::ranges::any_of(trusted, [origin](const std::string& host) {
+           return origin == "http://" + host || origin == "https://" + host;
+         });
 }
 
 bool Clients::full() const { return sockets.size() >= kMostClients; }

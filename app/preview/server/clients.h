@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -87,6 +88,9 @@ bool is_own_host(std::string_view host, std::uint16_t port);
 /// Is this the Origin header of our own page?
 bool is_own_origin(std::string_view origin, std::uint16_t port);
 
+/// Returns why a text is not a host that a user may trust, such as hub.example.org:8888; empty: it is one.
+std::string host_fault(std::string_view host);
+
 /// "/TOKEN/rest" -> "rest" if the token is right, else nothing with `admitted` false.
 struct Admission {
   bool admitted = false;
@@ -116,6 +120,8 @@ struct Clients {
   std::string token;
   std::string entry = random_token();  ///< stands for the token in the first request that has it; then empty
   std::uint16_t port = 0;
+  std::vector<std::string> trusted{};  ///< further hosts under which browsers reach this server, as behind a proxy
+  std::map<std::string, std::filesystem::path, std::less<>> files{};  ///< what browsers may download, by name
   std::string announcement{};   ///< what a new client is told, as JSON; empty: nothing
   std::size_t connections = 0;  ///< sockets of any kind, open
   std::map<ClientNumber, std::shared_ptr<Client>> sockets;
@@ -126,6 +132,9 @@ struct Clients {
   std::uint64_t next_stranger = 1;
   ClientNumber controller = 0;  ///< 0: none
 
+  /// True if requests to this host are for this server, and if pages of this origin are its pages.
+  bool is_host(std::string_view host) const;
+  bool is_origin(std::string_view origin) const;
   bool controls(ClientNumber client) const { return client == controller; }
   /// This client controls from now on; both are notified.
   void give_control(ClientNumber client);

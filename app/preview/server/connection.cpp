@@ -12,6 +12,10 @@
 #include <string_view>
 #include <utility>
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <boost/asio/buffer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
@@ -182,14 +186,17 @@ class Connection : public std::enable_shared_from_this<Connection> {
     // Of two the first would count here, and the second perhaps in a proxy.
     for (const http::field header : {http::field::host, http::field::origin})
       if (request.count(header) > 1) return refuse(http::status::bad_request, "a header is there twice");
-    if (!is_own_host(host, clients_->port)) return refuse(http::status::forbidden, "this is not the host asked for");
+    if (!clients_->is_host(host)) return refuse(http::status::forbidden, "this is not the host asked for");
     if (request.method() == http::verb::get && clients_->take_entry(target)) return lead_to_the_page();
-    const Admission admission = admit(target, clients_->token);
+    // A proxy may add a query of its own, such as its user's token.
+    const Admission admission = admit(target.substr(0, target.find('?')), clients_->token);
     if (!admission.admitted)
       return refuse(http::status::forbidden, "the address lacks the token that meniscus printed");
     clients_->strangers.erase(stranger_);
     if (request.method() != http::verb::get) return refuse(http::status::method_not_allowed, "only GET is supported");
     if (admission.path == "socket") return open_socket();
+    constexpr std::string_view kFiles = "files/";
+    if (admission.path.starts_with(kFiles)) return send_file(admission.path.substr(kFiles.size()));
     const std::optional<std::string> file = served_file(admission.path);
     if (!file) return refuse(http::status::not_found, "there is no such page");
     send(http::status::ok, content_type(admission.path), *file);
@@ -198,7 +205,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void open_socket() {
     const auto& request = parser_.get();
     if (!websocket::is_upgrade(request)) return refuse(http::status::upgrade_required, "this is a WebSocket");
-    if (!is_own_origin(view(request[http::field::origin]), clients_->port))
+    if (!clients_->is_origin(view(request[http::field::origin])))
       return refuse(http::status::forbidden, "this page comes from elsewhere");
     if (clients_->full()) return refuse(http::status::service_unavailable, "too many pages are open already");
     std::make_shared<SocketClient>(std::move(stream_), clients_)->accept(request);
@@ -214,37 +221,71 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
   void send(http::status status, std::string_view type, std::string_view body) {
-    response_.result(status);
-    response_.version(11);
-    response_.keep_alive(false);
-    response_.set(http::field::content_type, beast::string_view(type.data(), type.size()));
-    set_policies();
+    describe(response_, status, type);
     response_.body().assign(body);
     response_.prepare_payload();
     stream_.expires_after(std::chrono::seconds(kPatience));
-    http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code, std::size_t) {
-      beast::error_code ignored;
-      self->stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+    http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code, std::size_t) { self->end(); });
+  }
+
+  void end() {
+    beast::error_code ignored;
+    stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+  }
+
+  /// Sends a file that the session has written, for the browser to keep.
+  void send_file(std::string_view name) {
+    const auto file = clients_->files.find(name);
+    if (file == clients_->files.end()) return refuse(http::status::not_found, "this preview has written no such file");
+    const int descriptor = ::open(file->second.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    struct ::stat status {};
+    if (descriptor >= 0 && (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode))) ::close(descriptor);
+    if (descriptor < 0 || !S_ISREG(status.st_mode)) return refuse(http::status::gone, "that file is gone");
+    beast::file_posix opened;
+    opened.native_handle(descriptor);
+    beast::error_code error;
+    download_.body().reset(std::move(opened), error);
+    if (error) return refuse(http::status::gone, "that file cannot be read");
+    describe(download_, http::status::ok, "application/octet-stream");
+    download_.set(http::field::content_disposition, fmt::format("attachment; filename=\"{}\"", name));
+    download_.prepare_payload();
+    serializer_.emplace(download_);
+    send_piece();
+  }
+
+  /// Sends the file piece by piece, so that the patience is for each piece.
+  void send_piece() {
+    stream_.expires_after(std::chrono::seconds(kPatience));
+    http::async_write_some(stream_, *serializer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      if (error || self->serializer_->is_done()) return self->end();
+      self->send_piece();
     });
   }
 
   /// The page runs its own script and style only, talks to this server only, and is in no frame.
-  void set_policies() {
-    const std::string sockets = fmt::format("'self' ws://127.0.0.1:{0} ws://localhost:{0}", clients_->port);
-    response_.set("Content-Security-Policy",
-                  "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src " +
-                      sockets + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
-    response_.set("X-Content-Type-Options", "nosniff");
-    response_.set("Referrer-Policy", "no-referrer");
-    response_.set("Cross-Origin-Opener-Policy", "same-origin");
-    response_.set("Cross-Origin-Resource-Policy", "same-origin");
-    response_.set(http::field::cache_control, "no-store");
+  void describe(auto& response, http::status status, std::string_view type) {
+    response.result(status);
+    response.version(11);
+    response.keep_alive(false);
+    response.set(http::field::content_type, beast::string_view(type.data(), type.size()));
+    std::string sockets = fmt::format("'self' ws://127.0.0.1:{0} ws://localhost:{0}", clients_->port);
+    for (const std::string& host : clients_->trusted) sockets += fmt::format(" ws://{0} wss://{0}", host);
+    response.set("Content-Security-Policy",
+                 "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src " +
+                     sockets + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+    response.set("X-Content-Type-Options", "nosniff");
+    response.set("Referrer-Policy", "no-referrer");
+    response.set("Cross-Origin-Opener-Policy", "same-origin");
+    response.set("Cross-Origin-Resource-Policy", "same-origin");
+    response.set(http::field::cache_control, "no-store");
   }
 
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_{2 * kLargestHeader};
   http::request_parser<http::empty_body> parser_;
   http::response<http::string_body> response_;
+  http::response<http::file_body> download_;
+  std::optional<http::response_serializer<http::file_body>> serializer_;
   std::shared_ptr<Clients> clients_;
   std::uint64_t stranger_ = 0;  // number in Clients::strangers
 };

@@ -25,10 +25,12 @@ namespace meniscus {
 namespace asio = boost::asio;
 
 struct Network::State {
-  State(std::uint16_t port, const std::string& token, Mailbox& mailbox)
-      : acceptor(context), clients(std::make_shared<Clients>(mailbox, token.empty() ? random_token() : token)) {
+  State(const NetworkOptions& options, Mailbox& mailbox)
+      : acceptor(context),
+        clients(std::make_shared<Clients>(mailbox, options.token.empty() ? random_token() : options.token)) {
+    clients->trusted = options.trusted_hosts;
     try {
-      const asio::ip::tcp::endpoint here(asio::ip::address_v4::loopback(), port);
+      const asio::ip::tcp::endpoint here(asio::ip::make_address(options.address), options.port);
       acceptor.open(here.protocol());
       ::fcntl(acceptor.native_handle(), F_SETFD, FD_CLOEXEC);  // a browser that is opened must not keep the port
       acceptor.set_option(asio::socket_base::reuse_address(true));
@@ -36,8 +38,8 @@ struct Network::State {
       acceptor.listen();
       clients->port = acceptor.local_endpoint().port();
     } catch (const boost::system::system_error& error) {
-      throw RequestError(fmt::format("--serve: port {} is not available: {}; try another, or 0 for any", port,
-                                     error.code().message()));
+      throw RequestError(fmt::format("--serve: port {} of {} is not available: {}; try another, or 0 for any",
+                                     options.port, options.address, error.code().message()));
     }
   }
 
@@ -83,8 +85,7 @@ struct Network::State {
   std::thread thread;
 };
 
-Network::Network(std::uint16_t port, const std::string& token, Mailbox& mailbox)
-    : state_(std::make_unique<State>(port, token, mailbox)) {
+Network::Network(const NetworkOptions& options, Mailbox& mailbox) : state_(std::make_unique<State>(options, mailbox)) {
   state_->accept();
   state_->thread = std::thread([this] { state_->run(); });
 }
@@ -127,6 +128,13 @@ void Network::announce(const nlohmann::json& message) {
     clients->announcement = text;
   });
   if (!message.is_null()) send_to_all(message);
+}
+
+void Network::offer_files(const std::vector<std::filesystem::path>& files) {
+  std::map<std::string, std::filesystem::path, std::less<>> by_name;
+  for (const std::filesystem::path& file : files) by_name[file.filename().string()] = file;
+  asio::post(state_->context,
+             [clients = state_->clients, names = std::move(by_name)]() mutable { clients->files = std::move(names); });
 }
 
 void Network::send_picture(ClientNumber client, const nlohmann::json& message,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,14 +14,21 @@
 
 namespace meniscus {
 
+/// Where the server listens, and who may ask it.
+struct NetworkOptions {
+  std::uint16_t port = 0;                    ///< 0: any free one
+  std::string address = "127.0.0.1";         ///< of this machine; others are for containers
+  std::string token{};                       ///< in the address of the page; empty: a random one
+  std::vector<std::string> trusted_hosts{};  ///< Clients::trusted
+};
+
 /// Serves the page to browsers on this machine that know the token, and passes their commands to the mailbox. The first
 /// socket controls, the others look. Foreign hosts, foreign origins and wrong tokens are answered with 403. All
 /// functions may be called from any thread.
 class Network {
  public:
-  /// port 0: any free one; token empty: a random one. Listens when this returns. Throws RequestError if the port is not
-  /// available, Error.
-  Network(std::uint16_t port, const std::string& token, Mailbox& mailbox);
+  /// Listens when this returns. Throws RequestError if the port is not available, Error.
+  Network(const NetworkOptions& options, Mailbox& mailbox);
   /// Says goodbye to all clients, for a second at most.
   ~Network();
   Network(const Network&) = delete;
@@ -38,6 +46,8 @@ class Network {
   void send_to_all(const nlohmann::json& message);
   /// The same, and to each client that comes later, until there is another one; null: none from now on.
   void announce(const nlohmann::json& message);
+  /// Lets browsers download these files from now on, and no others. Their names are letters, digits, '.', '_' and '-'.
+  void offer_files(const std::vector<std::filesystem::path>& files);
   /// A message and the picture, or the bytes of the figure, that it speaks of.
   void send_picture(ClientNumber client, const nlohmann::json& message,
                     std::shared_ptr<const std::vector<std::uint8_t>> picture);

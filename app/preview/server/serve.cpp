@@ -105,6 +105,7 @@ class ServedSession {
  private:
   void carry_out(const ClientCommand& command) {
     Json reply = view_.apply(command.command);
+    network_.offer_files(session_.written_paths());
     for (const Json& id : command.ids) {
       reply["id"] = id;
       network_.send(command.client, reply);
@@ -115,7 +116,7 @@ class ServedSession {
   void play() {
     if (!session_.state().playing || (waiting_.empty() && !somebody_waits_for_figures()) || Clock::now() < next_frame_)
       return;
-    const auto pace = std::chrono::duration<double>(1.0 / session_.state().frames_per_second);
+    const auto pace = std::chrono::duration<double>(1.0 / session_.state().rate());
     next_frame_ = std::max(next_frame_, Clock::now() - std::chrono::seconds(1)) +
                   std::chrono::duration_cast<Clock::duration>(pace);
     view_.apply({{"command", "next_frame"}});
@@ -281,7 +282,7 @@ class ServedSession {
 
 void serve_session(const ServeOptions& options, const MakeSession& make) {
   Mailbox mailbox;
-  Network network(options.port, options.token, mailbox);
+  Network network(options, mailbox);
   options.ready({network.url(), network.url_once(), network.port()});
   try {
     const std::unique_ptr<PreviewSession> session = make([&](const std::string& what) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "app/preview/server/network.h"
 #include "app/preview/session.h"
 
 namespace meniscus {
@@ -18,9 +19,7 @@ struct ServedAddress {
   std::uint16_t port = 0;
 };
 
-struct ServeOptions {
-  std::uint16_t port = 0;  ///< 0: any free one
-  std::string token{};     ///< in the address; empty: a random one
+struct ServeOptions : NetworkOptions {
   /// Gets the address of the page, as soon as it can be opened.
   std::function<void(const ServedAddress&)> ready;
 };

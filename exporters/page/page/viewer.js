@@ -143,7 +143,7 @@ class Viewer {
   select(places) {
     this.selected = new Set(places);
     this.mark_selected();
-    this.change();
+    if (this.casts) this.change();
   }
 
   mark_selected() {

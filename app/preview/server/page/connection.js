@@ -18,7 +18,7 @@ export class Connection {
   constructor(handlers) {
     this.#handlers = handlers;
     const address = new URL("socket", location.href);
-    address.protocol = "ws:";
+    address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
     this.#socket = new WebSocket(address);
     this.#socket.binaryType = "arraybuffer";
     this.#open = new Promise((resolve) => this.#socket.addEventListener("open", resolve));

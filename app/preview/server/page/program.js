@@ -9,6 +9,7 @@ import { Pictures } from "./pictures.js";
 import { property_controls } from "./properties.js";
 import { select_controls } from "./select.js";
 import { strip_controls } from "./strip.js";
+import { write_controls } from "./write.js";
 
 const $ = element;
 place_sections();
@@ -32,7 +33,7 @@ const server = new Connection({
   welcome: async (message) => {
     set_role(message.controls);
     server.ask({ command: "choices" }).then(fill_choices);
-    server.ask({ command: "export_state" }).then((told) => { if (told.running) follow_export(); });
+    writing.begin();
     await fit();  // before a picture is asked for, which would have another size
   },
   role: (message) => { set_role(message.controls); fit(); },
@@ -60,7 +61,7 @@ function place_sections() {
 
 const kStep = 700;  // ms without a command, after which the next is a step of its own for undo
 const tells_only = new Set(["pick", "export", "export_state", "cancel_export", "save", "render_command", "end_step", "undo", "redo"]);
-const changes_state = new Set(["key", "save_view", "forget_view", "keep_scene", "forget_scene", "play", "pause", "save"]);
+const changes_state = new Set(["key", "save_view", "forget_view", "keep_scene", "forget_scene", "time_scene", "play", "pause", "save"]);
 let last_change = 0;
 
 /// What an error says, without the words of its command and its property, which are a program's and no reader's.
@@ -354,6 +355,7 @@ const properties = property_controls(context);
 const show_strip = strip_controls(context);
 const selection = select_controls(context);
 const show_contents = contents_controls(context, selection);
+const writing = write_controls({ ...context, picture: () => has_picture() ? full_picture : null, changed: ask_state });
 
 /// Unless somebody is at it: what is typed, or dragged ahead of the pictures, stays.
 function set_value(control, value) {
@@ -410,7 +412,7 @@ function apply_state(next) {
   show_strip(next);
   selection.show(next);
   show_contents(next);
-  take_wishes(next);
+  writing.show(next);
   $("kinds").checked = next.patch_kinds;
   $("kinds-key").hidden = !(next.patch_kinds || next.color.scheme === "kind");
   set_value($("background"), next.look.background);
@@ -513,86 +515,5 @@ async function hover(event, number, more = 10) {
   if (found.area_follows && more > 0) setTimeout(() => { if (number === hovered) hover(event, number, more - 1); }, 300);
 }
 
-// Writing
-
 /// The server keeps the figure, but nobody may come back to it.
 window.addEventListener("beforeunload", (event) => { if (controls && state?.unsaved) event.preventDefault(); });
-
-const stem = () => state.file.split("/").pop().replace(/\.[^.]*$/, "").replace(/[^A-Za-z0-9_-]+/g, "_") || "view";
-const download_json = (value, name) => download(new Blob([JSON.stringify(value, null, 2) + "\n"], { type: "application/json" }), `${stem()}_${name}.json`);
-$("save-camera").addEventListener("click", () => download_json(state.camera, "camera"));
-$("save-path").addEventListener("click", () => download_json({ keys: state.keys }, "camera_path"));
-
-$("write").addEventListener("submit", async (event) => {
-  event.preventDefault();
-  const format = event.submitter?.value ?? "png", force = $("export-force").checked, name = $("export-name").value;
-  if (format === "scene") {
-    const reply = await command("save", { path: `${name}.json`, force, ...wishes() });
-    return reply && tell(`Written: ${reply.path}`);
-  }
-  const ending = { png: ".png", film: ".mp4", povray: "", blender: ".mns" }[format];
-  // What is shown is at hand: the browser has it, too.
-  const picture = format === "png" && is_at_rest() && !$("width").value && !$("height").value && !$("export-samples").value &&
-    !$("export-transparent").checked ? full_picture : null;
-  if (!await command("export", { format, path: name + ending, force, wait: false, ...wishes() })) return;
-  if (picture) download(picture, name + ending);
-  follow_export();
-});
-$("open-scene").addEventListener("click", async () => {
-  const name = $("export-name").value;
-  const reply = await command("open", { path: /\.(json|png|tiff?|jpe?g|html)$/.test(name) ? name : `${name}.json` });
-  if (reply) tell(`Opened: ${reply.path}`);
-});
-
-/// Shows how far the export is until it is done; the picture can be turned meanwhile.
-async function follow_export() {
-  const buttons = document.querySelectorAll("#writers button");
-  $("job").hidden = false;
-  for (const button of buttons) button.disabled = true;
-  let told = { running: true };
-  while (told.running) {
-    told = await server.ask({ command: "export_state" });
-    $("job-text").textContent = `Writing ${told.path?.split("/").pop() ?? ""}: ${told.stage ?? "begin"}, ${Math.round(told.seconds ?? 0)} s`;
-    $("job-share").value = told.share ?? 0;
-    if (told.running) await new Promise((resolve) => setTimeout(resolve, 250));
-  }
-  $("job").hidden = true;
-  for (const button of buttons) button.disabled = false;
-  ask_state();
-  if (told.error) tell(sentence_of(told.error, "export"), true);
-  else if (told.path) tell([`Written: ${told.path}`, told.note, told.render_with && `render it with: ${told.render_with}`]
-    .filter(Boolean).join("; "));
-}
-$("job-cancel").addEventListener("click", () => command("cancel_export"));
-
-/// What a scene asks of pictures, until somebody types something else.
-let taken_wishes = "";
-function take_wishes(next) {
-  const told = JSON.stringify(next.export);
-  if (told === taken_wishes) return;
-  taken_wishes = told;
-  for (const [id, key] of [["width", "width"], ["height", "height"], ["export-samples", "samples"]]) $(id).value = next.export[key] ?? "";
-  $("export-transparent").checked = next.export.transparent;
-}
-
-/// What is asked of an exported picture.
-function wishes() {
-  const wish = { samples: $("export-samples").valueAsNumber || state.samples };
-  wish.transparent = $("export-transparent").checked;
-  const [width, height] = [$("width").valueAsNumber, $("height").valueAsNumber];
-  if (width) wish.width = width;
-  if (height) wish.height = height;
-  if (width && !height) wish.height = Math.max(16, Math.round(width * state.height / state.width));
-  if (height && !width) wish.width = Math.max(16, Math.round(height * state.width / state.height));
-  return wish;
-}
-
-$("copy-command").addEventListener("click", async () => {
-  const reply = await command("render_command", wishes());
-  if (!reply) return;
-  $("command-text").value = reply.text;
-  $("command-text").hidden = false;
-  $("command-text").select();
-  const copied = await navigator.clipboard?.writeText(reply.text).then(() => true, () => false);
-  tell(copied ? "The command is copied." : "Here it is, to be copied.");
-});

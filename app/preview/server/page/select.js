@@ -139,15 +139,15 @@ export function select_controls({ command, ask, say, viewer }) {
     const found = entries.length > 0 ? await ask({ command: "locate", selection: text() }) : { ok: true, points: [], places: [] };
     if (number !== latest || !found.ok) return;
     located = found;
-    if (viewer().casts) viewer().select(found.places.flatMap(([first, count]) => Array.from({ length: count }, (_, n) => first + n)));
+    viewer().select(found.places.flatMap(([first, count]) => Array.from({ length: count }, (_, n) => first + n)));
     draw();
   }
 
-  /// Rings around the atoms, where pictures of the program are shown.
+  /// Rings around the atoms, which are seen with pictures of the program only.
   function draw() {
     const { width = 1, height = 1 } = state ?? {}, svg = $("rings");
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    const places = state && located && !viewer().casts ? projected(located.points, state.camera, located.picture ?? [width, height]) : [];
+    const places = state && located ? projected(located.points, state.camera, located.picture ?? [width, height]) : [];
     svg.replaceChildren(...places.filter(Boolean).map(([x, y]) => {
       const ring = document.createElementNS("http://www.w3.org/2000/svg", "circle");
       for (const [name, value] of [["cx", x.toFixed(1)], ["cy", y.toFixed(1)], ["r", located.points.length > 60 ? 3 : 6]]) ring.setAttribute(name, value);

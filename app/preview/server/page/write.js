@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writing: pictures, films, scenes and files into the program's folder, from which this browser can download them.
+import { element } from "./figure.js";
+
+const $ = (id) => document.getElementById(id);
+const kEndings = { png: ".png", film: ".mp4", povray: "", blender: ".mns", scene: ".json", story: ".json" };
+const kFilms = { strip: "Strip", turntable: "Turntable", frames: "All frames" };
+
+/// picture(): the PNG on the stage, if it is there in full; changed(): is called after something was written. Returns
+/// show(state), and begin(), which shows what an earlier page has begun.
+export function write_controls({ command, ask, say, picture, changed }) {
+  let state = null;
+  let offered = "";  // what the films on offer depend on
+  let taken = "";    // the sizes that a scene asked for
+
+  /// Returns what is asked of an exported picture.
+  const wishes = () => {
+    const wish = { samples: $("export-samples").valueAsNumber || state.samples };
+    wish.transparent = $("export-transparent").checked;
+    const [width, height] = [$("width").valueAsNumber, $("height").valueAsNumber];
+    if (width) wish.width = width;
+    if (height) wish.height = height;
+    if (width && !height) wish.height = Math.max(16, Math.round(width * state.height / state.width));
+    if (height && !width) wish.width = Math.max(16, Math.round(height * state.width / state.height));
+    return wish;
+  };
+
+  /// Lists the films that can be made, with what each of them gives.
+  const offer_films = async () => {
+    const { width, height } = wishes(), told = await ask({ command: "films", ...(width && { width, height }) });
+    if (!told.ok) return;
+    const before = $("film-of").options[0]?.value, chosen = $("film-of").value;
+    $("film-of").replaceChildren(...told.films.map(({ of, seconds, pictures }) => {
+      const words = `${kFilms[of]}: ${Number(seconds.toFixed(1))} s, ${pictures} pictures, ${told.width} × ${told.height}`;
+      return Object.assign(new Option(words, of), { title: words });
+    }));
+    const kept = told.films.some(({ of }) => of === chosen) && before === told.films[0].of;
+    $("film-of").value = kept ? chosen : told.films[0].of;
+  };
+  for (const id of ["width", "height"]) $(id).addEventListener("change", offer_films);
+
+  /// Lists what was written: a link to each file, and the place of all.
+  const list_written = (written = []) => $("written").replaceChildren(...written.map(({ name, path, folder }) => element("li", {},
+    folder ? name : element("a", { href: `files/${name}`, download: name, textContent: name }), element("span", { textContent: path }))));
+
+  /// Asks how far the export is, and lists what was written.
+  const ask_written = async () => {
+    const told = await ask({ command: "export_state" });
+    list_written(told.written);
+    return told;
+  };
+
+  $("write").addEventListener("submit", async (event) => {
+    event.preventDefault();
+    const format = event.submitter?.value ?? "png", path = $("export-name").value + kEndings[format];
+    const values = { path, force: $("export-force").checked, ...wishes() };
+    if (format === "scene" || format === "story") {
+      const reply = await command("save", { ...values, strip: format === "story" });
+      if (!reply) return;
+      changed();
+      await ask_written();
+      return say(`Written: ${reply.path}`);
+    }
+    // What is shown is at hand: the browser has it, too.
+    const at_hand = format === "png" && !$("width").value && !$("height").value && !$("export-samples").value && !values.transparent ? picture() : null;
+    const more = format === "film" ? { of: $("film-of").value } : { archive: format === "povray" };
+    if (!await command("export", { format, wait: false, ...values, ...more })) return;
+    if (at_hand) download(at_hand, path);
+    follow();
+  });
+  $("open-scene").addEventListener("click", async () => {
+    const name = $("export-name").value;
+    const reply = await command("open", { path: /\.(json|png|tiff?|jpe?g|html)$/.test(name) ? name : `${name}.json` });
+    if (reply) say(`Opened: ${reply.path}`);
+  });
+  $("job-cancel").addEventListener("click", () => command("cancel_export"));
+
+  const stem = () => state.file.split("/").pop().replace(/\.[^.]*$/, "").replace(/[^A-Za-z0-9_-]+/g, "_") || "view";
+  const download_json = (value, name) => download(new Blob([JSON.stringify(value, null, 2) + "\n"], { type: "application/json" }), `${stem()}_${name}.json`);
+  $("save-camera").addEventListener("click", () => download_json(state.camera, "camera"));
+  $("save-path").addEventListener("click", () => download_json({ keys: state.keys }, "camera_path"));
+
+  /// Shows how far the export is until it is done; the view can be turned meanwhile.
+  async function follow() {
+    const buttons = document.querySelectorAll("#writers button");
+    for (const button of buttons) button.disabled = true;
+    let told = { running: true };
+    while (told.running) {
+      told = await ask_written();
+      $("job").hidden = !told.running;
+      $("job-text").textContent = `Writing ${told.path?.split("/").pop() ?? ""}: ${told.stage ?? "begin"}, ${Math.round(told.seconds ?? 0)} s`;
+      $("job-share").value = told.share ?? 0;
+      if (told.running) await new Promise((resolve) => setTimeout(resolve, 250));
+    }
+    for (const button of buttons) button.disabled = false;
+    changed();
+    if (told.error) say(told.error.replace(/^export: /, ""), true);
+    else if (told.path) say([`Written: ${told.path}`, told.note, told.render_with && `render it with: ${told.render_with}`].filter(Boolean).join("; "));
+  }
+
+  $("copy-command").addEventListener("click", async () => {
+    const reply = await command("render_command", wishes());
+    if (!reply) return;
+    $("command-text").value = reply.text;
+    $("command-text").hidden = false;
+    $("command-text").select();
+    const copied = await navigator.clipboard?.writeText(reply.text).then(() => true, () => false);
+    say(copied ? "The command is copied." : "Here it is, to be copied.");
+  });
+
+  const show = (next) => {
+    state = next;
+    const told = JSON.stringify(next.export), films = JSON.stringify([next.strip.kept, next.frames, next.fps, next.width, next.height]);
+    if (told !== taken)
+      for (const [id, key] of [["width", "width"], ["height", "height"], ["export-samples", "samples"]]) $(id).value = next.export[key] ?? "";
+    if (told !== taken) $("export-transparent").checked = next.export.transparent;
+    if (films !== offered || told !== taken) offer_films();
+    $("save-story").hidden = next.strip.scenes === 0;
+    taken = told;
+    offered = films;
+  };
+  const begin = async () => { if ((await ask_written()).running) follow(); };
+  return { show, begin };
+}
