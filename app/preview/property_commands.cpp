@@ -51,8 +51,8 @@ const Property& live_property(const std::string& key) {
     keys.push_back(property->key);
   }
   const std::string_view nearest = nearest_word(key, keys);
-  throw RequestError(fmt::format("set: \"key\" is {}, which is no property that the preview changes{}", in_quotes(key),
-                                 nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
+  throw RequestError(fmt::format("set: \"key\" is {}, which is not a property that the preview changes{}",
+                                 in_quotes(key), nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
 }
 
 /// Returns the value in the form of replace_value(). Throws RequestError.

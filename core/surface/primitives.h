@@ -214,8 +214,8 @@ struct Surface {
   /// The sums, if the tables from `cuts` to `faces` were released; then patches refer to none of these tables. Else
   /// null.
   std::shared_ptr<const SurfaceSums> sums;
-  /// What list_convex_planes() needs, until it is called, if the surface was computed with ClipPlanes::deferred. Else
-  /// null.
+  /// The reduced surface, which list_convex_planes() needs, if the surface was computed with ClipPlanes::deferred and
+  /// has no planes yet. Else null.
   std::shared_ptr<const ReducedSurface> reduced;
 
   SurfaceCounts counts() const;

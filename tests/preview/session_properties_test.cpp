@@ -195,9 +195,9 @@ TEST_F(PreviewProperties, ErrorsNameKeyValueAndLimits) {
       {{"surface.kind", "ms"}, "set: surface.kind: 'ms' is not one of ses, sas, vdw"},
       {{"surface.shown", 1}, "set: surface.shown: '1' is neither true nor false"},
       {{"surface.prob", 1},
-       "set: \"key\" is 'surface.prob', which is no property that the preview changes; did you "
+       "set: \"key\" is 'surface.prob', which is not a property that the preview changes; did you "
        "mean surface.probe?"},
-      {{"molecule.file", "a.pdb"}, "set: \"key\" is 'molecule.file', which is no property that the preview changes"},
+      {{"molecule.file", "a.pdb"}, "set: \"key\" is 'molecule.file', which is not a property that the preview changes"},
       {{"surface.clip", Json(17, "x<1")}, "set: surface.clip: at most 16 entries are allowed, not 17"},
       {{"look.silhouettes", 17}, "set: look.silhouettes: '17' makes 17 pixels; a line has 0 to 16"},
   };
