@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Commands of a preview, one JSON object a line: recorded sessions, their values, and the merging of what waits.
-#include <cmath>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/preview/command_json.h"
-#include "app/preview/look_json.h"
 #include "app/preview/server/clients.h"
 #include "core/base/error.h"
 #include "core/camera/camera.h"
 #include "core/camera/camera_json.h"
-#include "core/render/look.h"
+#include "core/properties/properties.h"
+#include "core/scene/scene.h"
+#include "core/scene/scene_json.h"
+#include "core/scene/scene_value.h"
+#include "core/scene/scene_values.h"
 #include "tests/fuzz/target.h"
 
 namespace meniscus::fuzz {
 namespace {
 
 using Json = nlohmann::json;
+using Ordered = nlohmann::ordered_json;
 
 /// Calls what may refuse a command.
 template <typename Action>
@@ -29,21 +34,22 @@ void attempt(Action&& action) {
   }
 }
 
-void check_look(const CommandReader& reader) {
-  reader.expect_only(look_keys());
-  LookRequest plain;
-  plain.preset = LookPreset::classic;
-  const auto written = [&](const CommandReader& command) {
-    return look_json(look_of(changed_look(plain, command), {960, 960}, glm::vec3(1.0f), Hues::free));
-  };
-  const Json look = written(reader);
-  Json json = look;
-  json["command"] = "look";
-  require(written(CommandReader(json)) == look, "a look written is read as it was");
+/// What a command "set" gives to a property is written as it is read again.
+void check_property(const CommandReader& reader) {
+  const std::string key = reader.text("key");
+  for (const Property* property : properties()) {
+    if (property->key != key || !property->has(live)) continue;
+    Scene scene, again;
+    scene_values::replace_value(scene, *property,
+                                texts_of_json(*property, Ordered::parse(reader.value("value").dump())));
+    const std::vector<std::string> written = value_texts(scene, *property);
+    scene_values::replace_value(again, *property, written);
+    require(value_texts(again, *property) == written, "a property written is read as it was");
+  }
 }
 
 void check_values(const Json& command) {
-  attempt([&] { check_look(CommandReader(command)); });
+  attempt([&] { check_property(CommandReader(command)); });
   attempt([&] { CommandReader(command).word(); });
   for (const char* key : {"dx", "factor", "camera", "index", "on", "path"}) {
     attempt([&] {
