@@ -147,7 +147,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
                             {"command": "represent", "as": "sticks", "selection": "resid 50-60"},
                             {"command": "object", "object": {"selection": "chain A and resid 60-80", "color": "teal", "probe": 1.8}},
                             {"command": "opacity", "opacity": 0.5}, {"command": "cut", "plane": "depth>0.3"},
-                            setting("cap_hatching", 1.5),
+                            setting("surface.cap_hatching", 1.5),
                             {"command": "orbit", "dx": 0.2, "dy": 0.1}, setting("look.silhouettes", 2), setting("look.shadows", 0.5),
                             {"command": "remove", "of": "objects"}, setting("surface.show", None),
                             setting("surface.patches", "resid 5-20"), setting("surface.min_patch", 30),
@@ -155,7 +155,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
                             setting("surface.kind", "vdw"), setting("surface.color", "kind"), {"command": "undo"}):
                 self.assertTrue((await ask(client, command))["ok"], command)
                 tables = await self.same_as_exported(client, command)
-                if command["command"] == "orbit" or command.get("key", "").startswith(("look", "legend", "cap")):
+                if command["command"] == "orbit" or command.get("key", "").startswith(("look", "legend", "surface.cap")):
                     self.assertEqual(tables, before, command)
                 elif command["command"] != "cut" and command.get("key") != "surface.min_patch":
                     self.assertNotEqual(tables, before, command)
