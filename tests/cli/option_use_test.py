@@ -18,7 +18,7 @@ from pathlib import Path
 PROGRAM = sys.argv.pop(1)
 
 # They say how the work is done or what is told of it, and leave the result as it is.
-HOW = {"--threads", "--jobs", "--serve", "--no-open", "--token-file", "--device", "--require-gpu", "--verify", "--progress", "--warnings", "--quiet", "--help",
+HOW = {"--threads", "--jobs", "--serve", "--no-open", "--token-file", "--device", "--require-gpu", "--verify", "--progress", "--warnings", "--quiet", "--verbose", "--trust-host", "--help",
        "--help-all", "--force", "--stats", "--extent", "--trust-scene", "--any-cost", "--trust-atom-order", "--addon"}
 # They say what to do with something that a file may hold, and are right to be silent where it does not.
 POLICIES = {"--unknown-element", "--missing-color", "--altloc", "--hydrogens", "--keep-water", "--keep-ions", "--whole",
