@@ -306,7 +306,8 @@ class Page(PageCase):
             for item, what, seconds in ((1, "hold", 0.2), (1, "transition", 0.8), (2, "hold", 0.2)):
                 await page.evaluate(f"""const field = document.querySelector('#scenes li:nth-child({item}) [name={what}]');
                     field.value = {seconds}; field.dispatchEvent(new Event('change')); 0""".replace("const field", "var field"))
-            await page.until("document.getElementById('film-of').selectedOptions[0].text.includes('Strip: 1.2 s, 30 pictures, ')")
+            await page.until("document.getElementById('film-of').selectedOptions[0].text === 'Strip: 1.2 s'")
+            self.assertTrue((await page.evaluate("document.getElementById('film-of').selectedOptions[0].title")).startswith("30 pictures of "))
             await page.click("#scenes li:first-child .recall")
             await page.until("JSON.parse(document.getElementById('picture').dataset.state).probe_radius === 1")
             await page.evaluate("""window.radii = new Set();
@@ -322,10 +323,10 @@ class Page(PageCase):
             # An edit while it plays pauses it, and stays.
             await page.click("#play-strip")
             await page.until("document.getElementById('play-strip').textContent === 'Pause film'")
-            key = await page.evaluate("""var slider = document.querySelector('#strengths input[type=range]'); slider.value = slider.max;
-                slider.dispatchEvent(new Event('input')); slider.id""")
+            await page.evaluate("""var slider = document.getElementById('look-light_strength'); slider.value = slider.max;
+                slider.dispatchEvent(new Event('input')); 0""")
             await page.until("document.getElementById('play-strip').textContent === 'Play film'")
-            self.assertEqual((await self.state(page))["look"][key], await page.evaluate("slider.valueAsNumber"))
+            self.assertEqual((await self.state(page))["look"]["light_strength"], await page.evaluate("slider.valueAsNumber"))
             # The film is written, and comes by a click on its link.
             await page.evaluate("""document.getElementById('width').value = 64; document.getElementById('height').value = 48;
                 document.getElementById('export-samples').value = 1; 0""")

@@ -31,8 +31,8 @@ export function write_controls({ command, ask, say, picture, changed }) {
     if (!told.ok) return;
     const before = $("film-of").options[0]?.value, chosen = $("film-of").value;
     $("film-of").replaceChildren(...told.films.map(({ of, seconds, pictures }) => {
-      const words = `${kFilms[of]}: ${Number(seconds.toFixed(1))} s, ${pictures} pictures, ${told.width} × ${told.height}`;
-      return Object.assign(new Option(words, of), { title: words });
+      const words = `${kFilms[of]}: ${Number(seconds.toFixed(1))} s`;
+      return Object.assign(new Option(words, of), { title: `${pictures} pictures of ${told.width} × ${told.height} pixels` });
     }));
     const kept = told.films.some(({ of }) => of === chosen) && before === told.films[0].of;
     $("film-of").value = kept ? chosen : told.films[0].of;
