@@ -33,9 +33,9 @@ namespace meniscus {
 namespace {
 
 using Json = nlohmann::json;
-using Kind = RepresentationRequest::Kind;
+using ShapeKind = RepresentationRequest::Kind;
 
-constexpr std::size_t kMostEntries = 1000;     // of a list of contents
+constexpr std::size_t kMostListed = 1000;      // of a list of contents
 constexpr std::size_t kMostResidues = 20'000;  // of a sequence
 constexpr std::size_t kMostOfOneName = 20;     // ligands or ions of one name that have an entry each
 constexpr std::size_t kMostPoints = 300;       // positions in one reply
@@ -108,8 +108,8 @@ struct Entry {
   std::optional<glm::vec3> color = {};  ///< sRGB colour of its first atom in the picture that belongs to the surface
 };
 
-constexpr std::array<std::string_view, 9> kKinds{"protein", "DNA",   "RNA", "polymer", "ligand",
-                                                 "glycan",  "lipid", "ion", "water"};
+constexpr std::array<std::string_view, 9> kKindWords{"protein", "DNA",   "RNA", "polymer", "ligand",
+                                                     "glycan",  "lipid", "ion", "water"};
 
 /// Returns the molecule with all atoms of its file, waters and ions too. They are read once and kept.
 std::shared_ptr<const Structure> everything(const Surroundings& around) {
@@ -120,7 +120,7 @@ std::shared_ptr<const Structure> everything(const Surroundings& around) {
       molecule.structure().file == "standard input")
     return std::make_shared<const Structure>(molecule.annotated_structure());
   FigureRequest all;
-  all.representations.requests.push_back({Kind::spheres, parse_selection("all or water or ion")});
+  all.representations.requests.push_back({ShapeKind::spheres, parse_selection("all or water or ion")});
   exporter.everything = std::make_shared<const Structure>(exporter.context.read_shown(all, around.state.frame));
   return exporter.everything;
 }
@@ -191,7 +191,7 @@ class Contents {
         if (!entry.color) entry.color = seen->second;
       }
     });
-    std::ranges::stable_sort(entries, {}, [](const Entry& entry) { return std::ranges::find(kKinds, entry.kind); });
+    std::ranges::stable_sort(entries, {}, [](const Entry& entry) { return std::ranges::find(kKindWords, entry.kind); });
     return entries;
   }
 
@@ -236,12 +236,12 @@ Json sequence_of(const std::vector<Atom>& atoms, const std::vector<bool>& chosen
 }
 
 /// Returns a request that draws atoms as companions of the surface are drawn.
-FigureObjectRequest companion_object(const Selection& atoms, Kind kind) {
+FigureObjectRequest companion_object(const Selection& atoms, ShapeKind kind) {
   ColorScheme color;
   color.by = ColorScheme::By::element_cpk;
   color.rules.push_back(parse_color_rule("element C=#45a878"));
   FigureObjectRequest object{.atoms = atoms, .shapes = kind, .color = color};
-  if (kind == Kind::sticks) object.radius = kCompanionRadius;
+  if (kind == ShapeKind::sticks) object.radius = kCompanionRadius;
   return object;
 }
 
@@ -265,7 +265,7 @@ void draw_beside(const Selection& selection, PreviewFigure& figure, const Surrou
     is_empty = false;
     is_small = is_small && (all[n].kind == AtomClass::ion || all[n].kind == AtomClass::water);
   }
-  if (!is_empty) add_object(figure, companion_object(selection, is_small ? Kind::spheres : Kind::sticks));
+  if (!is_empty) add_object(figure, companion_object(selection, is_small ? ShapeKind::spheres : ShapeKind::sticks));
 }
 
 /// Removes the chosen atoms from what is drawn beside the surface. atoms: all atoms in the picture. Returns true if
@@ -303,7 +303,7 @@ bool remove_shapes(const Selection& selection, PreviewFigure& figure, const std:
   for (const auto& [bit, residues] : stays)
     if (!residues.empty())
       add_object(figure, companion_object(parse_selection(fmt::format("{}", fmt::join(residues, " or "))),
-                                          bit == kCompanionSticks ? Kind::sticks : Kind::spheres));
+                                          bit == kCompanionSticks ? ShapeKind::sticks : ShapeKind::spheres));
   return true;
 }
 
@@ -360,7 +360,7 @@ Json get_contents(const CommandReader& command, const Surroundings& around) {
   const std::vector<Entry> entries = Contents(atoms).entries(around);
   Json list = Json::array();
   for (const Entry& entry : entries) {
-    if (list.size() == kMostEntries) break;
+    if (list.size() == kMostListed) break;
     list.push_back({{"name", escaped(entry.name)},
                     {"kind", entry.kind},
                     {"atoms", entry.atoms},

@@ -15,7 +15,7 @@ namespace meniscus {
 namespace {
 
 constexpr std::size_t kMostScenes = 50;
-constexpr double kLongest = 3600.0;  // seconds of a scene, as `meniscus film` has it
+constexpr double kLongestScene = 3600.0;  // seconds of a scene, as `meniscus film` has it
 
 /// Numbers change steadily; all else is that of the nearer scene.
 PreviewFigure figure_between(const PreviewFigure& from, const PreviewFigure& to, double share,
@@ -112,8 +112,8 @@ Outcome forget_scene(const CommandReader& command, PreviewState state, const Sur
 
 Outcome time_scene(const CommandReader& command, PreviewState state, const Surroundings&) {
   const auto scene = scene_in(command, state);
-  scene->hold = command.number_or(scene->hold, "hold", 0.0, kLongest);
-  scene->transition = command.number_or(scene->transition, "transition", 0.0, kLongest);
+  scene->hold = command.number_or(scene->hold, "hold", 0.0, kLongestScene);
+  scene->transition = command.number_or(scene->transition, "transition", 0.0, kLongestScene);
   return with_strip(state);
 }
 
