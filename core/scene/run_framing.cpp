@@ -288,6 +288,7 @@ void share_colors(ColorScheme& color, const FrameRun& frames) {
 /// Measures a scheme without its rules and without buried areas.
 void measure_scheme(ColorScheme& color, ShownFrames& frames) {
   FrameRun& run = frames.run();
+  if (run.atoms_change()) color = resolved_scheme(run.possible_structure(), std::move(color));
   share_colors(color, run);
   if (color.by == ColorScheme::By::rmsf) color.file = {.path = run.structure().file, .numbers = fluctuations(run)};
   if (color.by == ColorScheme::By::radial && !color.range) color.frames_range = radial_range(frames);

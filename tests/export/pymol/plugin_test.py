@@ -162,7 +162,7 @@ class Plugin(unittest.TestCase):
         self.assertIn("PyMOL's surfaces leave out all atoms of 'solvent', as they do with hetero atoms; take them in by: "
                       "flag ignore, solvent, clear", said_by("meniscus solvent"))
         self.assertIn("'resn XYZ' selects no atoms", said_by("meniscus_area resn XYZ"))
-        self.assertIn("probe_radius: -1 Å is negative", said_by("meniscus ubi, probe=-1"))
+        self.assertIn("probe: -1 Å is negative", said_by("meniscus ubi, probe=-1"))
         self.assertIn("tolerance", said_by("meniscus ubi, tolerance=0").splitlines()[0])
         self.assertIn("large_probe", said_by("meniscus_pockets ubi, large_probe=1").splitlines()[0])
         self.assertIn("no atoms in this state", said_by("meniscus_area ubi, state=7"))

@@ -2,7 +2,7 @@
 """The arrays of a molecule, with one row for each atom."""
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,7 +29,13 @@ SYMBOLS = np.array(("", *"""H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca S
 CLASSES = np.array(["polymer", "ligand", "water", "ion", "unclassified"])
 
 
-class _Column(np.ndarray):
+if TYPE_CHECKING:
+    _Array = np.ndarray[Any, Any]
+else:
+    _Array = np.ndarray
+
+
+class _Column(_Array):
     """An array that raises TypeError when texts are compared with numbers, because numpy says that no row is equal."""
 
     def _checked(self, other: Any) -> AnyArray:

@@ -69,7 +69,7 @@ def _of_run(path: Any, topology: Any, radii: Optional[Any], options: SurfaceOpti
             raise about_file(InputError, f"{name}: {os.fsdecode(file)}: No such file or directory", os.fsdecode(file))
     universe = analysis.Universe(os.fspath(topology), os.fspath(path))
     rows, part = first_of(opened(universe, "MDAnalysis", True), 1.0)._usual()
-    last = None
+    last: Any = None
     for _ in universe.trajectory:
         positions = universe.atoms.positions[rows]
         last = (surface(part._moved(positions), radii, **options) if last is None else

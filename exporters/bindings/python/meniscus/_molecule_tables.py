@@ -39,8 +39,8 @@ def atoms_of(molecule: Columns, rows: Iterable[int]) -> Iterator[Atom]:
     columns = [np.asarray(column)[chosen].tolist() for column in (
         molecule.names, molecule.elements, molecule.residue_names, molecule.residue_numbers, molecule.insertion_codes,
         molecule.chains, molecule.positions, molecule.radii)]
-    for row, (name, element, residue, number, code, chain, position, radius) in zip(chosen, zip(*columns)):
-        yield Atom(row, name, element, residue, number, code, chain, tuple(position), radius)
+    for row, (name, element, residue, number, code, chain, (x, y, z), radius) in zip(chosen, zip(*columns)):
+        yield Atom(row, name, element, residue, number, code, chain, (x, y, z), radius)
 
 
 def groups_of(molecule: Columns, by: str) -> tuple[AnyArray, AnyArray]:

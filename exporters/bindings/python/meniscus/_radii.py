@@ -36,7 +36,8 @@ def atomic_numbers(elements: Any) -> AnyArray:
         return values.astype(np.int64)
     distinct, places = np.unique(values.astype(np.str_), return_inverse=True)
     numbers = np.array([_element(str(symbol)) for symbol in distinct], dtype=np.int64)
-    return numbers[places.reshape(-1)] if len(numbers) else np.empty(0, np.int64)
+    found: AnyArray = numbers[places.reshape(-1)] if len(numbers) else np.empty(0, np.int64)
+    return found
 
 
 def radii_of(elements: Iterable[Union[str, int]]) -> Floats:
