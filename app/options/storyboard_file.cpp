@@ -38,7 +38,7 @@ std::optional<StoryboardFile> read_storyboard(const std::string& file) {
   StoryboardFile story;
   try {
     if (json[kVersionKey] != kVersion) throw InputError(file, 0, "storyboard: another version of Meniscus wrote it");
-    for (const Json& scene : json.at("scenes")) story.scenes.push_back(scene.dump());
+    for (const Json& scene : json.at("scenes").get_ref<const Json::array_t&>()) story.scenes.push_back(scene.dump());
     story.hold = json.value("hold", std::vector<double>());
     story.transition = json.value("transition", std::vector<double>());
   } catch (const Json::exception&) {
