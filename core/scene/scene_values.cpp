@@ -168,7 +168,9 @@ void scene_values::complete_lengths(Scene& scene) {
   scene.picture.width = size.x;
   scene.picture.height = size.y;
   constexpr double kBorder = 2.0 / 25.4;  // inches: 2 mm
-  scene.annotations.letters.border = static_cast<int>(std::lround(kBorder * scene.picture.dots_per_inch));
+  // In a tiny picture a twentieth of its side is enough.
+  scene.annotations.letters.border =
+      std::min(static_cast<int>(std::lround(kBorder * scene.picture.dots_per_inch)), std::min(size.x, size.y) / 20);
 }
 
 bool operator==(const Scene& one, const Scene& other) {

@@ -306,10 +306,10 @@ TEST_F(SceneFile, FaultsAreNamed) {
 // An option that is in neither list would be lost when a scene is saved.
 TEST_F(SceneFile, EveryOptionOfAPictureIsInScenesOrNamedAsLeftOut) {
   const std::set<std::string> beside{
-      "--device",      "--force",      "--help",    "--help-all",    "--jobs",        "--only",
-      "--progress",    "--provenance", "--quiet",   "--require-gpu", "--save-camera", "--save-scene",
-      "--scene",       "--set",        "--threads", "--verify",      "--warnings",    "--no-provenance",
-      "--trust-scene", "--draft",      "--resume",  "--look-into"};  // is saved as what it stands for
+      "--device",        "--force",       "--help",  "--help-all", "--jobs",        "--only",
+      "--progress",      "--provenance",  "--quiet", "--verbose",  "--require-gpu", "--save-camera",
+      "--save-scene",    "--scene",       "--set",   "--threads",  "--verify",      "--warnings",
+      "--no-provenance", "--trust-scene", "--draft", "--resume",   "--look-into"};  // is saved as what it stands for
   const std::string scenes = run({"help", "scenes"}).out;
   for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
            {"render", "--help-all"}, {"export", "povray", "--help-all"}, {"export", "blender", "--help-all"}}) {
