@@ -10,7 +10,7 @@
 #include <numeric>
 #include <set>
 #include <string_view>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -101,12 +101,12 @@ std::span<const ColorSchemeMetadata> color_schemes() { return kSchemes; }
 
 namespace {
 
-/// True if all polymers of a structure are one chain at one place.
+/// True if all polymers of a structure are one chain at one place, in each of its models, which may be frames.
 bool has_one_chain(const Structure& structure) {
-  std::set<std::tuple<std::int32_t, std::uint32_t, std::string_view>> chains;
+  std::set<std::pair<std::uint32_t, std::string_view>> chains;
   for (const std::vector<Atom>* const atoms : {&structure.atoms, &structure.extra_atoms})
     for (const Atom& atom : *atoms)
-      if (atom.kind == AtomClass::polymer) chains.emplace(atom.model, atom.copy, atom.chain);
+      if (atom.kind == AtomClass::polymer) chains.emplace(atom.copy, atom.chain);
   return chains.size() == 1 &&
          std::ranges::all_of(structure.instances, [](const Instances& placed) { return placed.motions.size() == 1; });
 }

@@ -97,12 +97,12 @@ TEST(Colors, AutoOfASingleChainRunsAlongIt) {
   ASSERT_TRUE(key.scale);
   EXPECT_EQ(key.scale->title, "place in the chain");
   EXPECT_EQ(key.scale->map, ColorMap::pastel);
-  // Copies, and models, are several chains.
+  // Copies are several chains. Models may be frames, each of which is coloured as it would be alone.
   structure.instances = {{{0, 1, 2, 3}, {RigidMotion(), RigidMotion()}}};
   EXPECT_EQ(colored("auto", structure).atom, colored("chain", structure).atom);
   structure.instances.clear();
   structure.atoms[3].model = 2;
-  EXPECT_EQ(colored("auto", structure).atom, colored("chain", structure).atom);
+  EXPECT_EQ(colored("auto", structure).atom, color_atoms(structure, along).atom);
 }
 
 TEST(Colors, ChainElementShowsChainsByTheCarbonOfPolymers) {
