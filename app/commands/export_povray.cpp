@@ -29,10 +29,13 @@ namespace meniscus {
 namespace {
 
 // Returns one table of colours for all frames: all colours that any rule can give to any atom. Nothing if each frame
-// needs a table of its own, because colours change from frame to frame, or objects have colours of their own.
+// needs a table of its own, because colours change from frame to frame, or objects have colours of their own. Places in
+// a chain are those among the atoms of a frame.
 std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& requested, const ColorScheme& scheme,
-                                                             const Structure& possible, const Coloring& extras) {
-  if (scheme.changes_with_frames() || requested.figure.hides_surface || !requested.figure.objects.empty() ||
+                                                             const Structure& possible, const Coloring& extras,
+                                                             bool atoms_change) {
+  if ((atoms_change && resolved_scheme(possible, scheme).uses(ColorScheme::By::rainbow)) ||
+      scheme.changes_with_frames() || requested.figure.hides_surface || !requested.figure.objects.empty() ||
       possible.companions == Companions::drawn)
     return {};
   const std::vector<glm::vec3> colors = run_colors(possible, scheme, extras);
@@ -67,7 +70,8 @@ povray::SequenceScene sequence_of(FigureRun& run, povray::SceneOptions options) 
   const ColoredShapes extras = shown_shapes(possible, figure.representations, scheme);
   const auto sees_through = [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; };
   povray::Run shared{run.frames().numbers(), run.framing().cameras,
-                     colors_of_run(requested, scheme, possible, extras.coloring), run.framing().extent.shown};
+                     colors_of_run(requested, scheme, possible, extras.coloring, run.frames().atoms_change()),
+                     run.framing().extent.shown};
   shared.surface = !figure.hides_surface;
   shared.shapes = !extras.empty();
   shared.caps = shared.surface && !figure.cuts.empty();
