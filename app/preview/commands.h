@@ -96,9 +96,9 @@ nlohmann::json property_choices();
 Outcome with_preset(PreviewState state, LookPreset preset, const Surroundings& around);
 
 /// Returns a scheme whose word and rules were chosen, with the numbers, the scale and the title that it has in this
-/// preview. keeps_scale: map, range and colour of missing numbers are those of before; else those that the preview
-/// began with, if it began with this scheme. Throws RequestError for a scheme that previews do not show, and for rules
-/// beside kinds of patch.
+/// preview. If `keeps_scale` is true, the scheme keeps its map, its range and its colour of missing numbers; else it
+/// gets those of the scheme that the preview began with, if that is the same one. Throws RequestError for a scheme that
+/// previews do not show, and for rules beside kinds of patch.
 ColorScheme previewed_scheme(ColorScheme chosen, const ColorScheme& before, const ColorScheme& first, bool keeps_scale);
 
 /// What the command "state" answers.

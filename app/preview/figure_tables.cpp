@@ -66,7 +66,7 @@ bool FigureTables::compute(const PreviewState& state, const ShownMolecule& molec
 
 void FigureTables::color(const Structure& structure, const PreviewState& state, const ShownMolecule& molecule) {
   Coloring& coloring = object_.coloring = molecule.coloring(state);
-  // Parts of a model count from 0, as those of all frames do.
+  // A page numbers the parts of each frame from 0, and a model's parts follow those of the models before it.
   const std::uint32_t first_part = coloring.part.empty() ? 0 : *std::ranges::min_element(coloring.part);
   for (std::uint32_t& part : coloring.part) part -= first_part;
   const MoleculeRequest& request = state.molecule;
@@ -76,7 +76,7 @@ void FigureTables::color(const Structure& structure, const PreviewState& state, 
 
 std::shared_ptr<const page::PackedFrame> FigureTables::packed(const PreviewState& state, const ShownMolecule& molecule,
                                                               const std::function<bool()>& stop) {
-  constexpr std::size_t kMostAtoms = 200'000;  // of which the tables have about 150 MB
+  constexpr std::size_t kMostAtoms = 200'000;  // their tables take about 150 MB
   if (!molecule.structure().instances.empty())
     throw RequestError("The browser cannot turn copies of one surface by itself; the program draws its pictures.");
   if (molecule.balls().size() > kMostAtoms)

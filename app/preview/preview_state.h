@@ -138,7 +138,7 @@ struct RenderedView {
 /// Returns the scene that `meniscus render` draws as this picture.
 Scene rendered_scene(const PreviewFigure& figure, const RenderedView& view);
 
-/// Returns a request for a look with these numbers. asked: has what is no number of a look.
+/// Returns a request for a look with these numbers. `asked` gives the values that are not numbers.
 LookRequest look_request(LookRequest asked, Look look, bool outlines_patches);
 
 }  // namespace meniscus

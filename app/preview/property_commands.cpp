@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command "set", which gives a property of the table another value, and what pages are told about properties.
+// Carries out the command "set", which gives a property another value, and lists the properties for pages.
 #include <algorithm>
 #include <string>
 #include <string_view>

@@ -2,7 +2,7 @@
 // Who draws the stage: this browser, from the figure's tables, or the program, whose pictures come. Both are timed, and the
 // faster one draws.
 
-const kTries = 4;      // drafts at most, of which the first compiles shaders
+const kTries = 4;      // the most drafts that are timed; the first one also compiles shaders
 const kPatience = 250;  // ms; a draft that takes longer is the last one that is timed
 const kSlow = 200;     // ms; a browser without a graphics card is timed only where the program's drafts take longer
 

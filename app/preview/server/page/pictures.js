@@ -12,7 +12,7 @@ export class Pictures {
   set_scheme() {}
   set_layers() {}
 
-  /// Of a ball around all atoms, in Å.
+  /// Returns the radius of a ball around all atoms, in Å.
   get radius() { return length(minus(this.state().high, this.state().low)) / 2; }
 
   /// Draws a picture, in the size in which it is shown. Returns its own width as a share of that.

@@ -126,7 +126,7 @@ function note_rest() {
 
 $("take").addEventListener("click", () => server.request("control"));
 
-// The camera, which moves here and is told to the program
+// The camera: the page moves it, and sends it to the program
 
 let told_text = "";   // the camera that both have
 let adopted = "";     // the program's, as it was told last
@@ -313,7 +313,7 @@ async function show_program_picture(message, bytes) {
   note_rest();
   canvas.dataset.pictures = String(Number(canvas.dataset.pictures ?? 0) + 1);
   show_stats(message.stats, message.full);
-  // What was told while the picture was being decoded is newer.
+  // A state that arrived while the picture was being decoded is newer than the picture's.
   if (told_states === before || message.state.revision > state.revision) apply_state(message.state);
   if (message.full || $("drawn-by").textContent === "") settle();
 }
