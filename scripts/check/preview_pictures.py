@@ -22,10 +22,8 @@ async def shoot_page(program, scene, target):
         async with Browser(shutil.which("chromium"), BROWSER) as page:
             await page.send("Page.navigate", url=preview.url)
             await page.at_rest(PATIENCE)
-            await page.evaluate("document.getElementById('figure').scrollIntoView()")
-            await asyncio.sleep(3)  # for the panel's chips
+            await asyncio.sleep(3)  # for the list of contents
             await page.at_rest(PATIENCE)
-            await page.evaluate("document.getElementById('speed').hidden = true")  # this machine's
             await page.screenshot(target)
 
 
