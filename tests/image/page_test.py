@@ -183,12 +183,12 @@ class Pages(unittest.TestCase):
         """Small letters keep them in pictures with a size on paper, and are nearer to the border in others."""
         written = ["--letter-color", "#00ff00", "--letter-size", "6", "--panel-size", "6", "--panel", "a", "--scale-bar", "5", "--title", "title", "--label", "resid 1=first",
                    "--projection", "orthographic", "--color", "element", "--background", "white"]
-        for paper in ([], ["--width", "32mm", "--dpi", "254"]):
+        for paper in ([], ["--width", "60mm", "--dpi", "254"]):
             for legend in ([], ["--legend", "--legend-place", "right"], ["--legend", "--legend-place", "below"]):
                 subprocess.run([PROGRAM, "render", "a.pdb", "-o", "border.png", "--force", "-q", "--samples", "1", "--device", "cpu",
                                 *(paper or ["--size", "320x240"]), *written, *legend], cwd=self.folder, check=True)
                 picture = pixels_of(self.folder / "border.png")
-                self.assertEqual(picture.shape[1], 320)
+                self.assertEqual(picture.shape[1], 600 if paper else 320)
                 rows, columns = numpy.nonzero((picture[..., 1] > 0.6) & (picture[..., 0] < 0.4) & (picture[..., 2] < 0.4))
                 gap = min(rows[0], picture.shape[0] - 1 - rows[-1], columns.min(), picture.shape[1] - 1 - columns.max())
                 if paper:

@@ -78,7 +78,7 @@ class Selecting(PageCase):
             await page.until("document.querySelectorAll('#letters [aria-pressed=true]').length === 99")
             self.assertEqual(await page.evaluate("document.querySelectorAll('#entries .recall[aria-pressed=true]').length"), 1)
             # Rings are where the atoms are: in the picture of the chain, not far from its pixels.
-            self.assertGreater(await page.evaluate("document.querySelectorAll('#rings circle').length"), 100)
+            await page.until("document.querySelectorAll('#rings circle').length > 100")
             # Shift adds, and takes away again.
             await self.click(page, x, y)
             await self.selected(page, atom)
