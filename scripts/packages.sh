@@ -7,7 +7,7 @@ build_packages=(
   libepoxy-dev libegl-dev libglm-dev libopenimageio-dev openimageio-tools libfreetype-dev gemmi-dev tao-pegtl-dev
   libcli11-dev libfmt-dev
   nlohmann-json3-dev libtbb-dev zlib1g-dev libdeflate-dev
-  libboost-dev libturbojpeg0-dev libhdf5-dev libssl-dev
+  libboost-dev libturbojpeg0-dev libhdf5-dev
 )
 # EGL and software GL, letters
 run_packages=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri fonts-liberation2 fonts-dejavu-core)

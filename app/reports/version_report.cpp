@@ -15,7 +15,6 @@
 #include <fmt/format.h>
 #include <glm/detail/setup.hpp>
 #include <nlohmann/detail/abi_macros.hpp>
-#include <openssl/crypto.h>
 #include <tbb/version.h>
 #include <libdeflate.h>
 #include <zlib.h>
@@ -58,12 +57,11 @@ std::string system_line() {
 
 std::string libraries_line() {
   return fmt::format(
-      "oneTBB {}, fmt {}.{}.{}, zlib {}, libdeflate {}, OpenSSL {}, GLM {}.{}.{}, CLI11 {}, JSON for Modern C++ "
+      "oneTBB {}, fmt {}.{}.{}, zlib {}, libdeflate {}, GLM {}.{}.{}, CLI11 {}, JSON for Modern C++ "
       "{}.{}.{}",
       TBB_runtime_version(), FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100, ::zlibVersion(),
-      LIBDEFLATE_VERSION_STRING, ::OpenSSL_version(OPENSSL_VERSION_STRING), GLM_VERSION_MAJOR, GLM_VERSION_MINOR,
-      GLM_VERSION_PATCH, CLI11_VERSION, NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
-      NLOHMANN_JSON_VERSION_PATCH);
+      LIBDEFLATE_VERSION_STRING, GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH, CLI11_VERSION,
+      NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH);
 }
 
 std::string gl_line() {

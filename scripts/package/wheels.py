@@ -42,7 +42,7 @@ PARTS = [("oneTBB", "Apache-2.0", "onetbb-*/LICENSE.txt"), ("FreeType", "FTL", "
          ("nlohmann-json", "MIT", "/usr/share/doc/nlohmann-json3-dev/copyright"),
          ("LLVM libc++", "Apache-2.0 WITH LLVM-exception", "../tools/lib/python3*/site-packages/ziglang-*.dist-info/licenses/ziglang/lib/libcxx/LICENSE.TXT")]
 #: Further ones, of the program meniscus.
-PARTS_OF_MENISCUS = [("OpenSSL", "Apache-2.0", "openssl-*/LICENSE.txt"), ("CLI11", "BSD-3-Clause", "/usr/share/doc/libcli11-dev/copyright")]
+PARTS_OF_MENISCUS = [("CLI11", "BSD-3-Clause", "/usr/share/doc/libcli11-dev/copyright")]
 
 
 def version():
