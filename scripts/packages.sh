@@ -26,6 +26,8 @@ test_packages=(python3-venv python3-pip libgtest-dev libbenchmark-dev glslang-to
   python3-rdkit rdkit-data python3-openbabel openbabel
   admesh tetgen python3-meshio assimp-utils python3-openvdb
   dpkg-dev lintian man-db mandoc zsh fish ruby nix-bin)
+# compilers of programs that use the library
+compiler_packages=(g++-11 clang-13 clang-15 clang-16 clang-19)
 fuzz_packages=(clang-14 libclang-rt-14-dev)
 # form, and a second compiler with sanitizers
 check_packages=("${fuzz_packages[@]}" clang-format-14 clang-tidy-14)
@@ -41,6 +43,7 @@ target_packages=(python3-venv python3-pip dpkg-dev qemu-user-static libc6-arm64-
 absent_packages=()
 if grep -qs '^VERSION_CODENAME=trixie' /etc/os-release; then
   absent_packages=(python3-prody python3-prody-tests "${check_packages[@]}")
+  compiler_packages=(g++-12 g++-13 clang-17 clang-18 clang-19)
 fi
 
 # install_packages NAME...: apt-get, only for what dpkg does not already have.

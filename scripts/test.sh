@@ -14,7 +14,7 @@ failed=()
 
 step "1/8 packages"
 install_packages "${build_packages[@]}" "${run_packages[@]}" "${film_packages[@]}" "${sample_packages[@]}" \
-  "${test_packages[@]}" "${check_packages[@]}"
+  "${test_packages[@]}" "${compiler_packages[@]}" "${check_packages[@]}"
 
 clang=$(command -v clang++-14) || echo "clang++-14 is not installed: steps 2, 5, 6 and 7 are left out"
 
