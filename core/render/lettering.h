@@ -9,7 +9,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,16 +26,8 @@ namespace meniscus {
 
 enum class Weight { regular, bold };
 
-/// A font file that was made part of the library when it was built.
-struct BuiltInFont {
-  std::string_view name, bytes;
-};
-
-/// Returns the files of Liberation Sans, regular and bold; none if they were missing when the library was built.
-std::span<const BuiltInFont> built_in_fonts();
-
-/// The font that a user chose. Both are empty for the default: the first one of Liberation Sans, which has the widths
-/// of Arial and is built in, DejaVu Sans and Noto Sans.
+/// The font that a user chose. Both are empty for the default: the first installed one of Liberation Sans, which has
+/// the widths of Arial, DejaVu Sans and Noto Sans.
 struct FontChoice {
   std::string family;  ///< name of an installed family
   std::string file;    ///< path of a .ttf or .otf file
@@ -44,13 +35,9 @@ struct FontChoice {
   auto operator<=>(const FontChoice&) const = default;
 };
 
-/// Returns the bytes of a font by FontProgram::file. Throws InputError if the file cannot be read.
-std::string font_bytes(const std::string& file);
-
 /// A font file with what pages say of it. Lengths are in thousandths of the height of its letters.
 struct FontProgram {
-  std::string file;  ///< path of the file, or "built-in:" and the name of a built-in font
-  std::string family, postscript_name;
+  std::string file, family, postscript_name;
   bool is_bold = false, is_cff = false;  ///< is_cff: its outlines are in the Compact Font Format
   bool may_be_embedded = true;           ///< false if its licence forbids to embed it
   std::array<int, 4> box{};              ///< left, bottom, right and top of the box that contains all letters
@@ -70,8 +57,8 @@ struct PlacedLetter {
 class Font {
  public:
   /// Opens a font. height: height of a line's letters, pixels. A bold weight is used if the font has one. Throws
-  /// RequestError if the chosen font does not exist or cannot be read, and if no font is built in or installed; the
-  /// message then names the package to install.
+  /// RequestError if the chosen font does not exist or cannot be read, and if no font is installed; the message then
+  /// names the package to install.
   explicit Font(int height, Weight weight = Weight::regular, const FontChoice& choice = {});
   Font(Font&&) noexcept;
   Font& operator=(Font&&) noexcept;
