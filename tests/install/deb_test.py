@@ -90,6 +90,31 @@ class DebianPackages(unittest.TestCase):
             for path in files:
                 self.assertEqual(owners.setdefault(path, name), name, path)
 
+    def unpacked(self, name):
+        """Returns the folder of the files of a package."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.assertEqual(run("dpkg-deb", "-x", self.packages[name], folder.name).returncode, 0)
+        return pathlib.Path(folder.name)
+
+    def test_the_licences_of_what_is_compiled_in_are_named(self):
+        for name in ("meniscus", "libmeniscus0"):
+            text = (self.unpacked(name) / f"usr/share/doc/{name}/copyright").read_text()
+            for words in ("Copyright (c) 2026, the Meniscus developers", "GNU General Public License", "gemmi-dev", "Mozilla Public License",
+                          "libcli11-dev", "libglm-dev", "nlohmann-json3-dev", "libdeflate-dev", "fonts-liberation2", "SIL O"):
+                self.assertIn(words.lower(), text.lower(), name)
+
+    def test_binaries_are_bound_at_start_and_do_not_know_the_build_folder(self):
+        for name in ("meniscus", "libmeniscus0"):
+            files = [path for path in self.unpacked(name).rglob("*") if path.is_file() and not path.is_symlink()]
+            binaries = [path for path in files if path.read_bytes()[:4] == b"\x7fELF"]
+            self.assertTrue(binaries, name)
+            for path in binaries:
+                dynamic = run("readelf", "-d", path).stdout
+                self.assertRegex(dynamic, r"BIND_NOW|Flags: .*NOW", path)
+                self.assertNotIn("RUNPATH", dynamic, path)
+                self.assertNotIn(str(BUILD).encode(), path.read_bytes(), path)
+
     def test_the_program_offers_itself_as_msms(self):
         for script, action in (("postinst", "--install /usr/bin/msms msms /usr/bin/meniscus-msms"),
                                ("prerm", "--remove msms /usr/bin/meniscus-msms")):
