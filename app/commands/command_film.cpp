@@ -24,8 +24,7 @@
 #include "core/base/progress.h"
 #include "core/base/text.h"
 #include "core/render/image_output.h"
-#include "core/scene/motion_blur.h"
-#include "core/scene/picture_device.h"
+#include "core/scene/renderers.h"
 #include "core/scene/transition.h"
 
 namespace meniscus {

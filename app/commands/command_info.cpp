@@ -16,12 +16,11 @@
 #include "app/commands/command_table.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
-#include "app/reports/file_report.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
-#include "core/structure/outside_polymer.h"
+#include "core/structure/residues.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 
 namespace meniscus {

@@ -20,7 +20,7 @@
 #include "core/render/image_output.h"
 #include "core/scene/frozen_selections.h"
 #include "core/scene/panel_page.h"
-#include "core/scene/picture_device.h"
+#include "core/scene/renderers.h"
 #include "core/scene/scene_lengths.h"
 #include "core/scene/scene_values.h"
 #include "core/structure/superposition.h"

@@ -18,16 +18,16 @@
 #include "core/base/text.h"
 #include "core/camera/camera_json.h"
 #include "core/queries/copies.h"
-#include "core/scene/context_areas.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/figure_key.h"
 #include "core/scene/frozen_selections.h"
+#include "core/scene/molecule.h"
 #include "core/scene/representations.h"
 #include "core/scene/scene_lengths.h"
 #include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/surface_computer.h"
-#include "core/structure/selection/places.h"
+#include "core/structure/selection/selection.h"
 
 namespace meniscus {
 

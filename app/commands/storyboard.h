@@ -13,7 +13,7 @@
 #include "app/commands/command_run.h"
 #include "app/commands/picture_sink.h"
 #include "app/options/scene_options.h"
-#include "core/scene/picture_device.h"
+#include "core/scene/renderers.h"
 #include "core/scene/scene_picture.h"
 #include "core/scene/transition.h"
 

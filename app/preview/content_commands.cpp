@@ -26,7 +26,7 @@
 #include "core/color/named_colors.h"
 #include "core/scene/cut.h"
 #include "core/scene/representations.h"
-#include "core/structure/residue_letters.h"
+#include "core/structure/residue_names.h"
 #include "core/structure/selection/selection_words.h"
 
 namespace meniscus {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cuts triangles, fills the section between them, and divides it among atoms.
-#include "core/mesh/cut_solid.h"
+#include "core/mesh/section_mesh.h"
 
 #include <algorithm>
 #include <cmath>

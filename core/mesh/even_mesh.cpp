@@ -16,12 +16,11 @@
 #include "core/base/error.h"
 #include "core/mesh/base_mesh.h"
 #include "core/mesh/creases.h"
-#include "core/mesh/even_sizes.h"
-#include "core/mesh/remesh_tuning.h"
+#include "core/mesh/mesh_change.h"
 #include "core/mesh/mesh_crossings.h"
 #include "core/mesh/mesh_mender.h"
 #include "core/mesh/mesh_nearness.h"
-#include "core/mesh/remesher.h"
+#include "core/mesh/remesh_tuning.h"
 
 namespace meniscus {
 

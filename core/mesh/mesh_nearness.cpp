@@ -12,7 +12,6 @@
 
 #include "core/mesh/compare_mesh.h"
 #include "core/mesh/creases.h"
-#include "core/mesh/even_sizes.h"
 #include "core/mesh/remesh_tuning.h"
 #include "core/mesh/tessellate.h"
 #include "core/surface/walks.h"

@@ -11,8 +11,8 @@
 #include <glm/vec3.hpp>
 
 #include "core/mesh/base_mesh.h"
-#include "core/mesh/even_sizes.h"
 #include "core/mesh/mesh_mender.h"
+#include "core/mesh/remesh_tuning.h"
 #include "core/queries/distance.h"
 
 namespace meniscus {

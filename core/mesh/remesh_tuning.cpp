@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Computes the wanted edge length and the tolerance at any place of a surface.
-#include "core/mesh/even_sizes.h"
+#include "core/mesh/remesh_tuning.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/mesh/remesh_tuning.h"
 
 namespace meniscus {
 namespace {

@@ -10,7 +10,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/mesh/cut_solid.h"
 #include "core/mesh/tessellate.h"
 #include "core/queries/copies.h"
 #include "core/queries/surface_object.h"

@@ -12,7 +12,7 @@
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/base/version.h"
-#include "core/render/page_encoder.h"
+#include "core/render/vector_page.h"
 
 namespace meniscus {
 namespace {

@@ -11,7 +11,6 @@
 #include "core/base/text.h"
 #include "core/color/color_schemes.h"
 #include "core/queries/copies.h"
-#include "core/scene/hidden_atoms.h"
 #include "core/scene/surface_computer.h"
 #include "core/scene/surface_objects.h"
 #include "core/structure/hydrogen_bonds.h"

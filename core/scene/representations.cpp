@@ -13,7 +13,6 @@
 #include "core/base/text.h"
 #include "core/color/color_schemes.h"
 #include "core/shapes/cartoon.h"
-#include "core/shapes/sugar_symbols.h"
 
 namespace meniscus {
 namespace {

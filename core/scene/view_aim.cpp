@@ -16,8 +16,8 @@
 #include "core/queries/copies.h"
 #include "core/render/annotation.h"
 #include "core/scene/copied_atoms.h"
-#include "core/scene/hidden_atoms.h"
 #include "core/scene/representations.h"
+#include "core/scene/surface_objects.h"
 #include "core/structure/superposition.h"
 
 namespace meniscus {

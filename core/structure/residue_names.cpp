@@ -11,7 +11,6 @@
 
 #include <gemmi/resinfo.hpp>
 
-#include "core/structure/residue_letters.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {

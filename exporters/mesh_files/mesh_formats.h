@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/base/output_file.h"
-#include "exporters/mesh_files/mesh_file.h"
+#include "exporters/mesh_files/writers.h"
 
 namespace meniscus {
 

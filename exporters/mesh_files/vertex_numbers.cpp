@@ -11,10 +11,9 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/mesh/mesh_attributes.h"
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/triangle_mesh.h"
-#include "core/queries/surface_point.h"
+#include "core/queries/surface_parts.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/structure.h"
 #include "core/surface/measure.h"

@@ -10,8 +10,8 @@
 #include "core/color/coloring.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/surface/primitives.h"
-#include "exporters/mesh_files/mesh_file.h"
 #include "exporters/mesh_files/mesh_formats.h"
+#include "exporters/mesh_files/writers.h"
 
 namespace meniscus {
 

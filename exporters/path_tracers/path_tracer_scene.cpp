@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Places the lights of a scene, and writes numbers as the shortest text that reads back the same.
-#include "exporters/path_tracers/lights.h"
+#include "exporters/path_tracers/path_tracer_scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -16,7 +16,6 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/version.h"
-#include "exporters/path_tracers/lights.h"
 
 namespace meniscus::path_tracers {
 namespace {

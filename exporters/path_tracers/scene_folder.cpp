@@ -21,7 +21,6 @@
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/mesh_objects.h"
 #include "exporters/mesh_files/writers.h"
-#include "exporters/path_tracers/lights.h"
 #include "exporters/path_tracers/path_tracer_scene.h"
 
 namespace meniscus::path_tracers {

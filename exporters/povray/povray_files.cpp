@@ -13,9 +13,8 @@
 
 #include "core/base/text.h"
 #include "core/base/version.h"
-#include "exporters/povray/scene_colors.h"
-#include "exporters/povray/scene_report.h"
 #include "exporters/povray/scene_text.h"
+#include "exporters/povray/surface_pieces.h"
 
 namespace meniscus::povray {
 namespace {

@@ -17,7 +17,7 @@
 #include "core/color/color_maps.h"
 #include "core/math/box.h"
 #include "exporters/povray/povray_options.h"
-#include "exporters/povray/scene_colors.h"
+#include "exporters/povray/scene_text.h"
 
 namespace meniscus::povray {
 

@@ -16,11 +16,10 @@
 #include "core/base/error.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
-#include "core/color/color_key_json.h"
+#include "core/color/color_key.h"
 #include "exporters/povray/povray_files.h"
-#include "exporters/povray/scene_colors.h"
-#include "exporters/povray/scene_report.h"
 #include "exporters/povray/scene_text.h"
+#include "exporters/povray/surface_pieces.h"
 
 namespace meniscus::povray {
 

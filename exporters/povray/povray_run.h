@@ -19,7 +19,7 @@
 #include "exporters/povray/povray_files.h"
 #include "exporters/povray/povray_options.h"
 #include "exporters/povray/povray_scene.h"
-#include "exporters/povray/scene_colors.h"
+#include "exporters/povray/scene_text.h"
 
 namespace meniscus::povray {
 

@@ -11,9 +11,9 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "exporters/povray/povray_files.h"
-#include "exporters/povray/scene_colors.h"
-#include "exporters/povray/scene_report.h"
 #include "exporters/povray/scene_shapes.h"
+#include "exporters/povray/scene_text.h"
+#include "exporters/povray/surface_pieces.h"
 
 namespace meniscus::povray {
 

@@ -19,8 +19,8 @@
 #include "core/queries/surface_object.h"
 #include "exporters/povray/povray_files.h"
 #include "exporters/povray/povray_options.h"
-#include "exporters/povray/scene_colors.h"
 #include "exporters/povray/scene_shapes.h"
+#include "exporters/povray/scene_text.h"
 #include "exporters/povray/surface_pieces.h"
 
 namespace meniscus::povray {

@@ -13,7 +13,7 @@
 #include "core/mesh/section_mesh.h"
 #include "core/queries/surface_object.h"
 #include "exporters/povray/povray_options.h"
-#include "exporters/povray/scene_colors.h"
+#include "exporters/povray/scene_text.h"
 
 namespace meniscus::povray {
 

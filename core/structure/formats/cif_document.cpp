@@ -122,4 +122,11 @@ gemmi::cif::Document parse_cif(const TextFile& file, const TakeAtomRows& take) {
   }
 }
 
+#ifndef MENISCUS_WITH_JSON
+gemmi::cif::Document read_binary_cif(const TextFile& file) {
+  throw InputError(file.path, 0,
+                   "is BinaryCIF, which this build does not read: it was made without nlohmann_json; give it as mmCIF");
+}
+#endif
+
 }  // namespace meniscus

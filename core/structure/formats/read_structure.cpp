@@ -17,8 +17,8 @@
 #include "core/structure/bonds.h"
 #include "core/structure/formats/added_files.h"
 #include "core/structure/martini.h"
-#include "core/structure/outside_polymer.h"
 #include "core/structure/plausibility.h"
+#include "core/structure/residues.h"
 #include "core/structure/secondary_structure.h"
 #include "core/structure/selection/selection.h"
 

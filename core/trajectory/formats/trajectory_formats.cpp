@@ -7,14 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "core/base/binary_file.h"
 #include "core/base/error.h"
-#include "core/base/gzip.h"
 #include "core/base/module_file.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/base/version.h"
 #include "core/structure/formats/structure_formats.h"
-#include "core/base/binary_file.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {
