@@ -8,7 +8,7 @@
 
 namespace meniscus::geometry {
 
-// The types of gpu_shaders/shared/lane.glsl, for one ray at a time.
+// The types of gpu_shaders/reduced_surface/precision.glsl, for one ray at a time.
 using truth = bool;
 using integer = int;
 template <typename T>
