@@ -9,9 +9,15 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <memory>
+#include <new>
 #include <span>
 #include <string_view>
 #include <utility>
+
+#ifdef MENISCUS_WITH_ZLIB
+#include <zlib.h>
+#endif
 
 #include <fmt/format.h>
 

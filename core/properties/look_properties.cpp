@@ -139,10 +139,9 @@ std::span<const Property> look_properties() {
 
 namespace {
 
-constexpr unsigned kShared = in_scene | in_bundle;
 constexpr std::string_view kLegend = "Legend", kLabels = "Labels";
 
-constexpr auto kTable = std::to_array<Property>({
+constexpr auto kAnnotationTable = std::to_array<Property>({
     flag("legend.shown", "--legend", "Show a legend of the colours, at the right or, in tall pictures, below")
         .with<&Property::label>("Legend")
         .in(kLegend, kShared | live | in_short_help),
@@ -223,6 +222,6 @@ constexpr auto kTable = std::to_array<Property>({
 
 }  // namespace
 
-std::span<const Property> annotation_properties() { return kTable; }
+std::span<const Property> annotation_properties() { return kAnnotationTable; }
 
 }  // namespace meniscus

@@ -137,10 +137,9 @@ std::span<const Property> picture_properties() { return kTable; }
 
 namespace {
 
-constexpr unsigned kShared = in_scene | in_bundle;
 constexpr std::string_view kFrames = "Frames", kMotion = "Alignment of frames", kFilm = "Film";
 
-constexpr auto kTable = std::to_array<Property>({
+constexpr auto kRunTable = std::to_array<Property>({
     file("frames.trajectories", "TRAJECTORY", "", "Trajectory files, the same as @trajectory@").in(kFrames, repeatable),
     file("frames.trajectory", "--trajectory", "PATH",
          "Trajectory: coordinates of the atoms of FILE, frame by frame. Repeatable: one after the other. Without "
@@ -235,6 +234,6 @@ constexpr auto kTable = std::to_array<Property>({
 
 }  // namespace
 
-std::span<const Property> frame_properties() { return kTable; }
+std::span<const Property> frame_properties() { return kRunTable; }
 
 }  // namespace meniscus

@@ -221,7 +221,7 @@ namespace {
 
 constexpr std::string_view kMesh = "Mesh", kOutput = "Output", kScene = "Scene";
 
-constexpr auto kTable = std::to_array<Property>({
+constexpr auto kMeshTable = std::to_array<Property>({
     number("mesh.tolerance", "--tolerance", "Å", "Largest distance between mesh and surface, in Å")
         .from(1e-5, 1)
         .in(kMesh, in_scene | in_bundle | in_short_help),
@@ -282,6 +282,6 @@ constexpr auto kTable = std::to_array<Property>({
 
 }  // namespace
 
-std::span<const Property> mesh_properties() { return kTable; }
+std::span<const Property> mesh_properties() { return kMeshTable; }
 
 }  // namespace meniscus

@@ -453,8 +453,6 @@ const Reader kBinaryCifReader{
 
 namespace {
 
-namespace cif = gemmi::cif;
-
 constexpr std::size_t kMostMotions = 1'000'000;  // of all assemblies of a file
 
 std::map<std::string, RigidMotion> operators_of(const TextFile& file, cif::Block& block) {

@@ -349,7 +349,7 @@ bool read_trailing_columns(const TextFile& file, std::size_t number, std::string
 }
 
 /// True if most records have a charge. PDB has text or nothing in these columns.
-bool recognizes(std::string_view text) {
+bool recognizes_pdbqt(std::string_view text) {
   constexpr std::size_t kEnough = 100;
   std::size_t records = 0, charged = 0;
   LineReader lines(text);
@@ -363,7 +363,7 @@ bool recognizes(std::string_view text) {
   return charged > 0 && 2 * charged >= records;
 }
 
-FileContents read(const TextFile& file, const ModelChoice& models) {
+FileContents read_pdbqt(const TextFile& file, const ModelChoice& models) {
   return read_pdb(file, models, read_trailing_columns);
 }
 
@@ -374,7 +374,7 @@ const Reader kPdbqtReader{
      "AutoDock 4.2 User Guide, appendix; autodock-vina.readthedocs.io",
      "what is read of PDB; partial charges, elements by AutoDock's types; BRANCH names bonds, others are found by "
      "distance; each MODEL (pose) is a model"},
-    recognizes,
-    read};
+    recognizes_pdbqt,
+    read_pdbqt};
 
 }  // namespace meniscus

@@ -258,7 +258,7 @@ std::vector<std::string_view> fields_before_comment(std::string_view line) {
   return fields_of(line.substr(0, line.find('#')), 7);
 }
 
-bool recognizes(std::string_view text) {
+bool recognizes_xyzr(std::string_view text) {
   LineReader lines(text);
   for (std::string_view line; lines.next(line);) {
     const std::vector<std::string_view> fields = fields_before_comment(line);
@@ -271,7 +271,7 @@ bool recognizes(std::string_view text) {
   return false;
 }
 
-FileContents read(const TextFile& file, const ModelChoice& models) {
+FileContents read_xyzr(const TextFile& file, const ModelChoice& models) {
   FileContents contents;
   contents.models = 1;
   contents.radii = FileRadii::usual;
@@ -314,7 +314,7 @@ FileContents read(const TextFile& file, const ModelChoice& models) {
 const Reader kXyzrReader{
     {"XYZR", ".xyzr", "balls: centre and radius in Å, one a line", "Sanner, Olson & Spehner 1996 (input of MSMS)",
      "x y z radius [[1] name]; # begins a comment; radii as they are"},
-    recognizes,
-    read};
+    recognizes_xyzr,
+    read_xyzr};
 
 }  // namespace meniscus
