@@ -58,7 +58,6 @@ rows=(
   "schedulers|files of docs/reference/schedulers.md in HTCondor's, Kubernetes', AWS' and OpenJD's own code, and in Nextflow|bash scripts/check/schedulers.sh build/test/meniscus"
   "meshes|PyPI's PyMOL and PyVOL; mesh files in OpenUSD, PrusaSlicer, VTK and Khronos' glTF validator|bash scripts/check/more_mesh_readers.sh build/test/meniscus"
   "renderers|scenes for path tracers in Mitsuba 3 itself, from PyPI, beside the ray caster|bash scripts/check/film_renderers.sh build/test/meniscus"
-  "peers|areas beside those of FreeSASA, GROMACS, MDTraj and PyMOL|bash scripts/measure/compare_peers.sh build/test/meniscus"
   "faults|calls that fail, full disks, kills, other writers|ctest --test-dir build/test -L fault --timeout 1800 -j $jobs"
   "ligands|how much of the ligands of Debian's complexes is seen behind a cut that finds itself|/usr/bin/python3 tests/image/seen_ligands.py build/test/meniscus"
   "packages|the Debian packages in a bare Debian 12: installed, used, taken away|bash scripts/package/try_package.sh"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A molecule with its surface and colours, the share of it that a volume map covers, and its areas in the presence of
-// other atoms.
+// A molecule with its surface and colours, the share of the surface that a volume map covers, and areas in the
+// presence of other atoms.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parameters that the host passes to kernels, as uniform blocks of GLSL and structs of C++, and records that both
-// exchange (core/gpu/kernel_records.h says how). Those of ray casting and shading, which pages in a browser have, too,
-// are in ray_cast/parameters.glsl and look/parameters.glsl.
+// exchange (core/gpu/kernel_records.h says how). The parameters of ray casting and shading, which pages in a browser
+// have, too, are in ray_cast/parameters.glsl and look/parameters.glsl.
 #ifndef MENISCUS_SHARED_PARAMETERS_GLSL
 #define MENISCUS_SHARED_PARAMETERS_GLSL
 

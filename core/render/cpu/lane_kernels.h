@@ -216,8 +216,8 @@ const LaneKernels* kernels_of_16_lanes();
 const LaneKernels& widest_kernels(int most_lanes);
 
 #if defined(__x86_64__)
-// Which wide instructions this processor has; not every compiler's runtime has the function for it
-// (__builtin_cpu_supports).
+// The wide instructions of this processor are found here, because not every compiler's runtime has
+// __builtin_cpu_supports().
 
 /// Bits of EBX in leaf 7 of CPUID (Intel, Software Developer's Manual, volume 2A).
 inline constexpr unsigned kAvx2 = 1u << 5;

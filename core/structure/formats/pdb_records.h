@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records of PDB files: atoms, also those of PQR, models, bonds and boxes that several readers share, the reader of PDB
-// text, and a writer of models.
+// Records of PDB and PQR files: atoms, models, bonds and boxes that several readers share, the reader of PDB text, and a
+// writer of models.
 #pragma once
 
 #include <array>
