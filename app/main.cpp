@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program `meniscus`: reads the command line, and runs the command.
-#include <algorithm>
-#include <array>
 #include <cstdlib>
-#include <exception>
-#include <filesystem>
 #include <iostream>
 #include <iterator>
-#include <span>
 #include <sstream>
-#include <string>
-#include <string_view>
 #include <system_error>
-#include <vector>
 
 #include <CLI/Version.hpp>
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <glm/detail/setup.hpp>
 #include <libdeflate.h>

@@ -2,18 +2,9 @@
 // `meniscus farm` and `meniscus work`: bundle a command on frames, make its frames, verify them; and the properties of
 // bundles and workers.
 
-#include <algorithm>
 #include <cstdlib>
-#include <filesystem>
-#include <initializer_list>
 #include <iostream>
-#include <iterator>
-#include <memory>
-#include <optional>
-#include <set>
-#include <vector>
 
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
 

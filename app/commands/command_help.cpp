@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus help NAME`: shows a page of the manual, the help of a command, or what speaks of a word or its synonyms;
 // writes man pages.
-#include <algorithm>
 #include <cctype>
 #include <iostream>
-#include <map>
-#include <memory>
-#include <set>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
 

@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus info`: shows the contents of a file and the atoms that a surface would use; frames and times of
 // trajectories.
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <iostream>
-#include <limits>
-#include <map>
-#include <memory>
 #include <tuple>
 
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 
 #include "app/commands/command_table.h"

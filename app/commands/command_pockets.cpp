@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus pockets`: finds pockets of a molecule or of the frames of a run, and writes their tables.
-#include <algorithm>
 #include <iostream>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"

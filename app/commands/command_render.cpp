@@ -1,18 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus render`: ray casts the analytic surface of a molecule into a picture, or each frame of a run into pictures
 // or a film.
-#include <algorithm>
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <unordered_map>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"

@@ -2,15 +2,6 @@
 // Reads molecules and runs, and hands their structures or figures to a command.
 #include "app/commands/command_run.h"
 
-#include <algorithm>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <unistd.h>
 
 #include "app/process/program_main.h"

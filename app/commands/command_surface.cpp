@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus surface`: computes the complete surface and writes its numbers.
 
-#include <algorithm>
 #include <iostream>
 #include <iterator>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"

@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export page`: writes one HTML file in which readers turn the exact surface.
-#include <algorithm>
-#include <filesystem>
 #include <iostream>
-#include <memory>
-#include <optional>
-#include <string>
 #include <system_error>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
@@ -86,7 +77,6 @@ void named(const std::string& name, const Work& work) {
     throw RequestError(fmt::format("--named-view {}: {}", in_quotes(name), error.what()));
   }
 }
-
 
 NamedViews::NamedViews(const std::vector<std::string>& texts, const SceneCommand& page, bool trusts_scenes) {
   const auto refuse = [](const std::string& text, const std::string& why) {

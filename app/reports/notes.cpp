@@ -2,18 +2,11 @@
 // Prints notes for people, one line per fact, none if quiet; and assemblies, frames and boxes of files.
 #include "app/reports/notes.h"
 
-#include <algorithm>
-#include <cmath>
 #include <iostream>
-#include <memory>
 #include <numbers>
-#include <string>
-#include <utility>
 
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
-#include <glm/geometric.hpp>
 #include <unistd.h>
 
 #include "app/options/scene_options.h"

@@ -2,12 +2,6 @@
 // The notes that a command prints on standard error, and what a molecule file and a trajectory contain.
 #pragma once
 
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "app/options/scene_options.h"
 #include "core/base/progress.h"
 #include "core/scene/frame_run.h"

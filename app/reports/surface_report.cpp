@@ -2,14 +2,7 @@
 // Writes the numbers of a surface and of its patches as text and JSON, and lays out axes, ticks and curves of plots.
 #include "app/reports/surface_report.h"
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <numeric>
-#include <utility>
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "app/reports/csv_tables.h"
 #include "core/base/text.h"

@@ -2,12 +2,6 @@
 // Numbers of a surface and of its patches as text and JSON, and series over the frames of a run as curves in an SVG.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include <nlohmann/json.hpp>
 
 #include "app/reports/csv_tables.h"

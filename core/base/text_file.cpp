@@ -2,24 +2,15 @@
 // Reads and checks text files, splits them into lines, fields and cells, and parses the numbers in them.
 #include "core/base/text_file.h"
 
-#include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstddef>
-#include <cstring>
 #include <limits>
 #include <memory>
 #include <new>
-#include <span>
-#include <string_view>
-#include <utility>
 
 #ifdef MENISCUS_WITH_ZLIB
 #include <zlib.h>
 #endif
-
-#include <fmt/format.h>
 
 #include "core/base/binary_file.h"
 #include "core/base/error.h"

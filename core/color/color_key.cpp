@@ -2,15 +2,9 @@
 // Makes the key of what a picture shows from its schemes, and writes it as JSON.
 #include "core/color/color_key.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <set>
-#include <span>
-#include <utility>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/system_file.h"

@@ -3,13 +3,6 @@
 // JSON.
 #pragma once
 
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/color/color_maps.h"

@@ -2,15 +2,8 @@
 // Compute kernels: compiled from the embedded shaders, cached, started with any number of groups, and timed in stages.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <vector>
 
 #include "core/base/progress.h"
 #include "core/gpu/buffer.h"

@@ -2,19 +2,10 @@
 // Cuts triangles, fills the section between them, and divides it among atoms.
 #include "core/mesh/section_mesh.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <optional>
-#include <span>
 #include <tuple>
 #include <unordered_map>
-#include <utility>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 
 #include "core/base/error.h"
 #include "core/mesh/planar_triangulation.h"

@@ -2,15 +2,9 @@
 // Makes even meshes: remeshes a base mesh in rounds, then shortens edges wherever the result is not as promised.
 #include "core/mesh/even_mesh.h"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
 #include <set>
-#include <span>
-#include <utility>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"

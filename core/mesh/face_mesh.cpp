@@ -3,13 +3,8 @@
 // Delaunay triangulation until it is within the tolerance.
 #include "core/mesh/face_mesh.h"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/mesh/planar_triangulation.h"

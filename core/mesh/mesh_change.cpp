@@ -3,13 +3,6 @@
 // collapses, flips and moves them.
 #include "core/mesh/mesh_change.h"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <utility>
-#include <vector>
-
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/mesh/remesh_tuning.h"

@@ -3,13 +3,6 @@
 // and make triangles even.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/mesh/mesh_on_surface.h"
 
 namespace meniscus {

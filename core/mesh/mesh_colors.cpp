@@ -3,20 +3,10 @@
 // its vertices, and the part of the sky that they see.
 #include "core/mesh/mesh_colors.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
 #include <numbers>
-#include <numeric>
 #include <tuple>
-#include <utility>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"

@@ -3,12 +3,6 @@
 // points on caps.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/color/coloring.h"
 #include "core/math/ball.h"
 #include "core/queries/surface_parts.h"

@@ -2,11 +2,6 @@
 // Computes the wanted edge length and the tolerance at any place of a surface.
 #include "core/mesh/remesh_tuning.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-
 namespace meniscus {
 namespace {
 

@@ -3,14 +3,6 @@
 // and distances from the surface.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/mesh/surface_walk.h"
 
 namespace meniscus {

@@ -3,13 +3,6 @@
 // mesh.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/queries/surface_object.h"

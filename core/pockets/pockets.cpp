@@ -3,20 +3,8 @@
 // make and their mouths.
 #include "core/pockets/pockets.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <functional>
 #include <iterator>
-#include <limits>
-#include <numbers>
-#include <numeric>
-#include <span>
-#include <utility>
-#include <vector>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <tbb/parallel_for.h>
 

@@ -3,15 +3,7 @@
 // one rolls over.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
 #include <string>
-#include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/base/constants.h"
 #include "core/math/box.h"

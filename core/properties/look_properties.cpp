@@ -3,9 +3,6 @@
 // annotations in a picture.
 
 #include <array>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -3,11 +3,7 @@
 #include "core/queries/surface_object.h"
 #include "core/surface/primitives.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 namespace meniscus {
 namespace {

@@ -3,10 +3,6 @@
 // the same atoms.
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "core/color/coloring.h"
 #include "core/math/rigid_motion.h"
 #include "core/shapes/shapes.h"

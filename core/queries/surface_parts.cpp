@@ -3,21 +3,10 @@
 // of points in closed form.
 #include "core/queries/surface_parts.h"
 
-#include <algorithm>
-#include <array>
 #include <cassert>
-#include <cmath>
 #include <initializer_list>
 #include <iterator>
-#include <map>
 #include <numbers>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "core/math/double_geometry.h"
 #include "core/math/union_find.h"

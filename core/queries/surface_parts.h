@@ -3,12 +3,6 @@
 // the curvature at a point.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/surface/primitives.h"
 
 namespace meniscus {

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes PDF pages.
-#include <array>
 #include <cctype>
-#include <cmath>
-#include <map>
 
-#include <fmt/format.h>
 #include <zlib.h>
 
 #include "core/base/error.h"

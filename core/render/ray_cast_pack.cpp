@@ -2,16 +2,10 @@
 // Packs patches and shapes with their bounds; every number is computed in double and rounded once.
 #include "core/render/ray_cast_pack.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
-#include <span>
-#include <utility>
 
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 

@@ -2,8 +2,6 @@
 // The ray caster's geometry functions, compiled for C++ in double precision: the same formulas as on the GPU.
 #pragma once
 
-#include <cmath>
-
 #include "core/math/double_geometry.h"
 
 namespace meniscus::geometry {

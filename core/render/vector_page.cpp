@@ -2,11 +2,7 @@
 // Turns annotations and legends into shapes of a page, passes them to the writer of its format, and writes SVG pages.
 #include "core/render/vector_page.h"
 
-#include <algorithm>
 #include <cctype>
-#include <optional>
-#include <string_view>
-#include <utility>
 
 #include "core/base/system_file.h"
 #include "core/base/text.h"

@@ -2,20 +2,6 @@
 // Pictures as pages, SVG and PDF: the molecule in pixels, and over it bars and lines as paths, and letters as text.
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <fmt/format.h>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
 #include "core/base/output_file.h"
 #include "core/render/annotation.h"
 #include "core/render/image_output.h"

@@ -2,11 +2,6 @@
 // Takes the atoms of each object by their marks, and computes its surface as if they were alone.
 #include "core/scene/figure_object.h"
 
-#include <utility>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
-
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_schemes.h"

@@ -2,16 +2,9 @@
 // Turns a request into prepared frames.
 #include "core/scene/frame_run.h"
 
-#include <algorithm>
-#include <cmath>
 #include <charconv>
 #include <iterator>
-#include <unordered_map>
 #include <unordered_set>
-#include <utility>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -2,10 +2,6 @@
 // Finds values without effect by a table of what each of them needs.
 #include "core/scene/scene_values.h"
 
-#include <algorithm>
-#include <filesystem>
-
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/base/system_file.h"

@@ -2,17 +2,6 @@
 // Makes molecules from files, measures what volume maps cover, and computes areas that surroundings bury.
 #include "core/scene/molecule.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <memory>
-#include <numbers>
-#include <unordered_map>
-#include <utility>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
-
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"

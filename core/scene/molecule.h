@@ -3,13 +3,6 @@
 // presence of other atoms.
 #pragma once
 
-#include <cstddef>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "core/base/progress.h"
 #include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"

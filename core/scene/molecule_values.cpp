@@ -2,14 +2,9 @@
 // Binds the values of the molecule, of its surface, colours and cuts, of runs of frames and of films, and completes
 // those that depend on each other.
 
-#include <array>
 #include <charconv>
-#include <optional>
-#include <utility>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
 #include "core/base/text_file.h"

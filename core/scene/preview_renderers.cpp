@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Draws previews on the CPU, from computed surfaces and copies of them, copies as atoms by any renderer, and views on
 // GL.
-#include <algorithm>
 #include <cassert>
-#include <functional>
-#include <memory>
-#include <utility>
-#include <vector>
 
 #include "core/base/progress.h"
 #include "core/queries/surface_object.h"

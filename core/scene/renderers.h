@@ -3,16 +3,6 @@
 // each view of a preview needs. Also the choice of the device of pictures.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <glm/vec2.hpp>
-
 #include "core/base/progress.h"
 #include "core/gpu/egl_context.h"
 #include "core/math/ball.h"

@@ -3,13 +3,8 @@
 #include "core/scene/scene_lengths.h"
 #include "core/scene/scene_values.h"
 
-#include <algorithm>
-#include <array>
 #include <cctype>
-#include <cmath>
-#include <map>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/base/text.h"

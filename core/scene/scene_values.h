@@ -4,12 +4,7 @@
 #pragma once
 
 #include <concepts>
-#include <functional>
 #include <initializer_list>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "core/base/error.h"
 #include "core/properties/presets.h"

@@ -5,11 +5,6 @@
 // Richards 1971).
 #include "core/scene/surface_computer.h"
 
-#include <algorithm>
-#include <cstddef>
-
-#include <fmt/format.h>
-
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/gpu/egl_context.h"

@@ -2,15 +2,7 @@
 // Computes additional surfaces, and marks atoms as hidden for renderers and exporters.
 #include "core/scene/surface_objects.h"
 
-#include <algorithm>
-#include <map>
 #include <numeric>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -2,9 +2,6 @@
 // Surfaces drawn in addition to that of the molecule, and atoms whose surface is hidden.
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "core/queries/surface_object.h"
 #include "core/scene/surface_computer.h"
 #include "core/structure/selection/selection.h"

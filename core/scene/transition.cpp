@@ -2,18 +2,8 @@
 // Interpolates figures of a film, and averages pictures over the time of a frame.
 #include "core/scene/transition.h"
 
-#include <algorithm>
-#include <array>
 #include <cassert>
-#include <cmath>
-#include <cstddef>
-#include <limits>
 #include <numbers>
-#include <string_view>
-#include <utility>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -2,16 +2,6 @@
 // Pictures between two figures of a film, and the mean of pictures while the shutter is open.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <span>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/camera/camera.h"
 #include "core/gpu/egl_context.h"
 #include "core/render/picture.h"

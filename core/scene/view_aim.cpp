@@ -2,13 +2,8 @@
 // Chooses the balls that a camera is aimed at.
 #include "core/scene/view_aim.h"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <numbers>
-#include <string_view>
 #include <tuple>
-#include <unordered_map>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -3,10 +3,6 @@
 // sugars as the solid symbols of the SNFG.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "core/shapes/shapes.h"
 
 namespace meniscus {

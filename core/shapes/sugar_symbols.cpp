@@ -3,13 +3,8 @@
 #include "core/shapes/cartoon.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <optional>
-#include <span>
-#include <utility>
 
 #include <glm/geometric.hpp>
 

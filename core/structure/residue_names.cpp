@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <map>
 #include <set>
-#include <string_view>
-#include <utility>
 
 #include <gemmi/resinfo.hpp>
 

@@ -3,22 +3,9 @@
 // and ions from polymers.
 #include "core/structure/residues.h"
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <map>
 #include <set>
-#include <string>
 #include <tuple>
-#include <unordered_map>
-#include <utility>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
 
 #include "core/base/text.h"
 #include "core/math/ball.h"

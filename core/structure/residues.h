@@ -3,13 +3,8 @@
 // between residues, their accessibility, and the molecules that do not belong to polymers.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
 #include <string_view>
 #include <unordered_map>
-#include <vector>
 
 #include "core/structure/structure.h"
 

@@ -3,16 +3,9 @@
 // corrects one distance after another until the bonds have their lengths.
 #include "core/trajectory/morph.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <functional>
 #include <numeric>
 #include <queue>
-#include <utility>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

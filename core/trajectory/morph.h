@@ -3,15 +3,7 @@
 // one frame to the next.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <string>
-#include <vector>
-
 #include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
 
 #include "core/math/rigid_motion.h"
 #include "core/structure/structure.h"

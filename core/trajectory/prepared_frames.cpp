@@ -4,15 +4,10 @@
 #include "core/trajectory/prepared_frames.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 #include <tuple>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <gemmi/elem.hpp>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

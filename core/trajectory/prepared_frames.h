@@ -4,20 +4,10 @@
 #pragma once
 
 #include <condition_variable>
-#include <cstdint>
 #include <deque>
 #include <exception>
-#include <functional>
 #include <mutex>
-#include <optional>
-#include <span>
-#include <string>
 #include <thread>
-#include <utility>
-#include <vector>
-
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
 
 #include "core/structure/structure.h"
 #include "core/trajectory/morph.h"

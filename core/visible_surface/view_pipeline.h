@@ -3,11 +3,6 @@
 // to primitives.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "core/gpu/buffer.h"
 #include "core/gpu/kernel_lists.h"
 #include "core/gpu/kernel_records.h"

@@ -6,17 +6,11 @@
 // gemmi reads them, too, but in the other byte order only floats, and it trusts the header's sizes.
 #include "core/volume/volume_grid.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <numbers>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -2,15 +2,7 @@
 // A scalar field on a regular grid in space, such as an electrostatic potential, and its files.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
 
 #include "core/base/text_file.h"
 #include "core/math/box.h"

@@ -3,13 +3,6 @@
 // solid.
 #pragma once
 
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/mesh/mesh_objects.h"
 #include "core/mesh/weld.h"
 #include "core/queries/surface_object.h"

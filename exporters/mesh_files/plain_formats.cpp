@@ -2,15 +2,9 @@
 // Writes mesh formats without structure of their own: OBJ, OFF, smesh, DMS and scripts for PyMOL as text, PLY as text
 // and binary, STL, and VTP, whose XML gives the offset of each array.
 
-#include <algorithm>
-#include <array>
 #include <cctype>
-#include <cmath>
-#include <limits>
 
 #include <fmt/compile.h>
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/surface/primitives.h"

@@ -2,13 +2,6 @@
 // Fills the columns of numbers that vertices of a mesh file may have.
 #include "exporters/mesh_files/vertex_numbers.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
-#include <fmt/format.h>
-
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/mesh/mesh_colors.h"

@@ -9,19 +9,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <iterator>
-#include <span>
-#include <string>
-#include <string_view>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
-#include <fmt/format.h>
-#include <glm/vec3.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/base/output_file.h"

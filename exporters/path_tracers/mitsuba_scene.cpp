@@ -3,12 +3,8 @@
 #include "exporters/path_tracers/path_tracer_scene.h"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 #include <numbers>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

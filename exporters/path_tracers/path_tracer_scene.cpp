@@ -2,12 +2,7 @@
 // Places the lights of a scene, and writes numbers as the shortest text that reads back the same.
 #include "exporters/path_tracers/path_tracer_scene.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/math/box.h"

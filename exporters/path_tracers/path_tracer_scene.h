@@ -6,11 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/camera/camera.h"
 #include "core/math/rigid_motion.h"

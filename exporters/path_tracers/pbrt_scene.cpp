@@ -4,13 +4,8 @@
 #include "exporters/path_tracers/path_tracer_scene.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <numbers>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

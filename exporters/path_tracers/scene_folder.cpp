@@ -2,19 +2,8 @@
 // Makes the items of a scene from surfaces and shapes, and writes the scene and its meshes, all or none.
 #include "exporters/path_tracers/scene_folder.h"
 
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <optional>
-#include <string>
 #include <tuple>
 #include <unordered_map>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/image/color_space.h"

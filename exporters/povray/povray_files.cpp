@@ -3,13 +3,7 @@
 // own scene.
 #include "exporters/povray/povray_files.h"
 
-#include <algorithm>
-#include <cmath>
 #include <set>
-#include <vector>
-
-#include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include "core/base/text.h"
 #include "core/base/version.h"

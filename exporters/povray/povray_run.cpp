@@ -3,13 +3,8 @@
 // pictures.
 #include "exporters/povray/povray_run.h"
 
-#include <algorithm>
-#include <array>
 #include <iterator>
-#include <string_view>
-#include <utility>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 

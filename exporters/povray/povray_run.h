@@ -3,16 +3,6 @@
 // film of its pictures.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/camera/camera.h"
 #include "core/color/color_maps.h"
 #include "core/math/box.h"

@@ -2,12 +2,6 @@
 // Checks what goes into a scene, gathers its colours in one order, and writes its folder.
 #include "exporters/povray/povray_scene.h"
 
-#include <array>
-#include <string>
-#include <string_view>
-
-#include <fmt/format.h>
-
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "exporters/povray/povray_files.h"

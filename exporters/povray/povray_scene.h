@@ -2,17 +2,7 @@
 // A folder with a POV-Ray 3.7 scene of surfaces: the analytic patches themselves, never triangles.
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
-#include <functional>
 #include <list>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/base/output_file.h"
 #include "core/camera/camera.h"

@@ -2,12 +2,6 @@
 // Caps of cut surfaces as flat meshes, and spheres, cylinders and meshes drawn in addition to surfaces.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/base/output_file.h"
 #include "core/camera/camera.h"
 #include "core/mesh/section_mesh.h"

@@ -3,17 +3,7 @@
 // volume maps as density files.
 #include "exporters/povray/scene_text.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <iterator>
-#include <limits>
-#include <span>
-#include <string>
-#include <tuple>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

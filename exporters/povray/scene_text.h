@@ -3,17 +3,7 @@
 // their pieces of patches, comments that name them, and volume maps.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 #include <tuple>
-#include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/base/text.h"
 #include "core/color/color_key.h"

@@ -3,14 +3,8 @@
 // their copies, and composes notes for the report of a scene.
 #include "exporters/povray/surface_pieces.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <utility>
 
-#include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"

@@ -3,16 +3,6 @@
 // the places of copies, and checks of scenes before and after they are written.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/base/output_file.h"
 #include "core/camera/camera.h"
 #include "core/color/color_key.h"

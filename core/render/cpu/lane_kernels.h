@@ -5,13 +5,9 @@
 
 #include <bit>
 #include <cmath>
-#include <cstdint>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 
 #if defined(__x86_64__)
 #include <cpuid.h>

@@ -2,19 +2,9 @@
 // Draws balls into the depths of samples, then tests clusters of patches, then patches, of one copy after another.
 #include "core/render/cpu/visible_copies.h"
 
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <bit>
-#include <cmath>
 #include <iterator>
-#include <limits>
-#include <utility>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include "core/base/progress.h"

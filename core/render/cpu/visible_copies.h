@@ -8,16 +8,6 @@
 // copies, to the bit.
 #pragma once
 
-#include <atomic>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
 #include "core/math/ball.h"
 #include "core/math/double_geometry.h"
 #include "core/queries/surface_object.h"

@@ -3,11 +3,8 @@
 #include "core/structure/formats/cif_document.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <new>
-#include <string>
-#include <string_view>
 
 #include <gemmi/cif.hpp>
 

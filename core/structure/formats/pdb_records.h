@@ -1,19 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records of PDB and PQR files: atoms, models, bonds and boxes that several readers share, the reader of PDB text, and a
-// writer of models.
+// Records of PDB and PQR files: atoms, models, bonds and boxes that several readers share, the reader of PDB text, and
+// a writer of models.
 #pragma once
-
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/base/output_file.h"
 #include "core/structure/formats/structure_formats.h"

@@ -3,17 +3,9 @@
 // chains (label_asym_id).
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <string>
-#include <unordered_map>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <gemmi/cifdoc.hpp>
 #include <gemmi/elem.hpp>
 #include <gemmi/numb.hpp>

@@ -5,13 +5,10 @@
 // No library does both and keeps the order of the file and residues whose numbers wrap.
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <set>
-#include <utility>
 
-#include <fmt/format.h>
 #include <gemmi/elem.hpp>
 
 #include "core/base/error.h"

@@ -5,12 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <span>
-#include <string_view>
-#include <unordered_map>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

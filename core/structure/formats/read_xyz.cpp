@@ -3,13 +3,10 @@
 // which have one ball per line.
 
 #include <algorithm>
-#include <array>
 #include <bitset>
 #include <cctype>
 #include <charconv>
-#include <optional>
 
-#include <fmt/format.h>
 #include <gemmi/elem.hpp>
 
 #include "core/base/error.h"

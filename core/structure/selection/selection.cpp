@@ -4,18 +4,9 @@
 #include "core/structure/selection/selection.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <set>
-#include <string_view>
 #include <unordered_set>
-#include <utility>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <glm/vec3.hpp>
 
 #include "core/base/text.h"
 #include "core/structure/element_tables.h"

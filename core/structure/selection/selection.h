@@ -3,12 +3,7 @@
 // places: groups of selected residues that are far apart.
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/structure/structure.h"
 

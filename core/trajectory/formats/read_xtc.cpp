@@ -1,17 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads XTC trajectories of GROMACS, whose coordinates are packed as small integers.
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <span>
-#include <string>
-
-#include <fmt/format.h>
-#include <glm/vec3.hpp>
 
 #include "core/base/binary_file.h"
 #include "core/base/constants.h"
