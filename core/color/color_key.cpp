@@ -9,6 +9,7 @@
 
 #include "core/base/system_file.h"
 #include "core/base/text.h"
+#include "core/color/color_key_json.h"
 #include "core/color/color_schemes.h"
 #include "core/color/coloring.h"
 #include "core/color/lipophilicity.h"
