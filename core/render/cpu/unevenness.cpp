@@ -9,10 +9,10 @@
 namespace meniscus {
 namespace {
 
-// In units of displayed values from 0 to 1.
-constexpr float kMostDifference = 12.0f / 255.0f;  // between neighbours
-constexpr float kMostBend = 3.0f / 255.0f;         // of three pixels in a row: their second difference
-constexpr int kPadding = 16;                       // the widest packet
+/// The greatest second difference of three pixels in a row that is even, in displayed values from 0 to 1. In between
+/// colours are nearly linear, and the mean over a pixel is the value at its centre.
+constexpr float kMostBend = 3.0f / 255.0f;
+constexpr int kPadding = 16;  // the widest packet
 
 constexpr int kRows = kBundleEdge + 2;
 
@@ -38,11 +38,7 @@ struct DisplayedRows {
 /// three rows, with four numbers before it and four after the last.
 [[gnu::always_inline]] inline bool is_uneven(const float* above, const float* row, const float* below, int count) {
   int uneven = 0;
-  const auto compare = [&](float a, float middle, float b) {
-    uneven |= std::abs(a - middle) > kMostDifference;
-    uneven |= std::abs(b - middle) > kMostDifference;
-    uneven |= std::abs(a + b - 2.0f * middle) > kMostBend;
-  };
+  const auto compare = [&](float a, float middle, float b) { uneven |= std::abs(a + b - 2.0f * middle) > kMostBend; };
   for (int i = 0; i < count; ++i) {
     compare(row[i - 4], row[i], row[i + 4]);
     compare(above[i], row[i], below[i]);
