@@ -105,6 +105,7 @@ using std::abs;
 using std::max;
 using std::min;
 using std::sqrt;
+#include "gpu_shaders/geometry/circle.glsl"
 }  // namespace sharp
 
 constexpr double kUnit = 0x1p-24;  // unit roundoff
