@@ -98,8 +98,8 @@ class Films(unittest.TestCase):
             ("state", {}), ("strip", {"place": 1}), ("state", {}), ("save", {"path": "again.json", "strip": True, **self.SIZE})])
         first, second = replies[11], replies[13]
         self.assertEqual([(kept["frame"], kept["hold"], kept["transition"]) for kept in first["strip"]["kept"]], [(0, 1, 0.5), (1, 2, 0.5)])
-        self.assertEqual((first["probe_radius"], first["color"]["scheme"]), (1.4, "chain"))
-        self.assertEqual((second["probe_radius"], second["frame"]), (2.5, 1))
+        self.assertEqual((first["values"]["surface.probe"], first["values"]["surface.color"]), (1.4, ["chain"]))
+        self.assertEqual((second["values"]["surface.probe"], second["frame"]), (2.5, 1))
         self.assertEqual((self.folder / "story.json").read_text(), (self.folder / "again.json").read_text())
 
 
