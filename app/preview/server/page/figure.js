@@ -62,8 +62,9 @@ export function figure_controls({ command, set, say, viewer }) {
     const selection = $("atoms").value.trim();
     const act = event.submitter?.value ?? "sticks";
     if (!selection) return fault("Name some atoms first, such as: ligand");
+    const shown = latest.values["surface.show"];
     const [word, values] = {
-      hide: ["take_away", { selection }], only: ["set", { key: "surface.show", value: selection }], zoom: ["zoom_to", { selection }],
+      hide: ["set", { key: "surface.show", value: `${shown === null ? "" : `(${shown}) and `}not (${selection})` }], only: ["set", { key: "surface.show", value: selection }], zoom: ["zoom_to", { selection }],
       outline: ["set", { key: "surface.patches", value: selection }],
       paint: ["add", { key: "surface.color", value: `${selection}=${$("paint").value}` }],
       fade: ["add", { key: "surface.opacity", value: `${selection}=0.4` }],
