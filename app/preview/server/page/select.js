@@ -84,15 +84,15 @@ export function select_controls({ command, ask, say, viewer }) {
 
   const colour = element("input", { type: "color", value: "#e69f00" });
   colour.setAttribute("aria-label", "Colour of what is selected");
-  colour.addEventListener("change", () => command("paint", { selection: text(), color: colour.value }));
+  colour.addEventListener("change", () => command("add", { key: "surface.color", value: `${text()}=${colour.value}` }));
   const actions = {
     "Look into": () => command("look_into", { selection: text() }),
     "Zoom to": () => command("zoom_to", { selection: text() }),
-    "Sticks": () => command("represent", { as: "sticks", selection: text() }),
-    "Balls": () => command("represent", { as: "balls", selection: text() }),
-    "Surface of": () => command("object", { object: { selection: text(), color: colour.value } }),
-    "See through": () => command("opacity", { selection: text(), opacity: 0.4 }),
-    "Cut before": () => command("cut", { plane: `before ${text()}` }),
+    "Sticks": () => command("add", { key: "figure.sticks", value: text() }),
+    "Balls": () => command("add", { key: "figure.balls", value: text() }),
+    "Surface of": () => command("add", { key: "figure.object", value: { selection: text(), color: colour.value } }),
+    "See through": () => command("add", { key: "surface.opacity", value: `${text()}=0.4` }),
+    "Cut before": () => command("add", { key: "surface.clip", value: `before ${text()}` }),
     "Hide": () => command("take_away", { selection: text() }),
     "Distance": measure,
   };
@@ -124,7 +124,7 @@ export function select_controls({ command, ask, say, viewer }) {
   /// Draws a dashed line between the last two entries, and says how long it is.
   async function measure() {
     const [from, to] = entries.slice(-2);
-    const drawn = await command("object", { object: { representation: "distance", selection: `${from.selection} to ${to.selection}` } });
+    const drawn = await command("add", { key: "figure.object", value: { representation: "distance", selection: `${from.selection} to ${to.selection}` } });
     if (!drawn) return;
     const sides = await Promise.all([from, to].map(({ selection }) => ask({ command: "locate", selection })));
     const [near, far] = sides.map(({ points }) => points);
@@ -158,7 +158,7 @@ export function select_controls({ command, ask, say, viewer }) {
   /// Shows the selection in a state's picture; atoms may have other places in it than before.
   function show(next) {
     state = next;
-    const places = JSON.stringify([next.frame, next.width, next.height, next.legend, next.representations, next.objects]);
+    const places = JSON.stringify([next.frame, next.width, next.height, next.legend_fault, Object.entries(next.values).filter(([name]) => /^(figure|legend)/.test(name))]);
     if (places !== key && entries.length > 0) locate();
     key = places;
     draw();

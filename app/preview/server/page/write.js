@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writing: pictures, films, scenes and files into the program's folder, from which this browser can download them.
 import { element } from "./figure.js";
+import { hex_of } from "./properties.js";
 
 const $ = (id) => document.getElementById(id);
 const kEndings = { png: ".png", film: ".mp4", povray: "", blender: ".mns", scene: ".json", story: ".json" };
@@ -15,7 +16,7 @@ export function write_controls({ command, ask, say, picture, changed }) {
 
   /// Returns what is asked of an exported picture.
   const wishes = () => {
-    const wish = { samples: $("export-samples").valueAsNumber || state.samples };
+    const wish = { samples: $("export-samples").valueAsNumber || state.values["image.samples"] };
     wish.transparent = $("export-transparent").checked;
     const [width, height] = [$("width").valueAsNumber, $("height").valueAsNumber];
     if (width) wish.width = width;
@@ -110,10 +111,13 @@ export function write_controls({ command, ask, say, picture, changed }) {
 
   const show = (next) => {
     state = next;
-    const told = JSON.stringify(next.export), films = JSON.stringify([next.strip.kept, next.frames, next.fps, next.width, next.height]);
-    if (told !== taken)
-      for (const [id, key] of [["width", "width"], ["height", "height"], ["export-samples", "samples"]]) $(id).value = next.export[key] ?? "";
-    if (told !== taken) $("export-transparent").checked = next.export.transparent;
+    const { export_size, values } = next, opaque = Boolean(hex_of(values["image.background"]));
+    const told = JSON.stringify([export_size, export_size && values["image.samples"], opaque]), films = JSON.stringify([next.strip.kept, next.frames, next.fps, next.width, next.height]);
+    if (told !== taken) {
+      const asked = export_size ? [...export_size, values["image.samples"]] : ["", "", ""];
+      ["width", "height", "export-samples"].forEach((id, n) => { $(id).value = asked[n]; });
+      $("export-transparent").checked = !opaque;
+    }
     if (films !== offered || told !== taken) offer_films();
     $("save-story").hidden = next.strip.scenes === 0;
     taken = told;
