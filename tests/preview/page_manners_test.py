@@ -76,14 +76,13 @@ class PageManners(PageCase):
         preview = self.serve(MOLECULE, "--select", "chain D")
         async with Browser(CHROMIUM, SIZE) as page:
             await page.open(preview.url)
-            await page.evaluate("""document.getElementById('selection').value = 'chain (';
-                document.getElementById('zoom-form').requestSubmit();
-                document.getElementById('atoms').value = 'resid 10 and (';
+            await page.click("#open-scene")  # of a name that no file has
+            await page.evaluate("""document.getElementById('atoms').value = 'resid 10 and (';
                 document.querySelector('#figure-form button[value=sticks]').click(); 0""")
             await page.until("!document.getElementById('atoms-fault').hidden && "
                              "document.getElementById('message').classList.contains('error')")
             begin = time.monotonic()
-            await page.click("#kinds")
+            await self.press(page, "k")
             await page.until("document.getElementById('atoms-fault').hidden && document.getElementById('message').hidden")
             self.assertLess(time.monotonic() - begin, 5, "before it goes by itself")
 
@@ -98,7 +97,7 @@ class PageManners(PageCase):
             await page.at_rest()
             self.assertFalse(await page.evaluate(asked), "who looks around has nothing to save")
             for save in ("#writers button[value=scene]", "#save", "#undo"):
-                await page.click("#kinds")
+                await self.press(page, "k")
                 await page.until(unsaved)
                 self.assertTrue(await page.evaluate(asked))
                 await page.click(save)
@@ -109,7 +108,7 @@ class PageManners(PageCase):
             await page.evaluate("""const decode = window.createImageBitmap; window.createImageBitmap = async (...all) => {
                 await new Promise((resolve) => setTimeout(resolve, 2000)); return decode(...all); };
                 document.getElementById('export-name').value = 'late'; 0""")
-            await page.click("#kinds")
+            await self.press(page, "k")
             await page.until(unsaved)
             await page.click("#save")
             await page.until("document.getElementById('message').textContent.includes('Written')")
@@ -305,11 +304,11 @@ class PageManners(PageCase):
             await self.press(page, "ArrowRight")
             await page.until(f"{shown}.look.light_direction[0] > {before['look']['light_direction'][0]}")
             self.assertEqual((await self.state(page))["camera"], before["camera"])
-            await page.evaluate("document.getElementById('kinds').focus()")
+            await page.evaluate("document.getElementById('legend-shown').focus()")
             await self.press(page, "L")
             await page.until(f"{shown}.look.silhouettes > 0")
             await self.press(page, " ")
-            await page.until(f"{shown}.patch_kinds")
+            await page.until(f"{shown}.legend.on")
             self.assertFalse((await self.state(page))["playing"])
             await page.evaluate("document.getElementById('by-words').open = true, document.getElementById('atoms').focus()")
             await self.press(page, "l")
@@ -334,8 +333,7 @@ class PageManners(PageCase):
                 end = time.monotonic() + 30
                 while (await self.state(page))[changed] == before:
                     self.assertLess(time.monotonic(), end, f"{key} does nothing")
-            await page.evaluate("""document.getElementById('selection').value = 'resid 10-20 and (';
-                document.getElementById('zoom-form').requestSubmit(); 0""")
+            await page.click("#open-scene")
             await page.until("document.getElementById('message').classList.contains('error')")
             self.assertEqual(page.complaints, [])
 

@@ -116,8 +116,9 @@ class Page(PageCase):
         await page.evaluate("""const scheme = document.getElementById('scheme'); scheme.value = 'chain';
             scheme.dispatchEvent(new Event('change')); 0""")
         await page.until("JSON.parse(document.getElementById('picture').dataset.state).color.scheme === 'chain'")
-        await page.click("#kinds")
-        await page.until("!document.getElementById('kinds-key').hidden")
+        await page.evaluate("""document.getElementById('scheme').value = 'kind';
+            document.getElementById('scheme').dispatchEvent(new Event('change')); 0""")
+        await page.until("JSON.parse(document.getElementById('picture').dataset.state).patch_kinds")
         self.assertTrue((await self.state(page))["patch_kinds"])
         for key, value in (("ambient_occlusion", 0.8), ("silhouettes", 2), ("depth_cue", 0.25)):
             await page.evaluate(f"""document.getElementById('look-{key}').value = '{value}';
@@ -227,7 +228,7 @@ class Page(PageCase):
             await self.act(page, long, "fade")
             await self.act(page, "resid 1-20", "paint")
             await page.click("#cut-x")
-            self.assertEqual(await self.chips(page, 4), ["tube: chain C", "#e69f00: resid 1-20", f"see through: {long}",
+            self.assertEqual(await self.chips(page, 4), ["cartoon: chain C", "#e69f00: resid 1-20", f"see through: {long}",
                                                          "cut x >"])
             await page.click("#chips li:last-child .remove")
             await self.chips(page, 3)
@@ -252,7 +253,7 @@ class Page(PageCase):
             await page.click("#chips li:first-child .remove")
             self.assertEqual(len(await self.chips(page, 2)), 2)
             await page.click("#undo")
-            self.assertEqual((await self.chips(page, 3))[0], "tube: chain C")
+            self.assertEqual((await self.chips(page, 3))[0], "cartoon: chain C")
             # A click of the middle button centres, a kept view comes back.
             await page.evaluate("document.getElementById('view-name').value = 'front'; "
                                 "document.getElementById('view-form').requestSubmit(); 0")

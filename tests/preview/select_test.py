@@ -50,7 +50,7 @@ class Selecting(PageCase):
                 await self.shoot(page, f"select_begin_{size[0]}.png")
                 before = await self.state(page)
                 self.assertEqual(before["cuts"], [])
-                await self.press_button(page, "478 1HPV 200")
+                await self.press_button(page, "478 200")
                 await self.selected(page, LIGAND)
                 await self.press_button(page, "Look into")
                 await page.until("JSON.parse(document.getElementById('picture').dataset.state).cuts.length === 1")
@@ -106,7 +106,7 @@ class Selecting(PageCase):
         for options in ((), ("--projection", "orthographic"), ("--legend", "--legend-place", "right")):
             async with Browser(CHROMIUM, (760, 420)) as page:
                 await self.open(page, path, "--color", "chain", *options)
-                await self.press_button(page, "LIG A 1")
+                await self.press_button(page, "LIG 1")
                 await page.until("document.querySelectorAll('#rings circle').length === 1")
                 for _ in range(2):
                     await page.at_rest()

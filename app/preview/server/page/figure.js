@@ -16,11 +16,18 @@ export function remove_button(what, action) {
   return button;
 }
 
-function slider(label, { min, max, step, value }, tell) {
+/// Returns what a shape is called.
+export function shape_words(as, begins = false) {
+  const words = as === "tube" ? "cartoon" : as;
+  return begins ? words[0].toUpperCase() + words.slice(1) : words;
+}
+
+/// Returns a slider with its word, which is the slider of a thing: `what`.
+function slider(word, what, { min, max, step, value }, tell) {
   const range = element("input", { type: "range", min, max, step, value });
-  range.setAttribute("aria-label", label);
+  range.setAttribute("aria-label", `${word} of ${what}`);
   range.addEventListener("input", () => tell(range.valueAsNumber));
-  return range;
+  return element("label", {}, word, range);
 }
 
 const kPlane = /^(depth|x|y|z|[^<>, ]+,[^<>, ]+,[^<>, ]+)([<>])(.*)$/;
@@ -107,13 +114,14 @@ export function figure_controls({ command, set, say, viewer }) {
     return command("cut", before ? { plane, index } : { plane });
   }
 
+  /// of: the list of the state that has the thing, or what takes the thing away.
   const chip = (what, of, index, ...more) =>
     element("li", {}, element("span", { textContent: what }),
-      remove_button(what, () => command("remove", { of, index })), ...more);
+      remove_button(what, typeof of === "function" ? of : () => command("remove", { of, index })), ...more);
 
   /// An object with its colour, its opacity if that is one number, and a surface's cut along the view.
   function object_chip(object, index) {
-    const what = `${object.representation}: ${object.selection}`;
+    const what = `${shape_words(object.representation)}: ${object.selection}`;
     const change = (key, value) => {
       latest.objects[index] = { ...latest.objects[index], [key]: value };  // the next change may come before the reply
       command("object", { index, object: latest.objects[index] });
@@ -124,10 +132,10 @@ export function figure_controls({ command, set, say, viewer }) {
     colour.addEventListener("input", () => change("color", colour.value));
     more.push(colour);
     if (object.opacity === undefined || !/=/.test(object.opacity))
-      more.push(slider(`Opacity of ${what}`, { min: 0, max: 1, step: 0.05, value: object.opacity ?? 1 },
+      more.push(slider("Opacity", what, { min: 0, max: 1, step: 0.05, value: object.opacity ?? 1 },
         (value) => change("opacity", String(value))));
     if (object.representation === "surface" && (object.clip === undefined || /^depth>/.test(object.clip))) {
-      const cut = slider(`Cut of ${what}`, { min: 0, max: 1, step: 0.01, value: (object.clip ?? "depth>0").slice(6) },
+      const cut = slider("Cut", what, { min: 0, max: 1, step: 0.01, value: (object.clip ?? "depth>0").slice(6) },
         (value) => change("clip", value > 0 ? `depth>${value}` : []));
       cut.title = "Cut along the view";
       more.push(cut);
@@ -137,26 +145,21 @@ export function figure_controls({ command, set, say, viewer }) {
 
   function chips(state) {
     const list = [];
-    if (state.show !== null) {
-      const what = `surface of ${state.show}`;
-      list.push(element("li", {}, element("span", { textContent: what }),
-        remove_button(what, () => set("surface.show", null))));
-    }
-    if (state.patches.selection !== null) {
-      const what = `patches of ${state.patches.selection}`;
-      list.push(element("li", {}, element("span", { textContent: what }),
-        remove_button(what, () => set("surface.patches", null))));
-    }
-    state.representations.forEach(({ as, selection }, n) => list.push(chip(`${as}: ${selection}`, "representations", n)));
+    if (state.show !== null) list.push(chip(`surface of ${state.show}`, () => set("surface.show", null)));
+    if (state.patches.selection !== null) list.push(chip(`patches of ${state.patches.selection}`, () => set("surface.patches", null)));
+    state.representations.forEach(({ as, selection }, n) => list.push(chip(`${shape_words(as)}: ${selection}`, "representations", n)));
     state.objects.forEach((object, n) => list.push(object_chip(object, n)));
     (state.color.rules ?? []).forEach((rule, n) => {
       const at = rule.lastIndexOf("=");
       list.push(chip(`${rule.slice(at + 1)}: ${rule.slice(0, at)}`, "rules", n));
     });
+    const labels = state.values["annotations.labels"];
+    labels.forEach((label) => list.push(chip(`label: ${label.slice(label.lastIndexOf("=") + 1)}`,
+      () => set("annotations.labels", labels.filter((other) => other !== label)))));
     state.opacities.forEach(({ opacity, selection }, index) => {
       if (selection === undefined) return;  // the slider of all
       const what = `see through: ${selection}`;
-      list.push(chip(what, "opacities", index, slider(`Opacity, ${what}`, { min: 0, max: 1, step: 0.05, value: opacity },
+      list.push(chip(what, "opacities", index, slider("Opacity", what, { min: 0, max: 1, step: 0.05, value: opacity },
         (value) => command("opacity", { opacity: value, index }))));
     });
     state.cuts.forEach((plane, index) => {
@@ -170,7 +173,7 @@ export function figure_controls({ command, set, say, viewer }) {
           const now = plane_range(latest.cuts[index], latest);
           command("cut", { plane: `${now.axis}${now.sign === "<" ? ">" : "<"}${now.value}`, index });
         });
-        more.push(slider(`Place of the cut ${range.axis}`, range, (value) => {
+        more.push(slider("Place", `the cut ${range.axis}`, range, (value) => {
           const now = plane_range(latest.cuts[index], latest);
           command("cut", { plane: `${now.axis}${now.sign}${value}`, index });
         }), side);
@@ -191,7 +194,7 @@ export function figure_controls({ command, set, say, viewer }) {
 
   function show(state) {
     latest = state;
-    const shape = JSON.stringify([state.show, state.patches.selection, state.representations, state.objects.map((o) => [o.representation, o.selection]), state.color.rules, state.opacities.map((o) => o.selection),
+    const shape = JSON.stringify([state.show, state.patches.selection, state.representations, state.objects.map((o) => [o.representation, o.selection]), state.color.rules, state.opacities.map((o) => o.selection), state.values["annotations.labels"],
       state.cuts.map((plane) => plane.match(kPlane)?.slice(1, 3) ?? plane), state.views]);
     if (shape !== known) {
       known = shape;

@@ -3,7 +3,7 @@
 import { is_worth_timing, time_casting, webgl_device, who_draws } from "./casting.js";
 import { answers, Connection } from "./connection.js";
 import { contents_controls } from "./contents.js";
-import { figure_controls } from "./figure.js";
+import { figure_controls, shape_words } from "./figure.js";
 import { follow_lamp, place_lamp } from "./lamp.js";
 import { Pictures } from "./pictures.js";
 import { property_controls } from "./properties.js";
@@ -402,7 +402,7 @@ function apply_state(next) {
   $("probe").disabled = $("probe-number").disabled = next.surface === "vdw";
   set_value($("probe"), next.probe_radius);
   set_value($("probe-number"), Number(next.probe_radius.toFixed(3)));
-  set_value($("scheme"), next.color.scheme);
+  show_scheme(next.patch_kinds ? "kind" : next.color.scheme);
   set_value($("map"), next.color.map ?? "");
   $("map-row").hidden = $("range-row").hidden = !numbered.has(next.color.scheme);
   set_value($("range"), next.color.range ?? "");
@@ -413,12 +413,9 @@ function apply_state(next) {
   selection.show(next);
   show_contents(next);
   writing.show(next);
-  $("kinds").checked = next.patch_kinds;
-  $("kinds-key").hidden = !(next.patch_kinds || next.color.scheme === "kind");
+  $("scale-bar").checked = next.values["annotations.scale_bar"] !== null;
   set_value($("background"), next.look.background);
   stage.style.background = next.look.background;
-  $("shade").checked = next.look.ambient_occlusion > 0;
-  $("lines").checked = next.look.silhouettes > 0;
   place_lamp($("lamp"), next.look.light_direction);
   $("frames").hidden = next.frames < 2;
   $("frame").max = next.frames - 1;
@@ -428,6 +425,17 @@ function apply_state(next) {
   $("key").textContent = is_key(next) ? "Remove key" : "Set key";
   $("save-path").disabled = next.keys.length === 0;
   $("follow").checked = next.follow_keys;
+}
+
+const kOneColor = "one colour";
+
+/// Shows by what the surface is coloured. Colours that no scheme of the list gives, such as numbers of a file, are one more entry.
+function show_scheme(scheme) {
+  const is_one = /^#/.test(scheme), value = is_one ? kOneColor : scheme;
+  if (is_one) $("one-color").value = scheme;
+  $("one-color-row").hidden = !is_one;
+  if (actions && ![...$("scheme").options].some((option) => option.value === value)) $("scheme").add(new Option(value, value));
+  set_value($("scheme"), value);
 }
 
 function fill_choices(choices) {
@@ -440,11 +448,12 @@ function fill_choices(choices) {
     $("scheme").add(option);
     if (has_map) numbered.add(word);
   }
+  $("scheme").add(new Option(kOneColor));
   $("map").add(new Option("its own", ""));
   for (const map of choices.maps) $("map").add(new Option(map, map));
   properties.fill(choices.properties);
   $("shapes").prepend(...choices.representations.map((as) =>
-    Object.assign(document.createElement("button"), { name: "do", value: as, textContent: as[0].toUpperCase() + as.slice(1) })));
+    Object.assign(document.createElement("button"), { name: "do", value: as, textContent: shape_words(as, true) })));
   $("keys").append(...rows_of(choices.keys.map(({ keys, what }) => [keys, what])));
   if (state) apply_state(state);
 }
@@ -455,25 +464,16 @@ const set_probe = (radius) => { if (Number.isFinite(radius)) set("surface.probe"
 $("probe").addEventListener("input", (event) => set_probe(event.target.valueAsNumber));
 $("probe-number").addEventListener("change", (event) => set_probe(event.target.valueAsNumber));
 
-$("scheme").addEventListener("change", () =>
-  set("surface.color", [$("scheme").value, ...state.values["surface.color"].filter((entry) => entry.includes("="))]));
+const set_scheme = (scheme) => set("surface.color", [scheme, ...state.values["surface.color"].filter((entry) => entry.includes("="))]);
+$("scheme").addEventListener("change", () => set_scheme($("scheme").value === kOneColor ? $("one-color").value : $("scheme").value));
+$("one-color").addEventListener("input", () => set_scheme($("one-color").value));
 $("range").addEventListener("change", () => set("surface.color_range", $("range").value.trim() || null));
 $("map").addEventListener("change", () => set("surface.map", $("map").value || null));
-let beneath_kinds = "auto";  // the colours before kinds of patch were shown
-$("kinds").addEventListener("change", (event) => {
-  if (event.target.checked) beneath_kinds = state.values["surface.color"];
-  set("surface.color", event.target.checked ? "kind" : beneath_kinds);
-});
 $("projection").addEventListener("change", (event) => set_projection(viewer, event.target.value === "orthographic"));
 $("background").addEventListener("input", (event) => set("image.background", event.target.value));
-for (const [id, key] of [["shade", "a"], ["lines", "l"]]) $(id).addEventListener("change", () => command("press", { key }));
+$("scale-bar").addEventListener("change", (event) => set("annotations.scale_bar", event.target.checked ? "auto" : null));
 follow_lamp($("lamp"), (direction) => { if (controls) set("look.light", direction.join()); });
 $("reset").addEventListener("click", () => command("reset_view"));
-$("zoom-form").addEventListener("submit", async (event) => {
-  event.preventDefault();
-  const reply = await command("zoom_to", { selection: $("selection").value });
-  if (reply) tell(`${reply.atoms.toLocaleString("en")} atoms`);
-});
 $("frame").addEventListener("input", (event) => command("frame", { index: event.target.valueAsNumber }));
 const is_key = ({ keys, frame_number }) => keys.some((key) => key.frame === frame_number);
 const toggle_playing = () => state?.playing ? command("pause") : command("play", { fps: $("rate").valueAsNumber || 10 });

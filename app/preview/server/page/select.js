@@ -6,7 +6,14 @@ import { element } from "./figure.js";
 const $ = (id) => document.getElementById(id);
 const kSeries = 400;                             // ms between the clicks of a double or triple click
 const kNear = 6;                                 // CSS pixels between them
+const kAround = 5;                               // Å
 const kLevels = ["atom", "residue", "molecule"];  // selected by one, two and three clicks
+
+/// Returns the rule of a label, which names a residue or an atom as "ASP 25" or "ASP 25 CA".
+function label_of({ selection, name }) {
+  const [, number, residue, atom] = selection.match(/ resid (\S+) and resname (\S+)(?: and name (\S+))?$/) ?? [];
+  return `${selection}=${residue ? [residue, number, atom].filter(Boolean).join(" ") : name}`;
+}
 
 /// Returns where a camera of a state shows points, in pixels of a picture of this size; null for points behind it.
 function projected(points, { position, target, up, projection, vertical_fov, height }, [width, rows]) {
@@ -22,9 +29,10 @@ function projected(points, { position, target, up, projection, vertical_fov, hei
 /// Returns the selection: {click(found, event), choose(entry, adds), has(text), listen(listener), show(state)}.
 /// An entry is {selection, name, residue, molecule}: its expression, its name for people, and the expressions of the
 /// residue and the chain that it is part of. `viewer` returns what draws the stage.
-export function select_controls({ command, ask, say, viewer }) {
+export function select_controls({ command, set, ask, say, viewer }) {
   const card = $("card"), listeners = [];
-  let entries = [], series = { at: -1e9 }, state = null, located = null, key = "", latest = 0, offered = "";
+  let entries = [], series = { at: -1e9 }, state = null, located = null, key = "", latest = 0, offered = "", labels = [], placed = 0;
+  let size = null;  // of the molecule's part of the picture
 
   const text = () => entries.length === 1 ? entries[0].selection
     : entries.map(({ selection }) => `(${selection})`).join(" or ");
@@ -90,10 +98,14 @@ export function select_controls({ command, ask, say, viewer }) {
     "Zoom to": () => command("zoom_to", { selection: text() }),
     "Sticks": () => command("represent", { as: "sticks", selection: text() }),
     "Balls": () => command("represent", { as: "balls", selection: text() }),
-    "Surface of": () => command("object", { object: { selection: text(), color: colour.value } }),
+    "Cartoon": () => command("represent", { as: "tube", selection: text() }),
+    "Surface of": () => command("object", { object: { representation: "surface", selection: text() } }),
     "See through": () => command("opacity", { selection: text(), opacity: 0.4 }),
     "Cut before": () => command("cut", { plane: `before ${text()}` }),
     "Hide": () => command("take_away", { selection: text() }),
+    "Label": () => set("annotations.labels", [...state.values["annotations.labels"], ...entries.map(label_of)]),
+    "Around": () => become([{ selection: `within ${kAround} of (${text()}) and not (${text()})`,
+      name: `${kAround} Å around ${entries.map(({ name }) => name).join("; ")}` }]),
     "Distance": measure,
   };
   const buttons = Object.entries(actions).map(([textContent, act]) => {
@@ -125,11 +137,34 @@ export function select_controls({ command, ask, say, viewer }) {
   async function measure() {
     const [from, to] = entries.slice(-2);
     const drawn = await command("object", { object: { representation: "distance", selection: `${from.selection} to ${to.selection}` } });
-    if (!drawn) return;
-    const sides = await Promise.all([from, to].map(({ selection }) => ask({ command: "locate", selection })));
-    const [near, far] = sides.map(({ points }) => points);
-    const lengths = near.flatMap((a) => far.map((b) => Math.hypot(...minus(a, b))));
-    if (lengths.length > 0) say(`${Math.min(...lengths).toFixed(2)} Å from ${from.name} to ${to.name}`);
+    const found = drawn && await nearest(from.selection, to.selection);
+    if (found) say(`${found.text} from ${from.name} to ${to.name}`);
+  }
+
+  const points_of = (selection) => ask({ command: "locate", selection }).then(({ points, picture }) => { size = picture ?? size; return points ?? []; });
+
+  /// Returns the shortest distance of two sets of atoms, in words, and its middle.
+  async function nearest(...sides) {
+    const [near, far] = await Promise.all(sides.map(points_of));
+    const pairs = near.flatMap((a) => far.map((b) => [length(minus(a, b)), times(plus(a, b), 0.5)]));
+    const [reach, point] = pairs.reduce((best, pair) => pair[0] < best[0] ? pair : best, [Infinity]);
+    return point && { text: `${reach.toFixed(2)} Å`, point };
+  }
+
+  /// Finds where the labels of atoms and the lengths of dashed lines belong, which pictures of the stage do not have.
+  async function place_labels({ objects, values }) {
+    const number = ++placed;
+    const found = await Promise.all([
+      ...values["annotations.labels"].map(async (label) => {
+        const [, selection, words] = label.match(/^(.*)=(.*)$/s), points = await points_of(selection);
+        return points.length > 0 && { text: words, point: times(points.reduce(plus), 1 / points.length) };
+      }),
+      ...objects.filter(({ representation }) => values["annotations.lengths"] && representation === "distance")
+        .map(({ selection }) => nearest(...selection.split(" to "))),
+    ]);
+    if (number !== placed) return;
+    labels = found.filter(Boolean);
+    draw();
   }
 
   // On the stage
@@ -138,28 +173,37 @@ export function select_controls({ command, ask, say, viewer }) {
     const number = latest;
     const found = entries.length > 0 ? await ask({ command: "locate", selection: text() }) : { ok: true, points: [], places: [] };
     if (number !== latest || !found.ok) return;
-    located = found;
+    [located, size] = [found, found.picture ?? size];
     viewer().select(found.places.flatMap(([first, count]) => Array.from({ length: count }, (_, n) => first + n)));
     draw();
   }
 
-  /// Rings around the atoms, which are seen with pictures of the program only.
+  function drawn(tag, attributes, textContent = "") {
+    const made = Object.assign(document.createElementNS("http://www.w3.org/2000/svg", tag), { textContent });
+    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, typeof value === "number" ? value.toFixed(1) : value);
+    return made;
+  }
+
+  /// Rings around the atoms, and labels: on pictures of the program here, else by what casts.
   function draw() {
-    const { width = 1, height = 1 } = state ?? {}, svg = $("rings");
+    const { width = 1, height = 1, camera } = state ?? {}, svg = $("rings"), { figure } = viewer();
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    const places = state && located ? projected(located.points, state.camera, located.picture ?? [width, height]) : [];
-    svg.replaceChildren(...places.filter(Boolean).map(([x, y]) => {
-      const ring = document.createElementNS("http://www.w3.org/2000/svg", "circle");
-      for (const [name, value] of [["cx", x.toFixed(1)], ["cy", y.toFixed(1)], ["r", located.points.length > 60 ? 3 : 6]]) ring.setAttribute(name, value);
-      return ring;
-    }));
+    const place = (points) => state ? projected(points, camera, size ?? [width, height]) : [];
+    const rings = place(located?.points ?? []).filter(Boolean).map(([cx, cy]) => drawn("circle", { cx, cy, r: located.points.length > 60 ? 3 : 6 }));
+    const texts = place(labels.map(({ point }) => point)).map((at, n) => at && drawn("text", { x: at[0], y: at[1] }, labels[n].text));
+    svg.replaceChildren(...rings, ...texts.filter(Boolean));
+    figure.labels = labels.map(({ text: words, point }) => ({ text: words, point: minus(point, figure.origin) }));
+    viewer().write_labels();
+    if (viewer().casts) viewer().change();
   }
 
   /// Shows the selection in a state's picture; atoms may have other places in it than before.
   function show(next) {
     state = next;
-    const places = JSON.stringify([next.frame, next.width, next.height, next.legend, next.representations, next.objects]);
+    const places = JSON.stringify([next.frame, next.width, next.height, next.legend, next.representations, next.objects,
+      next.values["annotations.labels"], next.values["annotations.lengths"]]);
     if (places !== key && entries.length > 0) locate();
+    if (places !== key) place_labels(next);
     key = places;
     draw();
   }

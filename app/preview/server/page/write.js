@@ -3,7 +3,7 @@
 import { element } from "./figure.js";
 
 const $ = (id) => document.getElementById(id);
-const kEndings = { png: ".png", film: ".mp4", povray: "", blender: ".mns", scene: ".json", story: ".json" };
+const kEndings = { film: ".mp4", povray: "", blender: ".mns", scene: ".json", story: ".json" };
 const kFilms = { strip: "Strip", turntable: "Turntable", frames: "All frames" };
 
 /// picture(): the PNG on the stage, if it is there in full; changed(): is called after something was written. Returns
@@ -41,7 +41,7 @@ export function write_controls({ command, ask, say, picture, changed }) {
 
   /// Lists what was written: a link to each file, and the place of all.
   const list_written = (written = []) => $("written").replaceChildren(...written.map(({ name, path, folder }) => element("li", {},
-    folder ? name : element("a", { href: `files/${name}`, download: name, textContent: name }), element("span", { textContent: path }))));
+    folder ? element("span", { textContent: name, title: path }) : element("a", { href: `files/${name}`, download: name, textContent: name, title: path }))));
 
   /// Asks how far the export is, and lists what was written.
   const ask_written = async () => {
@@ -52,7 +52,7 @@ export function write_controls({ command, ask, say, picture, changed }) {
 
   $("write").addEventListener("submit", async (event) => {
     event.preventDefault();
-    const format = event.submitter?.value ?? "png", path = $("export-name").value + kEndings[format];
+    const format = event.submitter?.value ?? "png", path = $("export-name").value + (kEndings[format] ?? $("ending").value);
     const values = { path, force: $("export-force").checked, ...wishes() };
     if (format === "scene" || format === "story") {
       const reply = await command("save", { ...values, strip: format === "story" });
@@ -62,12 +62,13 @@ export function write_controls({ command, ask, say, picture, changed }) {
       return say(`Written: ${reply.path}`);
     }
     // What is shown is at hand: the browser has it, too.
-    const at_hand = format === "png" && !$("width").value && !$("height").value && !$("export-samples").value && !values.transparent ? picture() : null;
+    const at_hand = path.endsWith(".png") && !$("width").value && !$("height").value && !$("export-samples").value && !values.transparent ? picture() : null;
     const more = format === "film" ? { of: $("film-of").value } : { archive: format === "povray" };
     if (!await command("export", { format, wait: false, ...values, ...more })) return;
     if (at_hand) download(at_hand, path);
     follow();
   });
+  $("ending").addEventListener("change", () => { $("save").textContent = `Save ${$("ending").selectedOptions[0].text}`; });
   $("open-scene").addEventListener("click", async () => {
     const name = $("export-name").value;
     const reply = await command("open", { path: /\.(json|png|tiff?|jpe?g|html)$/.test(name) ? name : `${name}.json` });
