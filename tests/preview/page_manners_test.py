@@ -77,8 +77,7 @@ class PageManners(PageCase):
         async with Browser(CHROMIUM, SIZE) as page:
             await page.open(preview.url)
             await page.click("#open-scene")  # of a name that no file has
-            await page.evaluate("""document.getElementById('atoms').value = 'resid 10 and (';
-                document.querySelector('#figure-form button[value=sticks]').click(); 0""")
+            await self.select(page, "resid 10 and (")
             await page.until("!document.getElementById('atoms-fault').hidden && "
                              "document.getElementById('message').classList.contains('error')")
             begin = time.monotonic()
@@ -132,10 +131,9 @@ class PageManners(PageCase):
             async with Browser(CHROMIUM, size) as page:
                 await page.open(preview.url)
                 if size == (1280, 720):
-                    for act, atoms in (("sticks", "resid 1-20 and not name N or resid 60"),
-                                       ("fade", "chain A and (resid 1-60 or resid 80-120)"), ("surface", "resid 1-9")):
-                        await page.evaluate(f"document.getElementById('atoms').value = '{atoms}'; "
-                                            f"document.querySelector('#figure-form button[value={act}]').click()")
+                    for act, atoms in (("Sticks", "resid 1-20 and not name N or resid 60"),
+                                       ("See through", "chain A and (resid 1-60 or resid 80-120)"), ("Surface of", "resid 1-9")):
+                        await self.act(page, atoms, act)
                     await page.click("#cut-x")
                     await page.evaluate("document.getElementById('view-name').value = 'a view with a name that is long'; "
                                         "document.getElementById('view-form').requestSubmit(); 0")

@@ -78,18 +78,21 @@ class Figures(unittest.TestCase):
     def rest(self):
         self.page.locator("#picture[data-rest=true]").wait_for()
 
-    def state(self, key=None):
+    def value(self, key):
+        """Returns the value of a property in the state of the picture at rest."""
         self.rest()
-        state = json.loads(self.page.locator("#picture").get_attribute("data-state"))
-        return state if key is None else state[key]
+        return json.loads(self.page.locator("#picture").get_attribute("data-state"))["values"][key]
 
     def becomes(self, key, value):
-        """Waits until the state has this value."""
-        for _ in range(300):
-            if self.state(key) == value:
-                return self.rest()
-            self.page.wait_for_timeout(100)
-        self.fail(f"{key} is {self.state(key)}, not {value}")
+        """Waits until a property has this value, and for the picture."""
+        self.until("([key, value]) => JSON.stringify(JSON.parse(document.getElementById('picture').dataset.state).values[key])"
+                   " === JSON.stringify(value)", [key, value])
+        self.rest()
+
+    def has_rule(self, count=1):
+        """Waits until so many colours are painted."""
+        self.until("([count]) => JSON.parse(document.getElementById('picture').dataset.state).values['surface.color'].length === 1 + count", [count])
+        self.rest()
 
     # What a user does
 
@@ -170,19 +173,19 @@ class Figures(unittest.TestCase):
         self.tick("Legend")
         for scheme in ("chain", "hydrophobicity", "bfactor"):
             self.choose("By", scheme)
-            self.becomes("color", {"scheme": scheme})
-            self.assertTrue(self.state("legend")["on"])
+            self.becomes("surface.color", [scheme])
+            self.becomes("legend.shown", True)
             self.shoot(f"02_{scheme}")
         self.choose("By", "one colour")
         self.rest()
         self.color("Colour", "#88aadd")
-        self.becomes("color", {"scheme": "#88aadd"})
+        self.becomes("surface.color", ["#88aadd"])
 
     def test_03_a_drug_in_its_pocket(self):
         self.open(PROTEASE)
         self.list_entry("478")
         self.press("Look into")
-        self.becomes("cuts", ["before first (chain 1HPV and resid 200 and resname 478)"])
+        self.becomes("surface.clip", ["before first (chain 1HPV and resid 200 and resname 478)"])
         self.shoot("03_pocket")
 
     def test_04_an_interface(self):
@@ -193,10 +196,10 @@ class Figures(unittest.TestCase):
         self.press("Around")
         self.page.locator("#card h2", has_text="5 Å around Chain B").wait_for()
         self.color("Colour of what is selected", "#d55e00")
-        self.until("() => JSON.parse(document.getElementById('picture').dataset.state).color.rules?.length === 1")
+        self.has_rule()
         self.page.keyboard.press("Escape")
         self.tick("The molecule's surface")
-        self.becomes("surface_hidden", True)
+        self.becomes("surface.shown", False)
         self.drag(300, 0)
         self.shoot("04_interface")
 
@@ -204,15 +207,15 @@ class Figures(unittest.TestCase):
         self.open(PROTEASE)
         self.section("Look")
         self.choose("Preset", "ghost")
-        self.becomes("preset", "ghost")
-        self.assertEqual(self.state("opacities"), [{"opacity": 0.15}])
+        self.becomes("look.preset", "ghost")
+        self.assertEqual(self.value("surface.opacity"), [0.15])
         self.shoot("05_ghost")
 
     def test_06_a_cavity_cut_open(self):
         self.open(PROTEASE)
         self.section("Cut")
         self.slide("Cut away", 0.45)
-        self.until("() => /^depth>0.4/.test(JSON.parse(document.getElementById('picture').dataset.state).cuts[0])")
+        self.until("() => /^depth>0.4/.test(JSON.parse(document.getElementById('picture').dataset.state).values['surface.clip'][0])")
         self.slide("Cap hatching, Å", 0.2)
         self.rest()
         self.shoot("06_cavity")
@@ -232,7 +235,7 @@ class Figures(unittest.TestCase):
         charged.write_text("".join(lines))
         self.open(charged)
         self.choose("By", "charge")
-        self.becomes("color", {"scheme": "charge"})
+        self.becomes("surface.color", ["charge"])
         self.tick("Legend")
         self.rest()
         self.shoot("07_charges")
@@ -246,14 +249,14 @@ class Figures(unittest.TestCase):
             letters.nth(place).click(modifiers=["Shift"])
         self.until("() => document.querySelectorAll('#letters [aria-pressed=true]').length === 3")
         self.color("Colour of what is selected", "#cc3311")
-        self.until("() => JSON.parse(document.getElementById('picture').dataset.state).color.rules?.length === 1")
+        self.has_rule()
         self.shoot("08_painted")
 
     def test_09_labels_and_a_distance(self):
         self.open(PROTEASE)
         self.section("Look")
         self.choose("Preset", "ribbon")
-        self.becomes("preset", "ribbon")
+        self.becomes("look.preset", "ribbon")
         self.section("Look")
         self.list_entry("Chain A")
         letters = self.page.locator("#letters button")
@@ -265,9 +268,9 @@ class Figures(unittest.TestCase):
         self.rest()
         self.press("Distance")
         self.page.locator("#rings text", has_text=" Å").wait_for()  # its length on the stage
-        self.assertEqual(self.page.locator("#rings text").all_inner_texts()[:2], ["ASP 25", "ILE 50"])
-        self.assertEqual([label.rsplit("=", 1)[1] for label in self.state("values")["annotations.labels"]], ["ASP 25", "ILE 50"])
-        self.assertEqual(self.state("objects")[-1]["representation"], "distance")
+        self.assertEqual(self.page.locator("#rings text").all_text_contents()[:2], ["ASP 25", "ILE 50"])
+        self.assertEqual([label.rsplit("=", 1)[1] for label in self.value("annotations.labels")], ["ASP 25", "ILE 50"])
+        self.assertEqual(self.value("figure.object")[-1]["representation"], "distance")
         self.shoot("09_labels")
         self.page.locator("#chips li", has_text="label: ILE 50").locator(".remove").click()
         self.until("() => JSON.parse(document.getElementById('picture').dataset.state).values['annotations.labels'].length === 1")
@@ -276,7 +279,7 @@ class Figures(unittest.TestCase):
         self.open(PROTEASE)
         self.section("Look")
         self.choose("Preset", "goodsell")
-        self.becomes("preset", "goodsell")
+        self.becomes("look.preset", "goodsell")
         self.section("Size and more")
         self.type("Width", "40mm")
         self.type("Dots per inch", "300")
@@ -305,7 +308,7 @@ class Figures(unittest.TestCase):
         self.section("Film")
         for n, scheme in enumerate(("chain", "element", "residue")):
             self.choose("By", scheme)
-            self.becomes("color", {"scheme": scheme})
+            self.becomes("surface.color", [scheme])
             self.drag(60, 20)
             self.press("Keep scene")
             self.page.locator("#scenes canvas").nth(n).wait_for()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controls of the figure: atoms that are named, a chip for each thing shown, cuts, caps, legend, kept views.
+// The controls of the figure: a chip for each thing shown, cuts, caps, legend, kept views.
 
 const $ = (id) => document.getElementById(id);
 
@@ -8,6 +8,9 @@ export function element(tag, properties = {}, ...children) {
   made.append(...children);
   return made;
 }
+
+/// Returns the terms and texts of a list.
+export const rows_of = (rows) => rows.flatMap(([term, text]) => [element("dt", { textContent: term }), element("dd", { textContent: text })]);
 
 export function remove_button(what, action) {
   const button = element("button", { type: "button", className: "remove", textContent: "×" });
@@ -44,32 +47,9 @@ function plane_range(plane, state) {
   return { axis, sign, min: Math.floor(reach(Math.min)), max: Math.ceil(reach(Math.max)), step: 0.1, value };
 }
 
-/// Shows what the figure has, each with its controls; command(word, values) and set(key, value) change it. Returns show(state), and
-/// forget_fault(), which takes back what was said of the atoms.
-export function figure_controls({ command, set, say, viewer }) {
+/// Shows what the figure has, each with its controls; command(word, values) and set(key, value) change it. Returns show(state).
+export function figure_controls({ command, set, viewer }) {
   let known = "";  // what the chips show: they are made anew when there are others, not when a slider moves
-
-  const fault = (text) => {
-    $("atoms-fault").textContent = text;
-    $("atoms-fault").hidden = !text;
-    $("atoms").setAttribute("aria-invalid", String(Boolean(text)));
-  };
-  $("atoms").addEventListener("input", () => fault(""));
-  $("figure-form").addEventListener("submit", async (event) => {
-    event.preventDefault();
-    const selection = $("atoms").value.trim();
-    const act = event.submitter?.value ?? "sticks";
-    if (!selection) return fault("Name some atoms first, such as: ligand");
-    const [word, values] = {
-      hide: ["hide", { selection }], only: ["set", { key: "surface.show", value: selection }], zoom: ["zoom_to", { selection }],
-      outline: ["set", { key: "surface.patches", value: selection }],
-      paint: ["paint", { selection, color: $("paint").value }], fade: ["opacity", { selection, opacity: 0.4 }],
-      surface: ["object", { object: { selection, color: $("paint").value } }],
-    }[act] ?? ["represent", { as: act, selection }];
-    fault("");
-    const reply = await command(word, values, fault);
-    if (reply?.atoms !== undefined) say(`${reply.atoms.toLocaleString("en")} atoms`);
-  });
 
   ["x", "y", "z"].forEach((axis, a) => $(`cut-${axis}`).addEventListener("click", () =>
     command("cut", { plane: `${axis}>${Math.round(5 * (latest.low[a] + latest.high[a])) / 10}` })));
@@ -84,8 +64,7 @@ export function figure_controls({ command, set, say, viewer }) {
   $("cap").addEventListener("change", (event) =>
     command("set", { key: "surface.cap_color", value: event.target.value === "own" ? $("cap-color").value : event.target.value }));
   $("cap-color").addEventListener("input", (event) => command("set", { key: "surface.cap_color", value: event.target.value }));
-  $("undo").addEventListener("click", () => command("undo"));
-  $("redo").addEventListener("click", () => command("redo"));
+  for (const word of ["undo", "redo"]) $(word).addEventListener("click", () => command(word));
   $("view-form").addEventListener("submit", async (event) => {
     event.preventDefault();
     if (await command("save_view", { name: $("view-name").value.trim() })) {
@@ -210,16 +189,14 @@ export function figure_controls({ command, set, say, viewer }) {
     if (cut) $("cut-with").value = /^depth>/.test(cut) ? "view" : "molecule";
     const named = [...$("cap").options].some((option) => option.value === state.cap.color);
     $("cap").value = named ? state.cap.color : "own";
-    $("cap-color-row").hidden = named;
+    $("cap-color-row").hidden = named || state.cuts.length === 0;
     if (state.cap.color !== "atom") $("cap-color").value = state.cap.color;
     const of_cuts = ["cap", "surface-cap_hatching", "surface-clip_all"].map((id) => [id, state.cuts.length > 0]);
     for (const [id, there] of [...of_cuts, ["surface-film_opacity", state.opacities.length > 0]]) if ($(id)) $(id).parentElement.hidden = !there;
-    $("cap-color-row").hidden ||= state.cuts.length === 0;
-    $("undo").disabled = state.undo === 0;
-    $("redo").disabled = state.redo === 0;
+    for (const word of ["undo", "redo"]) $(word).disabled = state[word] === 0;
     $("legend-fault").textContent = state.legend.fault ?? "";
     $("legend-fault").hidden = !state.legend.fault;
   }
 
-  return { show, forget_fault: () => fault("") };
+  return show;
 }

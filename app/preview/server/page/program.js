@@ -3,7 +3,7 @@
 import { is_worth_timing, time_casting, webgl_device, who_draws } from "./casting.js";
 import { answers, Connection } from "./connection.js";
 import { contents_controls } from "./contents.js";
-import { figure_controls, shape_words } from "./figure.js";
+import { figure_controls, rows_of } from "./figure.js";
 import { follow_lamp, place_lamp } from "./lamp.js";
 import { Pictures } from "./pictures.js";
 import { property_controls } from "./properties.js";
@@ -198,7 +198,7 @@ function tell(text, is_error = false, for_good = false) {
 /// What was wrong with an earlier command, once another one has worked.
 function forget_errors() {
   if ($("message").classList.contains("error") && !stays) $("message").hidden = true;
-  figure.forget_fault();
+  selection.forget_fault();
 }
 
 /// A fresh page, once the server answers again.
@@ -332,10 +332,6 @@ function show_stats(stats, full) {
     ["encoding", ms(stats.encode_milliseconds)]]));
 }
 
-/// Terms and texts of a list.
-const rows_of = (rows) => rows.flatMap((row) => row.map((text, n) =>
-  Object.assign(document.createElement(n === 0 ? "dt" : "dd"), { textContent: text })));
-
 /// The server draws as many pixels as the canvas has on this screen.
 function fit() {
   if (!controls) return;
@@ -350,7 +346,7 @@ new ResizeObserver(fit).observe(stage);
 // State
 
 const context = { command, set, ask, say: (text, is_error) => tell(text, is_error), viewer: () => viewer };
-const figure = figure_controls(context);
+const show_figure = figure_controls(context);
 const properties = property_controls(context);
 const show_strip = strip_controls(context);
 const selection = select_controls(context);
@@ -408,7 +404,7 @@ function apply_state(next) {
   set_value($("range"), next.color.range ?? "");
   if ($("map").options[0]) $("map").options[0].text = next.color.own_map ? "the file's" : "its own";
   properties.show(next.values);
-  figure.show(next);
+  show_figure(next);
   show_strip(next);
   selection.show(next);
   show_contents(next);
@@ -429,13 +425,12 @@ function apply_state(next) {
 
 const kOneColor = "one colour";
 
-/// Shows by what the surface is coloured. Colours that no scheme of the list gives, such as numbers of a file, are one more entry.
+/// Shows by what the surface is coloured.
 function show_scheme(scheme) {
-  const is_one = /^#/.test(scheme), value = is_one ? kOneColor : scheme;
+  const is_one = scheme.startsWith("#");
   if (is_one) $("one-color").value = scheme;
   $("one-color-row").hidden = !is_one;
-  if (actions && ![...$("scheme").options].some((option) => option.value === value)) $("scheme").add(new Option(value, value));
-  set_value($("scheme"), value);
+  set_value($("scheme"), is_one ? kOneColor : scheme);
 }
 
 function fill_choices(choices) {
@@ -452,8 +447,6 @@ function fill_choices(choices) {
   $("map").add(new Option("its own", ""));
   for (const map of choices.maps) $("map").add(new Option(map, map));
   properties.fill(choices.properties);
-  $("shapes").prepend(...choices.representations.map((as) =>
-    Object.assign(document.createElement("button"), { name: "do", value: as, textContent: shape_words(as, true) })));
   $("keys").append(...rows_of(choices.keys.map(({ keys, what }) => [keys, what])));
   if (state) apply_state(state);
 }

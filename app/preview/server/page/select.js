@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is selected: atoms, residues and chains that were clicked on the stage, in the list or in the sequence, and a
 // card with what can be done with them.
-import { element } from "./figure.js";
+import { element, rows_of, shape_words } from "./figure.js";
 
 const $ = (id) => document.getElementById(id);
 const kSeries = 400;                             // ms between the clicks of a double or triple click
 const kNear = 6;                                 // CSS pixels between them
+const kShapes = ["sticks", "balls", "tube", "spheres", "bases", "glycans"];
 const kAround = 5;                               // Å
 const kLevels = ["atom", "residue", "molecule"];  // selected by one, two and three clicks
 
@@ -26,7 +27,7 @@ function projected(points, { position, target, up, projection, vertical_fov, hei
   });
 }
 
-/// Returns the selection: {click(found, event), choose(entry, adds), has(text), listen(listener), show(state)}.
+/// Returns the selection: {click(found, event), choose(entry, adds), forget_fault(), has(text), listen(listener), show(state)}.
 /// An entry is {selection, name, residue, molecule}: its expression, its name for people, and the expressions of the
 /// residue and the chain that it is part of. `viewer` returns what draws the stage.
 export function select_controls({ command, set, ask, say, viewer }) {
@@ -84,8 +85,7 @@ export function select_controls({ command, set, ask, say, viewer }) {
     if (["convex", "toroidal", "concave"].includes(kind)) rows.push(["what", `${kind} patch`]);
     if (area_follows || exposed_area !== null) rows.push(["exposed", area_follows ? "…" : `${exposed_area.toFixed(3)} Å²`]);
     rows.push(["position", position.map((x) => x.toFixed(2)).join(", ")]);
-    card.querySelector("dl").replaceChildren(...rows.flatMap(([term, value]) =>
-      [element("dt", { textContent: term }), element("dd", { textContent: value })]));
+    card.querySelector("dl").replaceChildren(...rows_of(rows));
   }
 
   // The card
@@ -96,17 +96,17 @@ export function select_controls({ command, set, ask, say, viewer }) {
   const actions = {
     "Look into": () => command("look_into", { selection: text() }),
     "Zoom to": () => command("zoom_to", { selection: text() }),
-    "Sticks": () => command("represent", { as: "sticks", selection: text() }),
-    "Balls": () => command("represent", { as: "balls", selection: text() }),
-    "Cartoon": () => command("represent", { as: "tube", selection: text() }),
+    ...Object.fromEntries(kShapes.map((as) => [shape_words(as, true), () => command("represent", { as, selection: text() })])),
     "Surface of": () => command("object", { object: { representation: "surface", selection: text() } }),
     "See through": () => command("opacity", { selection: text(), opacity: 0.4 }),
     "Cut before": () => command("cut", { plane: `before ${text()}` }),
     "Hide": () => command("take_away", { selection: text() }),
+    "Show only": () => set("surface.show", text()),
+    "Outline": () => set("surface.patches", text()),
     "Label": () => set("annotations.labels", [...state.values["annotations.labels"], ...entries.map(label_of)]),
     "Around": () => become([{ selection: `within ${kAround} of (${text()}) and not (${text()})`,
       name: `${kAround} Å around ${entries.map(({ name }) => name).join("; ")}` }]),
-    "Distance": measure,
+    "Distance": () => command("object", { object: { representation: "distance", selection: entries.slice(-2).map(({ selection }) => selection).join(" to ") } }),
   };
   const buttons = Object.entries(actions).map(([textContent, act]) => {
     const button = element("button", { type: "button", textContent });
@@ -115,6 +115,19 @@ export function select_controls({ command, set, ask, say, viewer }) {
   });
   card.querySelector(".buttons").append(...buttons, element("label", { textContent: "Colour " }, colour));
   card.querySelector(".plain").addEventListener("click", () => become([]));
+
+  const fault = (words) => {
+    $("atoms-fault").textContent = words;
+    $("atoms-fault").hidden = !words;
+    $("atoms").setAttribute("aria-invalid", String(Boolean(words)));
+  };
+  $("figure-form").addEventListener("submit", async (event) => {
+    event.preventDefault();
+    const selection = $("atoms").value.trim(), found = await command("locate", { selection }, fault);
+    if (!found) return;
+    become([{ selection, name: selection }]);
+    say(`${found.atoms.toLocaleString("en")} atoms`);
+  });
 
   document.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && entries.length > 0) become([]);
@@ -131,14 +144,6 @@ export function select_controls({ command, set, ask, say, viewer }) {
     const { clientWidth, clientHeight } = $("stage"), [x, y] = place ?? [clientWidth, 0];
     card.style.left = `${Math.max(8, Math.min(x + 16, clientWidth - card.offsetWidth - 8))}px`;
     card.style.top = `${Math.max(8, Math.min(y + 16, clientHeight - card.offsetHeight - 8))}px`;
-  }
-
-  /// Draws a dashed line between the last two entries, and says how long it is.
-  async function measure() {
-    const [from, to] = entries.slice(-2);
-    const drawn = await command("object", { object: { representation: "distance", selection: `${from.selection} to ${to.selection}` } });
-    const found = drawn && await nearest(from.selection, to.selection);
-    if (found) say(`${found.text} from ${from.name} to ${to.name}`);
   }
 
   const points_of = (selection) => ask({ command: "locate", selection }).then(({ points, picture }) => { size = picture ?? size; return points ?? []; });
@@ -208,5 +213,5 @@ export function select_controls({ command, set, ask, say, viewer }) {
     draw();
   }
 
-  return { click, choose, has, listen: (listener) => listeners.push(listener), show };
+  return { click, choose, forget_fault: () => fault(""), has, listen: (listener) => listeners.push(listener), show };
 }
