@@ -216,8 +216,8 @@ class Figures(unittest.TestCase):
         self.section("Cut")
         self.slide("Cut away", 0.45)
         self.until("() => /^depth>0.4/.test(JSON.parse(document.getElementById('picture').dataset.state).values['surface.clip'][0])")
-        self.slide("Cap hatching, Å", 0.2)
-        self.rest()
+        self.type("Cap hatching, Å", "2")
+        self.becomes("surface.cap_hatching", 2)
         self.shoot("06_cavity")
 
     def test_07_charges(self):

@@ -33,7 +33,7 @@ function projected(points, { position, target, up, projection, vertical_fov, hei
 export function select_controls({ command, set, ask, say, viewer }) {
   const card = $("card"), listeners = [];
   let entries = [], series = { at: -1e9 }, state = null, located = null, key = "", latest = 0, offered = "", labels = [], placed = 0;
-  let size = null;  // of the molecule's part of the picture
+  let size = null, written = null;  // of the molecule's part of the picture; the labels that the viewer has
 
   const text = () => entries.length === 1 ? entries[0].selection
     : entries.map(({ selection }) => `(${selection})`).join(" or ");
@@ -146,12 +146,16 @@ export function select_controls({ command, set, ask, say, viewer }) {
     card.style.top = `${Math.max(8, Math.min(y + 16, clientHeight - card.offsetHeight - 8))}px`;
   }
 
-  const points_of = (selection) => ask({ command: "locate", selection }).then(({ points, picture }) => { size = picture ?? size; return points ?? []; });
+  async function points_of(selection) {
+    const { atoms, points = [], picture = size } = await ask({ command: "locate", selection });
+    size = picture;
+    return { points, are_all: points.length === atoms };
+  }
 
-  /// Returns the shortest distance of two sets of atoms, in words, and its middle.
+  /// Returns the shortest distance of two sets of atoms, in words, and its middle; null if not all atoms are told.
   async function nearest(...sides) {
     const [near, far] = await Promise.all(sides.map(points_of));
-    const pairs = near.flatMap((a) => far.map((b) => [length(minus(a, b)), times(plus(a, b), 0.5)]));
+    const pairs = near.are_all && far.are_all ? near.points.flatMap((a) => far.points.map((b) => [length(minus(a, b)), times(plus(a, b), 0.5)])) : [];
     const [reach, point] = pairs.reduce((best, pair) => pair[0] < best[0] ? pair : best, [Infinity]);
     return point && { text: `${reach.toFixed(2)} Å`, point };
   }
@@ -161,14 +165,14 @@ export function select_controls({ command, set, ask, say, viewer }) {
     const number = ++placed;
     const found = await Promise.all([
       ...values["annotations.labels"].map(async (label) => {
-        const [, selection, words] = label.match(/^(.*)=(.*)$/s), points = await points_of(selection);
+        const [, selection, words] = label.match(/^(.*)=(.*)$/s), { points } = await points_of(selection);
         return points.length > 0 && { text: words, point: times(points.reduce(plus), 1 / points.length) };
       }),
       ...objects.filter(({ representation }) => values["annotations.lengths"] && representation === "distance")
         .map(({ selection }) => nearest(...selection.split(" to "))),
     ]);
     if (number !== placed) return;
-    labels = found.filter(Boolean);
+    [labels, written] = [found.filter(Boolean), null];
     draw();
   }
 
@@ -197,7 +201,8 @@ export function select_controls({ command, set, ask, say, viewer }) {
     const rings = place(located?.points ?? []).filter(Boolean).map(([cx, cy]) => drawn("circle", { cx, cy, r: located.points.length > 60 ? 3 : 6 }));
     const texts = place(labels.map(({ point }) => point)).map((at, n) => at && drawn("text", { x: at[0], y: at[1] }, labels[n].text));
     svg.replaceChildren(...rings, ...texts.filter(Boolean));
-    figure.labels = labels.map(({ text: words, point }) => ({ text: words, point: minus(point, figure.origin) }));
+    if (figure.labels === written) return;
+    written = figure.labels = labels.map(({ text: words, point }) => ({ text: words, point: minus(point, figure.origin) }));
     viewer().write_labels();
     if (viewer().casts) viewer().change();
   }
