@@ -299,7 +299,7 @@ class Figures(unittest.TestCase):
     def test_11_a_turntable(self):
         self.open(PEPTIDE)
         self.type("Pixels wide", "96")
-        self.assertIn("Turntable", self.page.get_by_label("Film of").inner_text())
+        self.assertIn("Turntable", self.page.get_by_label("Film of").text_content())
         self.shoot("11_turntable")
         self.assertEqual(self.written("Film", "figure.mp4").read_bytes()[4:8], b"ftyp")
 
