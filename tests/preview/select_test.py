@@ -49,13 +49,13 @@ class Selecting(PageCase):
                 await self.open(page, PROTEASE)
                 await self.shoot(page, f"select_begin_{size[0]}.png")
                 before = await self.state(page)
-                self.assertEqual(before["cuts"], [])
+                self.assertEqual(before["values"]["surface.clip"], [])
                 await self.press_button(page, "478 200")
                 await self.selected(page, LIGAND)
                 await self.press_button(page, "Look into")
-                await page.until("JSON.parse(document.getElementById('picture').dataset.state).cuts.length === 1")
+                await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['surface.clip'].length === 1")
                 state = await self.state(page)
-                self.assertEqual(state["cuts"], [f"before first ({LIGAND})"])
+                self.assertEqual(state["values"]["surface.clip"], [f"before first ({LIGAND})"])
                 self.assertNotEqual(state["camera"], before["camera"])
                 await self.shoot(page, f"select_pocket_{size[0]}.png")
                 self.assertEqual(page.complaints, [])
@@ -148,7 +148,7 @@ class Selecting(PageCase):
             self.assertEqual(await page.evaluate("document.querySelectorAll('#letters [tabindex=\"0\"]').length"), 1)
             await self.shoot(page, "select_sequence.png")
             await self.press_button(page, "Sticks")
-            await page.until("JSON.parse(document.getElementById('picture').dataset.state).representations.length === 1")
+            await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['figure.sticks'].length === 1")
             self.assertEqual(page.complaints, [])
 
     async def test_hides_colours_and_measures(self):
@@ -160,7 +160,7 @@ class Selecting(PageCase):
 
             await page.click(".eye[aria-label='Show Chain A']")
             await eye("Chain A", "false")
-            self.assertEqual((await self.state(page))["show"], "all and not (chain A and polymer)")
+            self.assertEqual((await self.state(page))["values"]["surface.show"], "all and not (chain A and polymer)")
             await page.click(".eye[aria-label='Show 478 1HPV 200']")
             await eye("478 1HPV 200", "false")
             await page.click(".eye[aria-label='Show Water']")
@@ -169,7 +169,7 @@ class Selecting(PageCase):
             for name in ("Chain A", "478 1HPV 200"):
                 await page.click(f".eye[aria-label='Show {name}']")
                 await eye(name, "true")
-            self.assertIsNone((await self.state(page))["show"])
+            self.assertIsNone((await self.state(page))["values"]["surface.show"])
             await page.evaluate("""(() => { const c = document.querySelector("[aria-label='Colour of Chain A']");
                 c.value = '#aa3377'; c.dispatchEvent(new Event('change')); })()""")
             await page.until("document.querySelector(\"[aria-label='Colour of Chain A']\").value === '#aa3377'")
@@ -187,7 +187,7 @@ class Selecting(PageCase):
                         atoms.setdefault(int(row[22:26]), []).append([float(row[30 + 8 * n:38 + 8 * n]) for n in range(3)])
             nearest = min(math.dist(a, b) for a in atoms[25] for b in atoms[50])
             self.assertEqual(length, f"{nearest:.2f} Å")
-            objects = (await self.state(page))["objects"]
+            objects = (await self.state(page))["values"]["figure.object"]
             self.assertEqual(objects[-1]["representation"], "distance")
             self.assertEqual(page.complaints, [])
 

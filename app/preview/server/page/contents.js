@@ -23,7 +23,7 @@ export function contents_controls({ command, ask }, selection) {
     if (entry.shown === 0 || (!entry.color && entry.selection.endsWith("polymer"))) return element("li", {}, eye, name);
     const colour = element("input", { type: "color", value: entry.color ?? "#45a878" });
     colour.setAttribute("aria-label", `Colour of ${entry.name}`);
-    colour.addEventListener("change", () => command("paint", { selection: entry.selection, color: colour.value }));
+    colour.addEventListener("change", () => command("add", { key: "surface.color", value: `${entry.selection}=${colour.value}` }));
     return element("li", {}, eye, name, colour);
   };
 
@@ -101,7 +101,7 @@ export function contents_controls({ command, ask }, selection) {
   });
 
   return (state) => {
-    const shape = JSON.stringify([state.show, state.representations, state.objects, state.values["shapes.bare"], state.surface_hidden, state.color]);
+    const shape = JSON.stringify(Object.entries(state.values).filter(([key]) => /^(figure|shapes\.bare|surface\.(show|color|map|missing))/.test(key)));
     if (shape === known) return;
     known = shape;
     read();

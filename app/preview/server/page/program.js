@@ -4,9 +4,10 @@ import { is_worth_timing, time_casting, webgl_device, who_draws } from "./castin
 import { answers, Connection } from "./connection.js";
 import { contents_controls } from "./contents.js";
 import { figure_controls, rows_of } from "./figure.js";
+import { key_help, program_keys } from "./keys.js";
 import { follow_lamp, place_lamp } from "./lamp.js";
 import { Pictures } from "./pictures.js";
-import { property_controls } from "./properties.js";
+import { hex_of, property_controls } from "./properties.js";
 import { select_controls } from "./select.js";
 import { strip_controls } from "./strip.js";
 import { write_controls } from "./write.js";
@@ -25,7 +26,7 @@ let shown = null;      // the message of the picture in the canvas
 let full_picture = null;  // its PNG, if it is full
 let outstanding = 0;   // commands without a reply
 let newest = 0;        // the revision of the latest reply
-let actions = null;    // of keys which are the page's, by their names
+let schemes = [];      // words of the colour schemes there are
 
 const server = new Connection({
   picture: (message, bytes) => show_program_picture(message, bytes).finally(want),
@@ -61,7 +62,7 @@ function place_sections() {
 
 const kStep = 700;  // ms without a command, after which the next is a step of its own for undo
 const tells_only = new Set(["pick", "export", "export_state", "cancel_export", "save", "render_command", "end_step", "undo", "redo"]);
-const changes_state = new Set(["key", "save_view", "forget_view", "keep_scene", "forget_scene", "time_scene", "play", "pause", "save"]);
+const changes_state = new Set(["key", "keep_scene", "forget_scene", "time_scene", "play", "pause", "save"]);
 let last_change = 0;
 
 /// What an error says, without the words of its command and its property, which are a program's and no reader's.
@@ -264,7 +265,7 @@ function settle() {
   const casts = Boolean(device && figures > 0 && !unavailable && is_faster("draft"));
   if (casts !== viewer.casts || !viewer.caster) viewer.show_pictures(casts ? null : pictures);
   if (!casts) $("legend").textContent = "";  // it is of the figure that was cast
-  viewer.rests_here = casts && !state.legend.on && is_faster("rest");
+  viewer.rests_here = casts && !state.values["legend.shown"] && is_faster("rest");
   $("drawn-by").textContent = who_draws({ device, unavailable, times, casts, rests: viewer.rests_here });
   note_rest();
   want();
@@ -275,7 +276,7 @@ async function show_program_figure(message, bytes) {
   unavailable = message.unavailable ?? "";
   if (message.revision >= due) due = 0;
   if (!unavailable) {
-    const figure = read_figure_bytes(new Uint8Array(bytes), kept), cuts = message.state.cuts.map((plane) => plane.match(/^depth>(.*)/)?.[1]);
+    const figure = read_figure_bytes(new Uint8Array(bytes), kept), cuts = message.state.values["surface.clip"].map((plane) => plane.match(/^depth>(.*)/)?.[1]);
     const depths = cuts.length === figure.views[0].planes.length && cuts.some(Boolean) ? cuts.map((text) => text && Number(text)) : undefined;
     const is_told = JSON.stringify(file_camera()) === told_text;
     viewer.show_figure({ ...figure, number: ++figures, depths });
@@ -351,7 +352,15 @@ const properties = property_controls(context);
 const show_strip = strip_controls(context);
 const selection = select_controls(context);
 const show_contents = contents_controls(context, selection);
+const press = program_keys({ command, set, state: () => state, schemes: () => schemes, name: go_to_name });
 const writing = write_controls({ ...context, picture: () => has_picture() ? full_picture : null, changed: ask_state });
+
+/// At once: what is typed behind the key that opens a field is for the field, however late the session replies.
+function go_to_name() {
+  document.body.classList.remove("bare");
+  $("export-name").focus();
+  $("export-name").select();
+}
 
 /// Unless somebody is at it: what is typed, or dragged ahead of the pictures, stays.
 function set_value(control, value) {
@@ -375,13 +384,7 @@ function begin(first) {
   viewer.picked = selection.click;
   told_text = JSON.stringify(file_camera());
   follow_pointer(viewer);
-  follow_keys(viewer, (key) => {
-    if (!controls || !actions || (key.length > 1 && !key.startsWith("Arrow"))) return false;
-    // At once: what is typed behind the key that opens a field is for the field, however late the session replies.
-    if (actions[key.toLowerCase()] === "export") { document.body.classList.remove("bare"); $("export-name").focus(); $("export-name").select(); }
-    else command("press", { key });
-    return true;
-  });
+  follow_keys(viewer, (key) => controls && press(key));
 }
 
 function apply_state(next) {
@@ -395,24 +398,25 @@ function apply_state(next) {
   document.title = `${name} · Meniscus`;
   document.querySelector("h1").textContent = name;
   $("file").textContent = `${next.atoms.toLocaleString("en")} atoms`;
-  $("probe").disabled = $("probe-number").disabled = next.surface === "vdw";
-  set_value($("probe"), next.probe_radius);
-  set_value($("probe-number"), Number(next.probe_radius.toFixed(3)));
-  show_scheme(next.patch_kinds ? "kind" : next.color.scheme);
-  set_value($("map"), next.color.map ?? "");
-  $("map-row").hidden = $("range-row").hidden = !numbered.has(next.color.scheme);
-  set_value($("range"), next.color.range ?? "");
-  if ($("map").options[0]) $("map").options[0].text = next.color.own_map ? "the file's" : "its own";
+  const { values } = next, [scheme] = values["surface.color"], background = hex_of(values["image.background"]) ?? "#ffffff";
+  $("probe").disabled = $("probe-number").disabled = values["surface.kind"] === "vdw";
+  set_value($("probe"), values["surface.probe"]);
+  set_value($("probe-number"), Number(values["surface.probe"].toFixed(3)));
+  show_scheme(scheme);
+  set_value($("map"), values["surface.map"] ?? "");
+  $("map-row").hidden = $("range-row").hidden = !numbered.has(scheme);
+  set_value($("range"), values["surface.color_range"] === "auto" ? "" : values["surface.color_range"]);
+  if ($("map").options[0]) $("map").options[0].text = next.own_map ? "the file's" : "its own";
   properties.show(next.values);
   show_figure(next);
   show_strip(next);
   selection.show(next);
   show_contents(next);
   writing.show(next);
-  $("scale-bar").checked = next.values["annotations.scale_bar"] !== null;
-  set_value($("background"), next.look.background);
-  stage.style.background = next.look.background;
-  place_lamp($("lamp"), next.look.light_direction);
+  $("scale-bar").checked = values["annotations.scale_bar"] !== null;
+  set_value($("background"), background);
+  stage.style.background = background;
+  place_lamp($("lamp"), values["look.light"].split(",").map(Number));
   $("frames").hidden = next.frames < 2;
   $("frame").max = next.frames - 1;
   set_value($("frame"), next.frame);
@@ -435,7 +439,7 @@ function show_scheme(scheme) {
 
 function fill_choices(choices) {
   if (!choices.ok) return;
-  actions = choices.actions;
+  schemes = choices.schemes.map(({ word }) => word);
   for (const { word, has_map, description, lacks } of choices.schemes) {
     const option = new Option(lacks ? `${word}: the file ${lacks}` : word, word);
     option.title = description;
@@ -447,7 +451,7 @@ function fill_choices(choices) {
   $("map").add(new Option("its own", ""));
   for (const map of choices.maps) $("map").add(new Option(map, map));
   properties.fill(choices.properties);
-  $("keys").append(...rows_of(choices.keys.map(({ keys, what }) => [keys, what])));
+  $("keys").append(...rows_of(key_help));
   if (state) apply_state(state);
 }
 

@@ -4,7 +4,7 @@
 const $ = (id) => document.getElementById(id);
 const kSuchAs = { "image.width": "such as 85mm", "image.dpi": "300" };
 const kWords = { ses: "solvent-excluded", sas: "solvent-accessible", vdw: "van der Waals" };
-const hex_of = (color) => ({ black: "#000000", white: "#ffffff" })[color] ?? (/^#/.test(color) ? color : null);
+export const hex_of = (color) => ({ black: "#000000", white: "#ffffff" })[color] ?? (/^#/.test(color) ? color : null);
 
 /// Returns the control of a property, without its words.
 function control_of({ type, words, lowest, highest, step, slider_end }) {

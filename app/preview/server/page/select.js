@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is selected: atoms, residues and chains that were clicked on the stage, in the list or in the sequence, and a
 // card with what can be done with them.
-import { element, rows_of, shape_words } from "./figure.js";
+import { element, kShapes, rows_of, shape_words } from "./figure.js";
 
 const $ = (id) => document.getElementById(id);
 const kSeries = 400;                             // ms between the clicks of a double or triple click
 const kNear = 6;                                 // CSS pixels between them
-const kShapes = ["sticks", "balls", "tube", "spheres", "bases", "glycans"];
 const kAround = 5;                               // Å
 const kLevels = ["atom", "residue", "molecule"];  // selected by one, two and three clicks
 
@@ -92,21 +91,22 @@ export function select_controls({ command, set, ask, say, viewer }) {
 
   const colour = element("input", { type: "color", value: "#e69f00" });
   colour.setAttribute("aria-label", "Colour of what is selected");
-  colour.addEventListener("change", () => command("paint", { selection: text(), color: colour.value }));
+  colour.addEventListener("change", () => command("add", { key: "surface.color", value: `${text()}=${colour.value}` }));
+  const add = (key, value) => command("add", { key, value });
   const actions = {
     "Look into": () => command("look_into", { selection: text() }),
     "Zoom to": () => command("zoom_to", { selection: text() }),
-    ...Object.fromEntries(kShapes.map((as) => [shape_words(as, true), () => command("represent", { as, selection: text() })])),
-    "Surface of": () => command("object", { object: { representation: "surface", selection: text() } }),
-    "See through": () => command("opacity", { selection: text(), opacity: 0.4 }),
-    "Cut before": () => command("cut", { plane: `before ${text()}` }),
+    ...Object.fromEntries(kShapes.map((as) => [shape_words(as, true), () => add(`figure.${as}`, text())])),
+    "Surface of": () => add("figure.object", { representation: "surface", selection: text() }),
+    "See through": () => add("surface.opacity", `${text()}=0.4`),
+    "Cut before": () => add("surface.clip", `before ${text()}`),
     "Hide": () => command("take_away", { selection: text() }),
     "Show only": () => set("surface.show", text()),
     "Outline": () => set("surface.patches", text()),
     "Label": () => set("annotations.labels", [...state.values["annotations.labels"], ...entries.map(label_of)]),
     "Around": () => become([{ selection: `within ${kAround} of (${text()}) and not (${text()})`,
       name: `${kAround} Å around ${entries.map(({ name }) => name).join("; ")}` }]),
-    "Distance": () => command("object", { object: { representation: "distance", selection: entries.slice(-2).map(({ selection }) => selection).join(" to ") } }),
+    "Distance": () => add("figure.object", { representation: "distance", selection: entries.slice(-2).map(({ selection }) => selection).join(" to ") }),
   };
   const buttons = Object.entries(actions).map(([textContent, act]) => {
     const button = element("button", { type: "button", textContent });
@@ -161,14 +161,14 @@ export function select_controls({ command, set, ask, say, viewer }) {
   }
 
   /// Finds where the labels of atoms and the lengths of dashed lines belong, which pictures of the stage do not have.
-  async function place_labels({ objects, values }) {
+  async function place_labels({ values }) {
     const number = ++placed;
     const found = await Promise.all([
       ...values["annotations.labels"].map(async (label) => {
         const [, selection, words] = label.match(/^(.*)=(.*)$/s), { points } = await points_of(selection);
         return points.length > 0 && { text: words, point: times(points.reduce(plus), 1 / points.length) };
       }),
-      ...objects.filter(({ representation }) => values["annotations.lengths"] && representation === "distance")
+      ...values["figure.object"].filter(({ representation }) => values["annotations.lengths"] && representation === "distance")
         .map(({ selection }) => nearest(...selection.split(" to "))),
     ]);
     if (number !== placed) return;
@@ -210,8 +210,8 @@ export function select_controls({ command, set, ask, say, viewer }) {
   /// Shows the selection in a state's picture; atoms may have other places in it than before.
   function show(next) {
     state = next;
-    const places = JSON.stringify([next.frame, next.width, next.height, next.legend, next.representations, next.objects,
-      next.values["annotations.labels"], next.values["annotations.lengths"]]);
+    const places = JSON.stringify([next.frame, next.width, next.height, next.legend_fault,
+      Object.entries(next.values).filter(([name]) => /^(figure|legend|annotations\.l)/.test(name))]);
     if (places !== key && entries.length > 0) locate();
     if (places !== key) place_labels(next);
     key = places;

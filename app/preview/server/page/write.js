@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writing: pictures, films, scenes and files into the program's folder, from which this browser can download them.
 import { element } from "./figure.js";
+import { hex_of } from "./properties.js";
 
 const $ = (id) => document.getElementById(id);
 const kEndings = { film: ".mp4", povray: "", blender: ".mns", scene: ".json", story: ".json", camera_path: ".json" };
@@ -17,7 +18,7 @@ export function write_controls({ command, ask, say, picture, changed }) {
   const wishes = () => {
     const [width, height, samples] = ["width", "height", "export-samples"].map((id) => $(id).valueAsNumber), ratio = state.width / state.height;
     const sides = { width: width || Math.max(16, Math.round(height * ratio)), height: height || Math.max(16, Math.round(width / ratio)) };
-    return { samples: samples || state.samples, transparent: $("export-transparent").checked, ...((width || height) && sides) };
+    return { samples: samples || state.values["image.samples"], transparent: $("export-transparent").checked, ...((width || height) && sides) };
   };
 
   /// Lists the films that can be made, with what each of them gives.
@@ -99,10 +100,13 @@ export function write_controls({ command, ask, say, picture, changed }) {
 
   const show = (next) => {
     state = next;
-    const told = JSON.stringify(next.export), films = JSON.stringify([next.strip.kept, next.frames, next.fps, next.width, next.height]);
-    if (told !== taken)
-      for (const [id, key] of [["width", "width"], ["height", "height"], ["export-samples", "samples"]]) $(id).value = next.export[key] ?? "";
-    if (told !== taken) $("export-transparent").checked = next.export.transparent;
+    const { export_size, values } = next, opaque = Boolean(hex_of(values["image.background"]));
+    const told = JSON.stringify([export_size, export_size && values["image.samples"], opaque]), films = JSON.stringify([next.strip.kept, next.frames, next.fps, next.width, next.height]);
+    if (told !== taken) {
+      const asked = export_size ? [...export_size, values["image.samples"]] : ["", "", ""];
+      ["width", "height", "export-samples"].forEach((id, n) => { $(id).value = asked[n]; });
+      $("export-transparent").checked = !opaque;
+    }
     if (films !== offered || told !== taken) offer_films();
     $("save-story").hidden = next.strip.scenes === 0;
     taken = told;
