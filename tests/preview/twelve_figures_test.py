@@ -342,4 +342,7 @@ class Figures(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
+    result = unittest.main(argv=sys.argv[:1] + sys.argv[3:], exit=False).result
+    failures = len(result.failures) + len(result.errors)
+    print(f"cases {result.testsRun} failures {failures}")
+    sys.exit(failures > 0)

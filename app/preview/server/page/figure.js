@@ -130,7 +130,7 @@ export function figure_controls({ command, set, viewer }) {
       change("figure.object", index, objects[index]);
     };
     const more = [];
-    const colour = element("input", { type: "color", value: /^#/.test(object.color ?? "") ? object.color : "#d8d8d0" });
+    const colour = element("input", { type: "color", value: /^#/.test(object.color ?? "") ? object.color : "#d8d8d0", title: object.color ? "" : "As the molecule so far" });
     colour.setAttribute("aria-label", `Colour of ${what}`);
     colour.addEventListener("input", () => vary("color", colour.value));
     more.push(colour);
