@@ -53,7 +53,7 @@ rows=(
   "inexact|less exact shader arithmetic, with a control that must fail|ctest --test-dir build/test -R InexactGpu"
   "zink|tests of GPU and pictures on a second GL driver|$zink ctest --test-dir build/test -L gpu|image -E SecondDriver --timeout 900 -j $jobs"
   "python|the wheel in a fresh environment, with other packages from PyPI|bash scripts/package/test_wheel.sh"
-  "notebooks|pages and widgets in a real JupyterLab, views of MolViewSpec in Mol*, from PyPI and npm|bash scripts/check/notebooks.sh build/test"
+  "notebooks|pages and widgets in a real JupyterLab, views of MolViewSpec in Mol*, figures by hand in the preview, from PyPI and npm|bash scripts/check/notebooks.sh build/test"
   "blenders|the Blender add-on in Blender 4.2 to 5.3, with Molecular Nodes up to 5.0, from PyPI|bash scripts/check/newer_blenders.sh build/test/meniscus"
   "schedulers|files of docs/reference/schedulers.md in HTCondor's, Kubernetes', AWS' and OpenJD's own code, and in Nextflow|bash scripts/check/schedulers.sh build/test/meniscus"
   "meshes|PyPI's PyMOL and PyVOL; mesh files in OpenUSD, PrusaSlicer, VTK and Khronos' glTF validator|bash scripts/check/more_mesh_readers.sh build/test/meniscus"

@@ -228,7 +228,9 @@ Ordered value_json(const Property& property, const Scene& scene) {
     return list;
   }
   if (!texts.empty()) return json_of_texts(property, texts, "");
-  const bool has_one = property.initial.find_first_of(" @") == property.initial.npos && property.key != "surface.map";
+  // Without a scale bar there is none, though one without a length has a default.
+  const bool has_one = property.initial.find_first_of(" @") == property.initial.npos && property.key != "surface.map" &&
+                       !property.has(value_optional);
   return property.initial.empty() || !has_one ? Ordered()
                                               : json_of_texts(property, {std::string(property.initial)}, "");
 }

@@ -90,8 +90,7 @@ class PageCasting(PageCase):
             print(f"\ntables of another probe: {whole} bytes, of other colours: {colours} bytes")
             self.assertLess(colours, 0.5 * whole)
             # Sticks come with their own primitives.
-            await page.evaluate("""document.getElementById('atoms').value = 'resid 3';
-                document.querySelector('#figure-form button[value=sticks]').click()""")
+            await self.act(page, "resid 3", "Sticks")
             await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['figure.sticks'].length === 1")
             await page.at_rest(200)
             self.assertTrue(await page.evaluate("meniscus.casts"))

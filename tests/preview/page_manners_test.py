@@ -76,14 +76,12 @@ class PageManners(PageCase):
         preview = self.serve(MOLECULE, "--select", "chain D")
         async with Browser(CHROMIUM, SIZE) as page:
             await page.open(preview.url)
-            await page.evaluate("""document.getElementById('selection').value = 'chain (';
-                document.getElementById('zoom-form').requestSubmit();
-                document.getElementById('atoms').value = 'resid 10 and (';
-                document.querySelector('#figure-form button[value=sticks]').click(); 0""")
+            await page.click("#open-scene")  # of a name that no file has
+            await self.select(page, "resid 10 and (")
             await page.until("!document.getElementById('atoms-fault').hidden && "
                              "document.getElementById('message').classList.contains('error')")
             begin = time.monotonic()
-            await page.click("#kinds")
+            await self.press(page, "k")
             await page.until("document.getElementById('atoms-fault').hidden && document.getElementById('message').hidden")
             self.assertLess(time.monotonic() - begin, 5, "before it goes by itself")
 
@@ -98,7 +96,7 @@ class PageManners(PageCase):
             await page.at_rest()
             self.assertFalse(await page.evaluate(asked), "who looks around has nothing to save")
             for save in ("#writers button[value=scene]", "#save", "#undo"):
-                await page.click("#kinds")
+                await self.press(page, "k")
                 await page.until(unsaved)
                 self.assertTrue(await page.evaluate(asked))
                 await page.click(save)
@@ -109,7 +107,7 @@ class PageManners(PageCase):
             await page.evaluate("""const decode = window.createImageBitmap; window.createImageBitmap = async (...all) => {
                 await new Promise((resolve) => setTimeout(resolve, 2000)); return decode(...all); };
                 document.getElementById('export-name').value = 'late'; 0""")
-            await page.click("#kinds")
+            await self.press(page, "k")
             await page.until(unsaved)
             await page.click("#save")
             await page.until("document.getElementById('message').textContent.includes('Written')")
@@ -133,10 +131,9 @@ class PageManners(PageCase):
             async with Browser(CHROMIUM, size) as page:
                 await page.open(preview.url)
                 if size == (1280, 720):
-                    for act, atoms in (("sticks", "resid 1-20 and not name N or resid 60"),
-                                       ("fade", "chain A and (resid 1-60 or resid 80-120)"), ("surface", "resid 1-9")):
-                        await page.evaluate(f"document.getElementById('atoms').value = '{atoms}'; "
-                                            f"document.querySelector('#figure-form button[value={act}]').click()")
+                    for act, atoms in (("Sticks", "resid 1-20 and not name N or resid 60"),
+                                       ("See through", "chain A and (resid 1-60 or resid 80-120)"), ("Surface of", "resid 1-9")):
+                        await self.act(page, atoms, act)
                     await page.click("#cut-x")
                     await page.evaluate("document.getElementById('view-name').value = 'a view with a name that is long'; "
                                         "document.getElementById('view-form').requestSubmit(); 0")
@@ -304,11 +301,11 @@ class PageManners(PageCase):
             await self.press(page, "ArrowRight")
             await page.until(f"parseFloat({shown}.values['look.light']) > {before['values']['look.light'].split(',')[0]}")
             self.assertEqual((await self.state(page))["camera"], before["camera"])
-            await page.evaluate("document.getElementById('kinds').focus()")
+            await page.evaluate("document.getElementById('legend-shown').focus()")
             await self.press(page, "L")
             await page.until(f"{shown}.values['look.silhouettes'] > 0")
             await self.press(page, " ")
-            await page.until(f"{shown}.values['surface.color'][0] === 'kind'")
+            await page.until(f"{shown}.values['legend.shown']")
             self.assertFalse((await self.state(page))["playing"])
             await page.evaluate("document.getElementById('by-words').open = true, document.getElementById('atoms').focus()")
             await self.press(page, "l")
@@ -343,8 +340,7 @@ class PageManners(PageCase):
                 for _ in range(count):
                     await self.press(page, key)
                 await page.until(f"{shown}.values['surface.probe'] === {radius}")
-            await page.evaluate("""document.getElementById('selection').value = 'resid 10-20 and (';
-                document.getElementById('zoom-form').requestSubmit(); 0""")
+            await page.click("#open-scene")
             await page.until("document.getElementById('message').classList.contains('error')")
             self.assertEqual(page.complaints, [])
 

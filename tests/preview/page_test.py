@@ -5,7 +5,10 @@ import asyncio
 import json
 import math
 import os
+import pathlib
+import shutil
 import statistics
+import struct
 import subprocess
 import sys
 import unittest
@@ -116,9 +119,9 @@ class Page(PageCase):
         await page.evaluate("""const scheme = document.getElementById('scheme'); scheme.value = 'chain';
             scheme.dispatchEvent(new Event('change')); 0""")
         await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['surface.color'][0] === 'chain'")
-        await page.click("#kinds")
-        await page.until("!document.getElementById('kinds-key').hidden")
-        self.assertEqual((await self.state(page))["values"]["surface.color"], ["kind"])
+        await page.evaluate("""document.getElementById('scheme').value = 'kind';
+            document.getElementById('scheme').dispatchEvent(new Event('change')); 0""")
+        await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['surface.color'][0] === 'kind'")
         for key, value in (("ambient_occlusion", 0.8), ("silhouettes", 2), ("depth_cue", 0.25)):
             await page.evaluate(f"""document.getElementById('look-{key}').value = '{value}';
                 document.getElementById('look-{key}').dispatchEvent(new Event('input')); 0""")
@@ -133,10 +136,11 @@ class Page(PageCase):
         """The picture saved here, that written by the server, and that of `meniscus render` are the same."""
         await page.evaluate("document.getElementById('export-name').value = 'written'; 0")
         state = await self.state(page)
-        await page.click("#save-camera")
+        camera = self.path("camera.json")
+        with open(camera, "w") as file:
+            json.dump(state["camera"], file)
         await page.click("#save")
         await page.until("document.getElementById('message').textContent.includes('Written')")
-        camera = await self.downloaded(page, "1tii_camera.json")
         rendered = self.path("rendered.png")
         size = f"{state['width']}x{state['height']}"
         subprocess.run([PROGRAM, "render", MOLECULE, "--camera", camera, "--size", size, "--probe", "2.5", "--color", "kind", "--samples", "4", "--background", state["values"]["image.background"],
@@ -175,6 +179,15 @@ class Page(PageCase):
                 file.write(data)
         self.assertTrue(same_pixels(exported, self.path("shown.png")))
 
+    def test_the_picture_of_the_manual_can_be_made(self):
+        shutil.copy("/usr/share/pymol/data/tut/1hpv.pdb", self.folder.name)
+        script = pathlib.Path(__file__).resolve().parents[2] / "scripts/check/preview_pictures.py"
+        subprocess.run([sys.executable, "-B", script, PROGRAM, self.folder.name, "640x400"], check=True, timeout=200)
+        with open(self.path("preview_page.png"), "rb") as file:
+            data = file.read()
+        self.assertEqual(struct.unpack(">II", data[16:24]), (640, 400))
+        self.assertGreater(len(data), 30_000, "the molecule is in it")
+
     async def test_text_of_a_file_stays_text(self):
         name = self.path("<img src=x onerror=alert(1)>.cif")
         with open(name, "w") as file:
@@ -202,10 +215,6 @@ class Page(PageCase):
             self.assertEqual(state["keys"][0]["camera"], state["camera"])
             self.assertEqual(page.complaints, [])
 
-    async def act(self, page, atoms, button):
-        await page.evaluate(f"""document.getElementById('atoms').value = {json.dumps(atoms)};
-            document.querySelector('#figure-form button[value="{button}"]').click(); 0""")
-
     async def chips(self, page, count):
         await page.until(f"document.querySelectorAll('#chips li').length === {count}")
         await page.at_rest()
@@ -219,15 +228,17 @@ class Page(PageCase):
         preview = self.serve(MOLECULE, "--select", "polymer", "--color", "chain")
         async with Browser(CHROMIUM, (1100, 900)) as page:
             await page.open(preview.url)
-            await self.act(page, "chain C", "tube")
-            await self.act(page, "resid 10-20 and (", "sticks")
+            await self.act(page, "chain C", "Cartoon")
+            await self.select(page, "resid 10-20 and (")
             await page.until("!document.getElementById('atoms-fault').hidden")
-            self.assertNotIn("figure.sticks", await page.evaluate("document.getElementById('atoms-fault').textContent"))
+            self.assertNotIn("locate", await page.evaluate("document.getElementById('atoms-fault').textContent"))
             long = "chain A and (resid 1-60 or resid 80-120 or resid 140-160)"
-            await self.act(page, long, "fade")
-            await self.act(page, "resid 1-20", "paint")
+            await self.act(page, long, "See through")
+            await self.select(page, "resid 1-20")
+            await page.until("document.querySelector('#card h2').textContent === 'resid 1-20'")
+            await page.evaluate("document.querySelector('#card [type=color]').dispatchEvent(new Event('change')); 0")
             await page.click("#cut-x")
-            self.assertEqual(await self.chips(page, 4), ["tube: chain C", "#e69f00: resid 1-20", f"see through: {long}",
+            self.assertEqual(await self.chips(page, 4), ["cartoon: chain C", "#e69f00: resid 1-20", f"see through: {long}",
                                                          "cut x >"])
             await page.click("#chips li:last-child .remove")
             await self.chips(page, 3)
@@ -252,7 +263,7 @@ class Page(PageCase):
             await page.click("#chips li:first-child .remove")
             self.assertEqual(len(await self.chips(page, 2)), 2)
             await page.click("#undo")
-            self.assertEqual((await self.chips(page, 3))[0], "tube: chain C")
+            self.assertEqual((await self.chips(page, 3))[0], "cartoon: chain C")
             # A click of the middle button centres, a kept view comes back.
             await page.evaluate("document.getElementById('view-name').value = 'front'; "
                                 "document.getElementById('view-form').requestSubmit(); 0")
@@ -346,7 +357,7 @@ class Page(PageCase):
         preview = self.serve(MOLECULE, "--select", "polymer", "--color", "chain")
         async with Browser(CHROMIUM, (1100, 900)) as page:
             await page.open(preview.url)
-            await self.act(page, "chain C", "surface")
+            await self.act(page, "chain C", "Surface of")
             self.assertEqual(await self.chips(page, 1), ["surface: chain C"])
             await page.evaluate("""const [opacity, cut] = document.querySelectorAll('#chips li input[type=range]');
                 opacity.value = 0.5; opacity.dispatchEvent(new Event('input'));
@@ -361,8 +372,8 @@ class Page(PageCase):
             await page.drag([(x, y), (x, y)])
             await page.until("Boolean(document.querySelector('#card dd'))")
             self.assertNotIn("exposed", await page.evaluate("document.getElementById('card').textContent"))
-            self.assertEqual(state["values"]["figure.object"], [{"representation": "surface", "selection": "chain C", "color": "#e69f00",
-                                                 "opacity": 0.5, "clip": "depth>0.4"}])
+            self.assertEqual(state["values"]["figure.object"], [{"representation": "surface", "selection": "chain C", "opacity": 0.5,
+                                                                 "clip": "depth>0.4"}])
             await self.shoot(page, "objects.png")
             # The scene that is saved opens again, after all of it was undone.
             await page.click("#writers button[value=scene]")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controls of the figure: atoms that are named, a chip for each thing shown, cuts, caps, legend, kept views.
+// The controls of the figure: a chip for each thing shown, cuts, caps, legend, kept views.
 
 const $ = (id) => document.getElementById(id);
 
@@ -9,6 +9,9 @@ export function element(tag, properties = {}, ...children) {
   return made;
 }
 
+/// Returns the terms and texts of a list.
+export const rows_of = (rows) => rows.flatMap(([term, text]) => [element("dt", { textContent: term }), element("dd", { textContent: text })]);
+
 export function remove_button(what, action) {
   const button = element("button", { type: "button", className: "remove", textContent: "×" });
   button.setAttribute("aria-label", `Remove ${what}`);
@@ -16,14 +19,21 @@ export function remove_button(what, action) {
   return button;
 }
 
-function slider(label, { min, max, step, value }, tell) {
-  const range = element("input", { type: "range", min, max, step, value });
-  range.setAttribute("aria-label", label);
-  range.addEventListener("input", () => tell(range.valueAsNumber));
-  return range;
+/// Returns what a shape is called.
+export function shape_words(as, begins = false) {
+  const words = as === "tube" ? "cartoon" : as;
+  return begins ? words[0].toUpperCase() + words.slice(1) : words;
 }
 
-const kShapes = ["sticks", "balls", "spheres", "tube", "bases", "glycans"];
+/// Returns a slider with its word, which is the slider of a thing: `what`.
+function slider(word, what, { min, max, step, value }, tell) {
+  const range = element("input", { type: "range", min, max, step, value });
+  range.setAttribute("aria-label", `${word} of ${what}`);
+  range.addEventListener("input", () => tell(range.valueAsNumber));
+  return element("label", {}, word, range);
+}
+
+export const kShapes = ["sticks", "balls", "tube", "spheres", "bases", "glycans"];
 const kPlane = /^(depth|x|y|z|[^<>, ]+,[^<>, ]+,[^<>, ]+)([<>])(.*)$/;
 
 /// Returns the range of a plane's slider. The plane moves along the view, an axis or a direction such as 1,1,0. Returns
@@ -44,36 +54,11 @@ function opacity_of(entry) {
   return { selection: at < 0 ? undefined : text.slice(0, at), opacity: Number(text.slice(at + 1)) };
 }
 
-/// Shows what the figure has, each with its controls; command(word, values) and set(key, value) change it. Returns show(state), and
-/// forget_fault(), which takes back what was said of the atoms.
-export function figure_controls({ command, set, say, viewer }) {
+/// Shows what the figure has, each with its controls; command(word, values) and set(key, value) change it. Returns show(state).
+export function figure_controls({ command, set, viewer }) {
   let known = "";  // what the chips show: they are made anew when there are others, not when a slider moves
   const add = (key, value) => command("add", { key, value });
   const change = (key, index, value) => command("set", { key, index, value });  // null removes the entry
-
-  const fault = (text) => {
-    $("atoms-fault").textContent = text;
-    $("atoms-fault").hidden = !text;
-    $("atoms").setAttribute("aria-invalid", String(Boolean(text)));
-  };
-  $("atoms").addEventListener("input", () => fault(""));
-  $("figure-form").addEventListener("submit", async (event) => {
-    event.preventDefault();
-    const selection = $("atoms").value.trim();
-    const act = event.submitter?.value ?? "sticks";
-    if (!selection) return fault("Name some atoms first, such as: ligand");
-    const shown = latest.values["surface.show"];
-    const [word, values] = {
-      hide: ["set", { key: "surface.show", value: `${shown === null ? "" : `(${shown}) and `}not (${selection})` }], only: ["set", { key: "surface.show", value: selection }], zoom: ["zoom_to", { selection }],
-      outline: ["set", { key: "surface.patches", value: selection }],
-      paint: ["add", { key: "surface.color", value: `${selection}=${$("paint").value}` }],
-      fade: ["add", { key: "surface.opacity", value: `${selection}=0.4` }],
-      surface: ["add", { key: "figure.object", value: { selection, color: $("paint").value } }],
-    }[act] ?? ["add", { key: `figure.${act}`, value: selection }];
-    fault("");
-    const reply = await command(word, values, fault);
-    if (reply?.atoms !== undefined) say(`${reply.atoms.toLocaleString("en")} atoms`);
-  });
 
   ["x", "y", "z"].forEach((axis, a) => $(`cut-${axis}`).addEventListener("click", () =>
     add("surface.clip", `${axis}>${Math.round(5 * (latest.low[a] + latest.high[a])) / 10}`)));
@@ -89,8 +74,7 @@ export function figure_controls({ command, set, say, viewer }) {
   $("cap").addEventListener("change", (event) =>
     command("set", { key: "surface.cap_color", value: event.target.value === "own" ? $("cap-color").value : event.target.value }));
   $("cap-color").addEventListener("input", (event) => command("set", { key: "surface.cap_color", value: event.target.value }));
-  $("undo").addEventListener("click", () => command("undo"));
-  $("redo").addEventListener("click", () => command("redo"));
+  for (const word of ["undo", "redo"]) $(word).addEventListener("click", () => command(word));
   $("view-form").addEventListener("submit", (event) => {
     event.preventDefault();
     const name = $("view-name").value.trim(), { camera, figure: { origin } } = viewer();
@@ -139,22 +123,22 @@ export function figure_controls({ command, set, say, viewer }) {
 
   /// An object with its colour, its opacity if that is one number, and a surface's cut along the view.
   function object_chip(object, index) {
-    const what = `${object.representation}: ${object.selection}`;
+    const what = `${shape_words(object.representation)}: ${object.selection}`;
     const vary = (key, value) => {
       const objects = latest.values["figure.object"];
       objects[index] = { ...objects[index], [key]: value };  // the next change may come before the reply
       change("figure.object", index, objects[index]);
     };
     const more = [];
-    const colour = element("input", { type: "color", value: /^#/.test(object.color ?? "") ? object.color : "#d8d8d0" });
+    const colour = element("input", { type: "color", value: /^#/.test(object.color ?? "") ? object.color : "#d8d8d0", title: object.color ? "" : "As the molecule so far" });
     colour.setAttribute("aria-label", `Colour of ${what}`);
     colour.addEventListener("input", () => vary("color", colour.value));
     more.push(colour);
     if (object.opacity === undefined || !/=/.test(object.opacity))
-      more.push(slider(`Opacity of ${what}`, { min: 0, max: 1, step: 0.05, value: object.opacity ?? 1 },
+      more.push(slider("Opacity", what, { min: 0, max: 1, step: 0.05, value: object.opacity ?? 1 },
         (value) => vary("opacity", String(value))));
     if (object.representation === "surface" && (object.clip === undefined || /^depth>/.test(object.clip))) {
-      const cut = slider(`Cut of ${what}`, { min: 0, max: 1, step: 0.01, value: (object.clip ?? "depth>0").slice(6) },
+      const cut = slider("Cut", what, { min: 0, max: 1, step: 0.01, value: (object.clip ?? "depth>0").slice(6) },
         (value) => vary("clip", value > 0 ? `depth>${value}` : []));
       cut.title = "Cut along the view";
       more.push(cut);
@@ -167,16 +151,18 @@ export function figure_controls({ command, set, say, viewer }) {
     if (shown !== null) list.push(chip(`surface of ${shown}`, () => set("surface.show", null)));
     if (patches !== null) list.push(chip(`patches of ${patches}`, () => set("surface.patches", null)));
     for (const as of kShapes)
-      state.values[`figure.${as}`].forEach((selection, n) => list.push(entry_chip(`${as}: ${selection}`, `figure.${as}`, n)));
+      state.values[`figure.${as}`].forEach((selection, n) => list.push(entry_chip(`${shape_words(as)}: ${selection}`, `figure.${as}`, n)));
     state.values["figure.object"].forEach((object, n) => list.push(object_chip(object, n)));
     state.values["surface.color"].forEach((rule, n) => {
       const at = rule.lastIndexOf("=");
       if (at >= 0) list.push(entry_chip(`${rule.slice(at + 1)}: ${rule.slice(0, at)}`, "surface.color", n));
     });
+    state.values["annotations.labels"].forEach((label, n) =>
+      list.push(entry_chip(`label: ${label.slice(label.lastIndexOf("=") + 1)}`, "annotations.labels", n)));
     state.values["surface.opacity"].map(opacity_of).forEach(({ opacity, selection }, index) => {
       if (selection === undefined) return;  // the slider of all
       const what = `see through: ${selection}`;
-      list.push(entry_chip(what, "surface.opacity", index, slider(`Opacity, ${what}`, { min: 0, max: 1, step: 0.05, value: opacity },
+      list.push(entry_chip(what, "surface.opacity", index, slider("Opacity", what, { min: 0, max: 1, step: 0.05, value: opacity },
         (value) => change("surface.opacity", index, `${selection}=${value}`))));
     });
     state.values["surface.clip"].forEach((plane, index) => {
@@ -190,7 +176,7 @@ export function figure_controls({ command, set, say, viewer }) {
           const now = plane_range(latest.values["surface.clip"][index], latest);
           change("surface.clip", index, `${now.axis}${now.sign === "<" ? ">" : "<"}${now.value}`);
         });
-        more.push(slider(`Place of the cut ${range.axis}`, range, (value) => {
+        more.push(slider("Place", `the cut ${range.axis}`, range, (value) => {
           const now = plane_range(latest.values["surface.clip"][index], latest);
           change("surface.clip", index, `${now.axis}${now.sign}${value}`);
         }), side);
@@ -203,7 +189,7 @@ export function figure_controls({ command, set, say, viewer }) {
   function show(state) {
     latest = state;
     const { values } = state, cuts = values["surface.clip"], opacities = values["surface.opacity"].map(opacity_of), objects = values["figure.object"];
-    const shape = JSON.stringify([values["surface.show"], values["surface.patches"], kShapes.map((as) => values[`figure.${as}`]), objects.map((o) => [o.representation, o.selection]), values["surface.color"], opacities.map((o) => o.selection),
+    const shape = JSON.stringify([values["surface.show"], values["surface.patches"], kShapes.map((as) => values[`figure.${as}`]), objects.map((o) => [o.representation, o.selection]), values["surface.color"], opacities.map((o) => o.selection), values["annotations.labels"],
       cuts.map((plane) => plane.match(kPlane)?.slice(1, 3) ?? plane)]);
     if (shape !== known) {
       known = shape;
@@ -218,16 +204,14 @@ export function figure_controls({ command, set, say, viewer }) {
     if (cut) $("cut-with").value = /^depth>/.test(cut) ? "view" : "molecule";
     const named = [...$("cap").options].some((option) => option.value === cap);
     $("cap").value = named ? cap : "own";
-    $("cap-color-row").hidden = named;
+    $("cap-color-row").hidden = named || cuts.length === 0;
     if (cap !== "atom") $("cap-color").value = cap;
     const of_cuts = ["cap", "surface-cap_hatching", "surface-clip_all"].map((id) => [id, cuts.length > 0]);
     for (const [id, there] of [...of_cuts, ["surface-film_opacity", opacities.length > 0]]) if ($(id)) $(id).parentElement.hidden = !there;
-    $("cap-color-row").hidden ||= cuts.length === 0;
-    $("undo").disabled = state.undo === 0;
-    $("redo").disabled = state.redo === 0;
+    for (const word of ["undo", "redo"]) $(word).disabled = state[word] === 0;
     $("legend-fault").textContent = state.legend_fault;
     $("legend-fault").hidden = !state.legend_fault;
   }
 
-  return { show, forget_fault: () => fault("") };
+  return show;
 }

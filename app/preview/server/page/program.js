@@ -3,8 +3,8 @@
 import { is_worth_timing, time_casting, webgl_device, who_draws } from "./casting.js";
 import { answers, Connection } from "./connection.js";
 import { contents_controls } from "./contents.js";
-import { figure_controls } from "./figure.js";
-import { has_lines, key_help, program_keys } from "./keys.js";
+import { figure_controls, rows_of } from "./figure.js";
+import { key_help, program_keys } from "./keys.js";
 import { follow_lamp, place_lamp } from "./lamp.js";
 import { Pictures } from "./pictures.js";
 import { hex_of, property_controls } from "./properties.js";
@@ -199,7 +199,7 @@ function tell(text, is_error = false, for_good = false) {
 /// What was wrong with an earlier command, once another one has worked.
 function forget_errors() {
   if ($("message").classList.contains("error") && !stays) $("message").hidden = true;
-  figure.forget_fault();
+  selection.forget_fault();
 }
 
 /// A fresh page, once the server answers again.
@@ -333,10 +333,6 @@ function show_stats(stats, full) {
     ["encoding", ms(stats.encode_milliseconds)]]));
 }
 
-/// Terms and texts of a list.
-const rows_of = (rows) => rows.flatMap((row) => row.map((text, n) =>
-  Object.assign(document.createElement(n === 0 ? "dt" : "dd"), { textContent: text })));
-
 /// The server draws as many pixels as the canvas has on this screen.
 function fit() {
   if (!controls) return;
@@ -351,7 +347,7 @@ new ResizeObserver(fit).observe(stage);
 // State
 
 const context = { command, set, ask, say: (text, is_error) => tell(text, is_error), viewer: () => viewer };
-const figure = figure_controls(context);
+const show_figure = figure_controls(context);
 const properties = property_controls(context);
 const show_strip = strip_controls(context);
 const selection = select_controls(context);
@@ -406,23 +402,20 @@ function apply_state(next) {
   $("probe").disabled = $("probe-number").disabled = values["surface.kind"] === "vdw";
   set_value($("probe"), values["surface.probe"]);
   set_value($("probe-number"), Number(values["surface.probe"].toFixed(3)));
-  set_value($("scheme"), scheme);
+  show_scheme(scheme);
   set_value($("map"), values["surface.map"] ?? "");
   $("map-row").hidden = $("range-row").hidden = !numbered.has(scheme);
   set_value($("range"), values["surface.color_range"] === "auto" ? "" : values["surface.color_range"]);
   if ($("map").options[0]) $("map").options[0].text = next.own_map ? "the file's" : "its own";
   properties.show(next.values);
-  figure.show(next);
+  show_figure(next);
   show_strip(next);
   selection.show(next);
   show_contents(next);
   writing.show(next);
-  $("kinds").checked = scheme === "kind";
-  $("kinds-key").hidden = scheme !== "kind";
+  $("scale-bar").checked = values["annotations.scale_bar"] !== null;
   set_value($("background"), background);
   stage.style.background = background;
-  $("shade").checked = values["look.ambient_occlusion"] > 0;
-  $("lines").checked = has_lines(next);
   place_lamp($("lamp"), values["look.light"].split(",").map(Number));
   $("frames").hidden = next.frames < 2;
   $("frame").max = next.frames - 1;
@@ -432,6 +425,16 @@ function apply_state(next) {
   $("key").textContent = is_key(next) ? "Remove key" : "Set key";
   $("save-path").disabled = next.keys.length === 0;
   $("follow").checked = next.follow_keys;
+}
+
+const kOneColor = "one colour";
+
+/// Shows by what the surface is coloured.
+function show_scheme(scheme) {
+  const is_one = scheme.startsWith("#");
+  if (is_one) $("one-color").value = scheme;
+  $("one-color-row").hidden = !is_one;
+  set_value($("scheme"), is_one ? kOneColor : scheme);
 }
 
 function fill_choices(choices) {
@@ -444,11 +447,10 @@ function fill_choices(choices) {
     $("scheme").add(option);
     if (has_map) numbered.add(word);
   }
+  $("scheme").add(new Option(kOneColor));
   $("map").add(new Option("its own", ""));
   for (const map of choices.maps) $("map").add(new Option(map, map));
   properties.fill(choices.properties);
-  $("shapes").prepend(...choices.representations.map((as) =>
-    Object.assign(document.createElement("button"), { name: "do", value: as, textContent: as[0].toUpperCase() + as.slice(1) })));
   $("keys").append(...rows_of(key_help));
   if (state) apply_state(state);
 }
@@ -459,25 +461,16 @@ const set_probe = (radius) => { if (Number.isFinite(radius)) set("surface.probe"
 $("probe").addEventListener("input", (event) => set_probe(event.target.valueAsNumber));
 $("probe-number").addEventListener("change", (event) => set_probe(event.target.valueAsNumber));
 
-$("scheme").addEventListener("change", () =>
-  set("surface.color", [$("scheme").value, ...state.values["surface.color"].filter((entry) => entry.includes("="))]));
+const set_scheme = (scheme) => set("surface.color", [scheme, ...state.values["surface.color"].filter((entry) => entry.includes("="))]);
+$("scheme").addEventListener("change", () => set_scheme($("scheme").value === kOneColor ? $("one-color").value : $("scheme").value));
+$("one-color").addEventListener("input", () => set_scheme($("one-color").value));
 $("range").addEventListener("change", () => set("surface.color_range", $("range").value.trim() || null));
 $("map").addEventListener("change", () => set("surface.map", $("map").value || null));
-let beneath_kinds = "auto";  // the colours before kinds of patch were shown
-$("kinds").addEventListener("change", (event) => {
-  if (event.target.checked) beneath_kinds = state.values["surface.color"];
-  set("surface.color", event.target.checked ? "kind" : beneath_kinds);
-});
 $("projection").addEventListener("change", (event) => set_projection(viewer, event.target.value === "orthographic"));
 $("background").addEventListener("input", (event) => set("image.background", event.target.value));
-for (const [id, key] of [["shade", "a"], ["lines", "l"]]) $(id).addEventListener("change", () => press(key));
+$("scale-bar").addEventListener("change", (event) => set("annotations.scale_bar", event.target.checked ? "auto" : null));
 follow_lamp($("lamp"), (direction) => { if (controls) set("look.light", direction.join()); });
 $("reset").addEventListener("click", () => command("reset_view"));
-$("zoom-form").addEventListener("submit", async (event) => {
-  event.preventDefault();
-  const reply = await command("zoom_to", { selection: $("selection").value });
-  if (reply) tell(`${reply.atoms.toLocaleString("en")} atoms`);
-});
 $("frame").addEventListener("input", (event) => command("frame", { index: event.target.valueAsNumber }));
 const is_key = ({ keys, frame_number }) => keys.some((key) => key.frame === frame_number);
 const toggle_playing = () => state?.playing ? command("pause") : command("play", { fps: $("rate").valueAsNumber || 10 });
