@@ -9,11 +9,10 @@ from typing import Any, Optional
 import numpy as np
 
 from . import _header as header
-from ._arguments import plain
+from ._arguments import AnyArray, Floats, Texts, plain
 from ._errors import InputError, wrong_type
 from ._library import Handle, call
 from ._sources import TAKEN_BY, package_of
-from ._types import AnyArray, Floats, Texts
 
 
 #: The tables whose rows are single letters.

@@ -10,11 +10,11 @@ from typing import Any, Iterable, Iterator, Literal, Mapping, NamedTuple, Option
 
 from . import _header as header
 from . import _library as lib
-from ._arguments import file_name, flag, listed, number, positive, text, word
+from ._arguments import (AnyArray, Hydrogens, Path, RadiiSet, UnknownElement, file_name, flag, listed, number, positive,
+                         text, word)
 from ._arrays import texts, view
 from ._columns import NUMBERS
 from ._errors import Error, wrong_type
-from ._types import AnyArray, Hydrogens, Path, RadiiSet, UnknownElement
 
 _HYDROGENS = {"auto": header.HYDROGENS_AUTO, "keep": header.HYDROGENS_KEEP, "drop": header.HYDROGENS_DROP}
 _UNKNOWN_ELEMENTS = {"halt": header.UNKNOWN_HALT, "guess": header.UNKNOWN_GUESS, "skip": header.UNKNOWN_SKIP}
@@ -48,7 +48,7 @@ def _c_array(texts: Sequence[bytes]) -> Any:
     return (ctypes.c_char_p * len(texts))(*texts)
 
 
-def opened(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, None] = None,
+def handle_of(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, None] = None,
            model: Union[int, Literal["all"]] = 1, altloc: str = "best", hydrogens: Hydrogens = "auto",
            radii: Optional[RadiiSet] = None, radii_files: Union[Path, Sequence[Path]] = (),
            radius: Union[Mapping[str, float], Iterable[str], None] = None, keep_water: bool = False,

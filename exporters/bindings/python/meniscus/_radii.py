@@ -9,9 +9,8 @@ from typing import Any, Iterable, Union
 import numpy as np
 
 from . import _library as lib
-from ._arguments import listed, whole_number
+from ._arguments import AnyArray, Floats, listed, whole_number
 from ._errors import InputError
-from ._types import AnyArray, Floats
 
 
 @functools.lru_cache(maxsize=None)

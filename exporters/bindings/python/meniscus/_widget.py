@@ -9,10 +9,9 @@ from typing import Any, Callable, NamedTuple, Optional, Union
 import numpy as np
 
 from ._arrays import real_array
-from ._colors import atom_colors
 from ._errors import InputError
 from ._page import Page, page_of
-from ._picture import Camera
+from ._picture import Camera, atom_colors
 
 #: Shows the page in a frame. The frame isolates it, except for the messages of messages.js in exporters/page.
 _SCRIPT = """
