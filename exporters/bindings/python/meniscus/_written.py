@@ -126,11 +126,10 @@ def cif_of(column: Callable[[int], AnyArray], classes: AnyArray, elements: Texts
               _ENTITIES[classes].tolist(), np.where(classes == 0, numbers, ".").tolist(), codes,
               *(_numbers(positions[:, axis]) for axis in range(3)), occupancies, b_factors, numbers, residues, chains,
               names, models]
-    keys = list(_KEYS)
+    head = "".join(f"_atom_site.{key}\n" for key in _KEYS)
     for key, values in (("charge", charges), ("auth_segid", segments)):  # not of the dictionary, but read by others
         if any(value not in "?." for value in values):
-            keys.append(key)
+            head += f"_atom_site.{key}\n"
             fields.append(values)
-    head = "".join(f"_atom_site.{key}\n" for key in keys)
     block = re.sub(r"[^A-Za-z0-9_.-]", "_", name) or "molecule"
     return f"data_{block}\n{_ENTITY_TABLE}loop_\n{head}" + "\n".join(map(" ".join, zip(*fields))) + "\n#\n"
