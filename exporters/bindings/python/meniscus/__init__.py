@@ -43,8 +43,7 @@ __all__ = [
     "NotClosedError", "OutputError", "Page", "Patches", "Picked", "Picture", "Pocket", "Property", "Scene", "Structure",
     "Surface", "UsageError", "Widget", "buried", "frames", "from_ase", "from_biopython", "from_biotite", "from_gemmi",
     "from_mdanalysis", "from_mdtraj", "from_openmm", "from_prody", "from_rdkit", "library_path", "page", "properties",
-    "radii_of", "read", "series", "surface", "version", "widget",
-]
+    "radii_of", "read", "series", "surface", "version", "widget"]
 
 
 def __getattr__(name: str) -> str:

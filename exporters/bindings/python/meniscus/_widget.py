@@ -89,16 +89,11 @@ def _model(shown: Page) -> Any:
         return trait.tag(sync=True)
 
     traits = {
-        "_esm": _SCRIPT,
-        "html": shared(traitlets.Unicode(shown.html)),
-        "title": shared(traitlets.Unicode(shown.title)),
-        "height": shared(traitlets.Int(shown.height)),
-        "atoms": shared(traitlets.Int(0)),
+        "_esm": _SCRIPT, "html": shared(traitlets.Unicode(shown.html)), "title": shared(traitlets.Unicode(shown.title)),
+        "height": shared(traitlets.Int(shown.height)), "atoms": shared(traitlets.Int(0)),
         "camera": shared(traitlets.Dict(default_value=None, allow_none=True)),
-        "picked": shared(traitlets.Dict(default_value=None, allow_none=True)),
-        "colors": shared(traitlets.Bytes(b"")),
-        "label": shared(traitlets.Unicode("")),
-    }
+        "picked": shared(traitlets.Dict(default_value=None, allow_none=True)), "colors": shared(traitlets.Bytes(b"")),
+        "label": shared(traitlets.Unicode(""))}
     return type("MeniscusWidget", (anywidget.AnyWidget,), traits)()
 
 

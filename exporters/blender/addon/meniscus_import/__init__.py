@@ -3,14 +3,9 @@
 only, and runs in Blender 3.4 and later."""
 
 bl_info = {
-    "name": "Meniscus",
-    "author": "The Meniscus developers",
-    "version": (0, 2, 0),
-    "blender": (3, 4, 0),
+    "name": "Meniscus", "author": "The Meniscus developers", "version": (0, 2, 0), "blender": (3, 4, 0),
     "location": "File > Import > Meniscus surface (.mns); 3D View > Sidebar > Meniscus",
-    "description": "Exact solvent-excluded molecular surfaces: import, compute, animate",
-    "category": "Import-Export",
-}
+    "description": "Exact solvent-excluded molecular surfaces: import, compute, animate", "category": "Import-Export"}
 
 import os
 
@@ -34,8 +29,7 @@ class Looks:
         name="Centre",
         description="Puts the middle of the molecule to the origin, or where an earlier import put it, so that a "
         "surface and its trajectory overlay; otherwise coordinates are those of the molecule's file", default=False)
-    import_camera: bpy.props.BoolProperty(
-        name="Camera", description="Import the camera of the file", default=True)
+    import_camera: bpy.props.BoolProperty(name="Camera", description="Import the camera of the file", default=True)
     use_camera: bpy.props.BoolProperty(name="Use camera",
                                        description="Make it the camera of the scene, and take the size of its picture",
                                        default=True)
@@ -209,8 +203,7 @@ def object_menu_entry(self, context):
 
 CLASSES = [
     IMPORT_SCENE_OT_meniscus, IMPORT_SCENE_OT_meniscus_sequence, IMPORT_SCENE_OT_meniscus_storyboard,
-    OBJECT_OT_meniscus_reload
-]
+    OBJECT_OT_meniscus_reload]
 
 if compat.can_drop_files():
 

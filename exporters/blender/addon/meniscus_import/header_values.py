@@ -58,8 +58,7 @@ CAMERA = {
     **{key: VECTOR for key in VECTORS}, "size": SIZE, "shadows": SHARE,
     "shadow_softness": _number(0.0, 90.0, "a number from 0 to 90"),
     "projection": (lambda value: isinstance(value, str) and value in SIZES, "perspective or orthographic"),
-    "vertical_fov": _number(1e-9, 179.999999, "a number above 0 and below 180"), "height": POSITIVE
-}
+    "vertical_fov": _number(1e-9, 179.999999, "a number above 0 and below 180"), "height": POSITIVE}
 
 
 def check(header, table, needed=()):

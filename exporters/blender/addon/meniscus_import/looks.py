@@ -51,8 +51,7 @@ COLORINGS = {
     "CONFIDENCE": "Confidence (pLDDT)", "B_FACTOR": "B-factor", "CHARGE": "Charge", "POTENTIAL": "Potential map",
     "HYDROPHOBICITY": "Hydrophobicity (Kyte & Doolittle)", "LIPOPHILICITY": "Lipophilicity", "KIND": "Patch kind",
     "CURVATURE": "Curvature", "SMOOTH_CURVATURE": "Curvature, smooth", "ATOM_AREA": "Area of the atom",
-    "ACCESSIBLE_AREA": "Accessible area of the atom", "BURIED_AREA": "Buried area of the atom"
-}
+    "ACCESSIBLE_AREA": "Accessible area of the atom", "BURIED_AREA": "Buried area of the atom"}
 #: Name of a colouring -> its attribute.
 ATTRIBUTES = {"COLOR": "Color", **HUES, **{name: of[0] for of_all in (STEPS, SCALES) for name, of in of_all.items()}}
 #: Name of a look -> its label.

@@ -174,8 +174,7 @@ def set_looks(tree, shader, looks):
         rest = _scaled(tree, color, 1.0 - looks["ambient"])
         for socket in [
                 link.to_socket for link in tree.links
-                if link.to_node == shader and link.to_socket.name in ("Base Color", "Subsurface Color")
-        ]:
+                if link.to_node == shader and link.to_socket.name in ("Base Color", "Subsurface Color")]:
             tree.links.new(rest, socket)
 
 

@@ -21,9 +21,8 @@ TYPES = ("<f4", "<f8", "<u4", "<i4", "|u1")
 #: Arrays that a mesh must have, and their columns.
 NEEDED = {
     "mesh.position": 3, "mesh.normal": 3, "mesh.triangle": 3, "mesh.kind": 1, "mesh.patch": 1, "mesh.component": 1,
-    "mesh.atom": 1, "mesh.sharp_corner": 1, "mesh.sharp_corner_normal": 3, "mesh.sharp_edge": 2,
-    "atom.center": 3, "atom.radius": 1, "atom.color": 3,
-}
+    "mesh.atom": 1, "mesh.sharp_corner": 1, "mesh.sharp_corner_normal": 3, "mesh.sharp_edge": 2, "atom.center": 3,
+    "atom.radius": 1, "atom.color": 3}
 #: Optional numbers of atoms and of vertices.
 OF_ATOMS = ("b_factor", "charge", "hydrophobicity", "atomic_number", "res_id", "chain_id", "name_id", "residue_name_id",
             "entity", "area", "accessible_area", "buried_area", "index", "file_index", "opacity", "own_color")
@@ -39,32 +38,20 @@ WHOLE = ("atomic_number", "res_id", "chain_id", "name_id", "residue_name_id", "e
 CAP = 4
 #: Tests of the values of headers. Values of an object are in its own part of the header.
 VALUES = {
-    "generator": header_values.TEXT,
-    **header_values.SOURCE,
-    "name": header_values.TEXT,
-    "mesh": header_values.DICT,
-    "mesh.origin": header_values.VECTOR,
-    "mesh.tolerance": header_values.NUMBER,
-    "kind_colors": header_values.COLORS,
+    "generator": header_values.TEXT, **header_values.SOURCE, "name": header_values.TEXT, "mesh": header_values.DICT,
+    "mesh.origin": header_values.VECTOR, "mesh.tolerance": header_values.NUMBER, "kind_colors": header_values.COLORS,
     **{key: header_values.NUMBER for key in ("probe_radius", "area", "volume")},
     **{key: header_values.TEXTS for key in ("chain_names", "atom_names", "residue_names")},
     "material": header_values.DICT,
     **{f"material.{key}": header_values.SHARE for key in ("ambient", "roughness", "specular")},
-    "material.shininess": header_values.SHININESS,
-    "caps": header_values.DICT,
-    "caps.planes": header_values.PLANES,
-    "caps.color": header_values.COLOR,
-    "caps.hatching": header_values.DICT,
-    "caps.hatching.across": header_values.DIRECTIONS,
-    "caps.hatching.distance": header_values.POSITIVE,
-    "caps.hatching.share": header_values.SHARE,
-    "caps.hatching.light": header_values.SHARE,
-}
+    "material.shininess": header_values.SHININESS, "caps": header_values.DICT, "caps.planes": header_values.PLANES,
+    "caps.color": header_values.COLOR, "caps.hatching": header_values.DICT,
+    "caps.hatching.across": header_values.DIRECTIONS, "caps.hatching.distance": header_values.POSITIVE,
+    "caps.hatching.share": header_values.SHARE, "caps.hatching.light": header_values.SHARE}
 #: Tests of the values of an entry of the components.
 COMPONENT = {
     "components": header_values.DICT, "components.kind": header_values.TEXT, "components.area": header_values.NUMBER,
-    "components.volume": header_values.NUMBER
-}
+    "components.volume": header_values.NUMBER}
 
 
 class MnsError(Exception):
@@ -299,19 +286,13 @@ def _check(surface):
         "mesh.component": triangles, "mesh.atom": triangles, "mesh.cap_plane": triangles, "mesh.patch_area": triangles,
         "mesh.map_color": vertices, "atom.radius": atoms, "atom.color": atoms,
         **{f"mesh.{name}": vertices for name in OF_VERTICES}, **{f"atom.{name}": atoms for name in OF_ATOMS},
-        "mesh.sharp_corner_normal": len(arrays["mesh.sharp_corner"]),
-    }
+        "mesh.sharp_corner_normal": len(arrays["mesh.sharp_corner"])}
     for name, rows in lengths.items():
         if name in arrays and len(arrays[name]) != rows:
             raise MnsError(f"{path}: array {name} has {len(arrays[name])} rows instead of {rows}")
     limits = {
-        "mesh.triangle": vertices,
-        "mesh.sharp_edge": vertices,
-        "mesh.sharp_corner": 3 * triangles,
-        "mesh.kind": CAP + 1 if "caps" in surface.header else 3,
-        "mesh.component": components,
-        "mesh.atom": atoms,
-    }
+        "mesh.triangle": vertices, "mesh.sharp_edge": vertices, "mesh.sharp_corner": 3 * triangles,
+        "mesh.kind": CAP + 1 if "caps" in surface.header else 3, "mesh.component": components, "mesh.atom": atoms}
     for name in [f"atom.{name}" for name in WHOLE if f"atom.{name}" in arrays]:
         if arrays[name].dtype.kind not in "iu":
             raise MnsError(f"{path}: array {name} does not hold whole numbers")

@@ -11,20 +11,11 @@ from .computing import preparation, preparation_table, request
 
 #: Fields of the panel by the keys of scenes.
 FIELDS = {
-    "molecule.file": "file",
-    "molecule.select": "selection",
-    "frames.trajectory": "trajectory",
-    "frames.trajectory_atoms": "trajectory_atoms",
-    "frames.frames": "frames",
-    "surface.kind": "kind",
-    "surface.probe": "probe",
-    "surface.cavities": "cavities",
-    "surface.color": "colors",
-    "surface.color_by_file": "numbers",
-    "mesh.tolerance": "tolerance",
-    "mesh.density": "density",
-    **{row.key: preparation.name_of(row) for row in preparation.ROWS},
-}
+    "molecule.file": "file", "molecule.select": "selection", "frames.trajectory": "trajectory",
+    "frames.trajectory_atoms": "trajectory_atoms", "frames.frames": "frames", "surface.kind": "kind",
+    "surface.probe": "probe", "surface.cavities": "cavities", "surface.color": "colors",
+    "surface.color_by_file": "numbers", "mesh.tolerance": "tolerance", "mesh.density": "density",
+    **{row.key: preparation.name_of(row) for row in preparation.ROWS}}
 FILES = ("file", "trajectory", "numbers")
 #: The ranges of numbers in the panel. Those of the program are wider.
 NUMBERS = {"probe": (0.0, 100.0), "tolerance": (1e-5, 1.0), "density": (0.005, 1000.0)}
@@ -32,8 +23,7 @@ WORDS = {"surface.kind": request.KINDS, "surface.cavities": request.CAVITIES}
 #: Keys without effect on the surface: the output, the device, and the compression of films.
 IDLE = {
     "output.file", "surface.device", "surface.require_gpu", "surface.threads", "surface.verify",
-    "surface.representation", "frames.codec", "frames.crf", "frames.bits", "frames.chroma"
-}
+    "surface.representation", "frames.codec", "frames.crf", "frames.bits", "frames.chroma"}
 #: Sections about parts of a picture that have no counterpart in Blender.
 UNSEEN = ("look", "legend", "annotations", "image")
 

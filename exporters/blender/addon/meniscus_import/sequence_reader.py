@@ -20,8 +20,7 @@ MOST_FRAMES = 10_000_000
 #: Tests of the values of a manifest. The first four are needed.
 VALUES = {
     "run": header_values.TEXT, "origin": header_values.VECTOR, "scale": header_values.POSITIVE,
-    "fps": header_values.POSITIVE, "atoms": header_values.NUMBER, **header_values.SOURCE
-}
+    "fps": header_values.POSITIVE, "atoms": header_values.NUMBER, **header_values.SOURCE}
 #: The choices for times before and after a run.
 OUTSIDE = ("EMPTY", "HOLD", "LOOP", "PINGPONG")
 

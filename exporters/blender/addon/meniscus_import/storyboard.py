@@ -130,8 +130,7 @@ class _Story:
             parent.children.link(collection)
             items = [
                 item for surface in self.files[scene.path].objects
-                for item in self.objects_of(surface, f"{self.name}.{number}", scene)
-            ]
+                for item in self.objects_of(surface, f"{self.name}.{number}", scene)]
             for item in items:
                 collection.objects.link(item)
             shown.append(items)
@@ -151,8 +150,7 @@ class _Story:
                                 names_of(*file.objects), fades=True)
         nudge(mesh, surface["mesh.normal"], NUDGE * len(self.made) * self.options.scale)
         self.made[key] = [
-            build.add_copy(mesh, copy, surface, scene.path, file, self.options, self.origin) for copy in surface.copies
-        ]
+            build.add_copy(mesh, copy, surface, scene.path, file, self.options, self.origin) for copy in surface.copies]
         return self.made[key]
 
 def nudge(mesh, normals, distance):

@@ -21,8 +21,7 @@ VALUES = {"origin": header_values.VECTOR, "scale": header_values.POSITIVE, "fps"
           "ease": (lambda value: value in ("smooth", "even"), "smooth or even")}
 OF_SCENE = {
     "name": header_values.TEXT, "title": header_values.TEXT, "file": header_values.TEXT, "camera": header_values.DICT,
-    "background": (lambda value: value is None or header_values.COLOR[0](value), header_values.COLOR[1])
-}
+    "background": (lambda value: value is None or header_values.COLOR[0](value), header_values.COLOR[1])}
 
 
 class Scene:

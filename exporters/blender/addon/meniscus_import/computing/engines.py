@@ -25,19 +25,10 @@ POLL = 0.05  # s between two checks if the program has ended and if its result i
 
 #: Options of the program -> labels of fields of the panel, or of values of fields.
 FIELDS = {
-    "--select": "Selection",
-    "--color": "Colour",
-    "--surface": "Surface",
-    "--probe": "Probe",
-    "--tolerance": "Tolerance",
-    "--density": "Density",
-    "--trajectory": "Trajectory",
-    "--trajectory-atoms": "Trajectory's atoms",
-    "--frames": "Frames",
-    "--cavities": "Cavities",
-    "--color-by-file": "Numbers",
-    **{preparation.option_of(row): preparation.label_of(row) for row in preparation.ROWS},
-}
+    "--select": "Selection", "--color": "Colour", "--surface": "Surface", "--probe": "Probe",
+    "--tolerance": "Tolerance", "--density": "Density", "--trajectory": "Trajectory",
+    "--trajectory-atoms": "Trajectory's atoms", "--frames": "Frames", "--cavities": "Cavities",
+    "--color-by-file": "Numbers", **{preparation.option_of(row): preparation.label_of(row) for row in preparation.ROWS}}
 #: Options in the spelling of libmeniscus.
 OF_LIBRARY = re.compile(r"\A(?:select|%s)(?=: )|\b(?:keep_water|keep_ions|unknown_element)\b|(?<=another )color\b" %
                         "|".join(map(preparation.name_of, preparation.OF_MOLECULE)))
@@ -88,8 +79,7 @@ class Tools:
         if self.program is None:
             raise EngineError(
                 f"{purpose} needs the program meniscus, which is not found; name it in the add-on's "
-                f"preferences{instead}"
-            )
+                f"preferences{instead}")
         return self.program
 
     def program_for_files(self):
@@ -157,18 +147,11 @@ def _shape(library, atoms, request, task):
     vertices = mesh.vertices
     origin = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
     arrays = {
-        "mesh.position": (vertices - origin).astype(np.float32),
-        "mesh.normal": mesh.normals.astype(np.float32),
-        "mesh.triangle": mesh.triangles,
-        "mesh.kind": mesh.triangle_kinds,
-        "mesh.patch": mesh.triangle_patches,
-        "mesh.component": mesh.triangle_components,
-        "mesh.atom": mesh.triangle_atoms,
-        "mesh.sharp_corner": mesh.sharp_corners,
-        "mesh.sharp_corner_normal": mesh.sharp_normals.astype(np.float32),
-        "mesh.sharp_edge": np.empty((0, 2), np.uint32),
-        **measures.of_surface(library, made, mesh),
-    }
+        "mesh.position": (vertices - origin).astype(np.float32), "mesh.normal": mesh.normals.astype(np.float32),
+        "mesh.triangle": mesh.triangles, "mesh.kind": mesh.triangle_kinds, "mesh.patch": mesh.triangle_patches,
+        "mesh.component": mesh.triangle_components, "mesh.atom": mesh.triangle_atoms,
+        "mesh.sharp_corner": mesh.sharp_corners, "mesh.sharp_corner_normal": mesh.sharp_normals.astype(np.float32),
+        "mesh.sharp_edge": np.empty((0, 2), np.uint32), **measures.of_surface(library, made, mesh)}
     header = {
         "generator": f"libmeniscus {library.version()}",
         "device": made.device,
@@ -179,13 +162,10 @@ def _shape(library, atoms, request, task):
         "volume": made.volume,
         "mesh": {
             "origin": [float(value) for value in origin], "vertices": len(vertices), "triangles": len(mesh.triangles),
-            "closed": True, "tolerance": 0.0 if request.density else request.tolerance
-        },
+            "closed": True, "tolerance": 0.0 if request.density else request.tolerance},
         "components": [{
             "kind": "cavity" if part["kind"] else "outer", "area": float(part["area"]), "volume": float(part["volume"]),
-            "euler": int(part["euler"])
-        } for part in made.components],
-    }
+            "euler": int(part["euler"])} for part in made.components]}
     return header, arrays
 
 
@@ -198,8 +178,7 @@ def _painted(shape, atoms):
     arrays = {
         **arrays, "atom.center": np.asarray(atoms.positions,
                                             np.float64), "atom.radius": np.asarray(atoms.radii, np.float64),
-        "atom.color": np.asarray(atoms.colors, np.float32), "atom.index": np.asarray(atoms.index), **atoms.numbers
-    }
+        "atom.color": np.asarray(atoms.colors, np.float32), "atom.index": np.asarray(atoms.index), **atoms.numbers}
     surface = mns_reader.Surface(f"{atoms.source or 'atoms'} in memory", header, arrays)
     surface.known_closed = True  # surfaces of the library are always closed
     return surface
@@ -216,8 +195,7 @@ def surface_by_program(tools, request, folder, task):
             program, "export", "blender", request.file, *_atom_options(request), "--surface", SURFACES[request.kind],
             f"--probe={request.probe!r}",
             f"--density={request.density!r}" if request.density else f"--tolerance={request.tolerance!r}", "--force",
-            "-q", "-o", target
-        ]
+            "-q", "-o", target]
         if request.kind == "VDW":
             words.remove(f"--probe={request.probe!r}")
         if request.place:

@@ -73,8 +73,7 @@ class Worker:
         with self._lock:
             found = [
                 task for task in (self._waiting.pop(owner, None), *self._running)
-                if task is not None and task.owner == owner
-            ]
+                if task is not None and task.owner == owner]
             for task in found:
                 task.cancel()
             return bool(found)
