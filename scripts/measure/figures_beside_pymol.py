@@ -174,8 +174,7 @@ cmd.translate([45, 0, 0], 'right', camera=1); cmd.zoom('all', 2)""",
      "cmd.load({molecule!r}, 'm', discrete=1); cmd.hide(); cmd.create('one', 'm', 1, 1); cmd.delete('m'); "
      "cmd.show('surface'); cmd.show('sticks'); cmd.set('transparency', 0.6); util.cbag(); look(camera)", "PyMOL reads all molecules of the file"),
     ("along a channel", DEMO, "--select 'chain D E F G H' --color chain --view channel --background white",
-     SURFACE + "cmd.remove('not chain D+E+F+G+H'); util.cbc(); look(camera)", "PyMOL got the camera from Meniscus"),
-)
+     SURFACE + "cmd.remove('not chain D+E+F+G+H'); util.cbc(); look(camera)", "PyMOL got the camera from Meniscus"))
 
 
 def statements(script):

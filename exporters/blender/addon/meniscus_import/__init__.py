@@ -106,9 +106,8 @@ class IMPORT_SCENE_OT_meniscus_sequence(Looks, bpy.types.Operator, ImportHelper)
                 "All frames become part of the .blend file, which then renders anywhere without add-on"),
                ("STREAM", "Read when shown",
                 "One frame in memory; the file needs this add-on and the exported folder")))
-    scale: bpy.props.FloatProperty(
-        name="Scale", description="Blender units per ångström; 0 takes that of the sequence", default=0.0, min=0.0,
-        soft_max=1.0, precision=4)
+    scale: bpy.props.FloatProperty(name="Scale", description="Blender units per ångström; 0 takes that of the sequence",
+                                   default=0.0, min=0.0, soft_max=1.0, precision=4)
     start: bpy.props.FloatProperty(name="Start", description="The frame of the scene that shows the first of the run",
                                    default=1.0)
     speed: bpy.props.FloatProperty(

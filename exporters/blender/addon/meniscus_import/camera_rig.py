@@ -124,8 +124,7 @@ def add(collection, board, name, scale, origin):
         _tolerance_of_size, (2,))
     data.lens, data.ortho_scale = half / poses[0].tangent, poses[0].height * scale
     key(board, data, "lens", [(half / pose.tangent,) for pose in poses], None,
-        lambda before, after, share: lens_progress(half / before[0], half / after[0], share),
-        _tolerance_of_size)
+        lambda before, after, share: lens_progress(half / before[0], half / after[0], share), _tolerance_of_size)
     if any(pose.is_flat for pose in poses):
         key(board, data, "ortho_scale", [(pose.height * scale,) for pose in poses], None, _log_progress,
             _tolerance_of_size)

@@ -134,8 +134,7 @@ def _ramp(tree, stops):
 def _hues(tree, attribute):
     """Adds nodes with a hue for each integer. Multiples of the golden section are never near one another."""
     number = compat.math_node(tree, "FLOOR",
-                              compat.math_node(tree, "ADD",
-                                               _attribute(tree, attribute).outputs["Fac"], 0.5))
+                              compat.math_node(tree, "ADD", _attribute(tree, attribute).outputs["Fac"], 0.5))
     hue = compat.math_node(tree, "FRACT",
                            compat.math_node(tree, "ADD", compat.math_node(tree, "MULTIPLY", number, 0.6180340), 0.58))
     node = compat.hsv_node(tree, 0.45, 0.85)
