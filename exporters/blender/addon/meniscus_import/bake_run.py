@@ -230,9 +230,4 @@ def draw(layout, context):
             layout.label(text=line)
 
 
-def register():
-    bpy.utils.register_class(OBJECT_OT_meniscus_bake)
-
-
-def unregister():
-    bpy.utils.unregister_class(OBJECT_OT_meniscus_bake)
+register, unregister = bpy.utils.register_classes_factory([OBJECT_OT_meniscus_bake])

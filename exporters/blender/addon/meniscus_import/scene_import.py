@@ -70,9 +70,4 @@ class OBJECT_OT_meniscus_from_scene(panel.Waiting, bpy.types.Operator, ImportHel
                 del item["meniscus_file"]  # the file is temporary
 
 
-def register():
-    bpy.utils.register_class(OBJECT_OT_meniscus_from_scene)
-
-
-def unregister():
-    bpy.utils.unregister_class(OBJECT_OT_meniscus_from_scene)
+register, unregister = bpy.utils.register_classes_factory([OBJECT_OT_meniscus_from_scene])

@@ -6,7 +6,7 @@ import dataclasses
 import json
 import os
 
-from . import header_values, mns_reader
+from . import mns_reader
 from .computing import preparation, preparation_table, request
 
 #: Fields of the panel by the keys of scenes.
@@ -71,7 +71,7 @@ def _settings(path, given):
         if section in ("meniscus_scene", "superposed"):
             continue
         if section != "objects" and not isinstance(values, dict):
-            raise mns_reader.MnsError(f"{path}: {section} is {header_values.shortened(values)}, not a section")
+            raise mns_reader.MnsError(f"{path}: {section} is {mns_reader.shortened(values)}, not a section")
         yield from [(section, values)] if section == "objects" else ((f"{section}.{name}", value)
                                                                      for name, value in values.items())
 
@@ -80,14 +80,14 @@ def _take(scene, path, key, value):
     name = FIELDS[key]
     values = value if isinstance(value, list) else [value]
     if not values or not all(isinstance(each, (str, int, float)) for each in values):
-        raise mns_reader.MnsError(f"{path}: {key} is {header_values.shortened(value)}")
+        raise mns_reader.MnsError(f"{path}: {key} is {mns_reader.shortened(value)}")
     if name == "colors":
         scene.fields.update(_colors(values))
         return
     try:
         found = None if len(values) > 1 else _plain(key, name, values[0])
     except ValueError as error:
-        raise mns_reader.MnsError(f"{path}: {key} is {header_values.shortened(value)}, not {error}") from None
+        raise mns_reader.MnsError(f"{path}: {key} is {mns_reader.shortened(value)}, not {error}") from None
     if found is None or name in FILES and not _is_beside(found):
         scene.others.append(key)  # the program takes several values, and checks files in other folders
     else:

@@ -9,7 +9,7 @@ import os
 import bpy
 import numpy as np
 
-from . import build, camera_rig, compat, frames, keys, mesh_arrays, mns_reader, storyboard_reader
+from . import build, camera_rig, compat, frames, keys, mesh_arrays, mns_reader, sequence_reader
 from .mesh_arrays import names_of
 
 #: The keys of a surface's header that affect its look.
@@ -32,7 +32,7 @@ def import_file(path, context=None, scale=None, center=False, import_camera=True
     None for that of the file. set_background: True for key frames of the background. Other arguments are those of
     build.Options and sequence.Run. After MnsError or OSError nothing is left in the scene."""
     context = context or bpy.context
-    board = storyboard_reader.read(path)
+    board = sequence_reader.read_storyboard(path)
     options = build.Options(scale=board.scale if scale is None else scale, **options)
     files = {each: mns_reader.read(each) for each in {scene.path: None for scene in board.scenes}}
     story = _Story(path, board, files, options, _origin(context.scene, board, files, center))
@@ -117,7 +117,7 @@ def digest_of(surface):
 class _Story:
     def __init__(self, path, board, files, options, origin):
         self.path, self.board, self.files, self.options, self.origin = path, board, files, options, origin
-        self.name = os.path.basename(os.path.dirname(os.path.abspath(path))) or board.stem
+        self.name = os.path.basename(os.path.dirname(os.path.abspath(path))) or build.stem_of(path)
         self.made = {}  # digest of a surface -> its objects, one for each copy
         self.new_materials = []
 
