@@ -65,7 +65,7 @@ def working():
 
 def search_tools_again():
     """Searches for the tools again, because they may have been installed meanwhile. Returns the result of
-    works.Tools.describe_tools()."""
+    jobs.Tools.describe_tools()."""
     end()
     return working().describe_tools()
 

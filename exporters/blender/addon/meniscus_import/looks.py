@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import compat, fading, materials, mns_reader
+from . import compat, materials, mns_reader
 from .mesh_arrays import SLOTS
 
 #: The custom property that identifies node groups and materials of this module.
@@ -200,7 +200,7 @@ def material(look, coloring, scale=0.1, kind=materials.OPAQUE, fades=False, look
             tree.links.new(materials.let_through(tree, kind, surface.links[0].from_socket, shader), surface)
         compat.let_through(made)
     if fades:
-        fading.add(made)
+        materials.add_fade(made)
     return made
 
 

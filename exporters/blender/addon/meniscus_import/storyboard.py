@@ -9,7 +9,7 @@ import os
 import bpy
 import numpy as np
 
-from . import build, camera_rig, compat, frames, keys, mesh_arrays, mns_reader, sequence_reader
+from . import build, camera_rig, compat, frames, mesh_arrays, mns_reader, sequence_reader
 from .mesh_arrays import names_of
 
 #: The keys of a surface's header that affect its look.
@@ -165,13 +165,13 @@ def nudge(mesh, normals, distance):
 def fade(item, board, shows):
     """Adds key frames to the alpha of an object's colour: from 0 to 1 in a transition to a scene that shows it, and to
     2 in a transition to one that does not. shows: True for each scene that shows the object."""
-    easing = keys.SMOOTH if board.is_smooth else keys.EVEN
-    way = keys.Way(board.scenes[0].first, float(shows[0]))
+    easing = camera_rig.SMOOTH if board.is_smooth else camera_rig.EVEN
+    way = camera_rig.Way(board.scenes[0].first, float(shows[0]))
     for number, (before, after, dissolves) in enumerate(camera_rig.transitions(board), 1):
         if shows[number] != shows[number - 1]:
             start = float(shows[number - 1])
-            way.append(before.last, start, keys.LINEAR if way.points[-1][1] == start else keys.CONSTANT)
-            way.append(after.first, 1.0 if shows[number] else 2.0, easing if dissolves else keys.CONSTANT)
+            way.append(before.last, start, camera_rig.LINEAR if way.points[-1][1] == start else camera_rig.CONSTANT)
+            way.append(after.first, 1.0 if shows[number] else 2.0, easing if dissolves else camera_rig.CONSTANT)
     item.color[3] = way.points[0][1]
     if len(way.points) > 1:
         way.insert(item, "color", 3)
@@ -182,11 +182,11 @@ def hide(item, board, shows):
     transition from it. shows: True for each scene that shows the object."""
     if all(shows):
         return
-    way = keys.Way(board.scenes[0].first, float(not shows[0]))
+    way = camera_rig.Way(board.scenes[0].first, float(not shows[0]))
     for number, (before, after, _) in enumerate(camera_rig.transitions(board), 1):
         if shows[number] and not shows[number - 1]:
-            way.append(before.last + 1, 0.0, keys.CONSTANT)
+            way.append(before.last + 1, 0.0, camera_rig.CONSTANT)
         elif shows[number - 1] and not shows[number]:
-            way.append(after.first, 1.0, keys.CONSTANT)
+            way.append(after.first, 1.0, camera_rig.CONSTANT)
     for path in ("hide_render", "hide_viewport"):
         way.insert(item, path)

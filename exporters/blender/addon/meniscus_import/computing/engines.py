@@ -16,7 +16,7 @@ import numpy as np
 
 from .. import joined, mns_reader
 from . import atoms as atom_files
-from . import measures, preparation
+from . import preparation
 
 #: The kind of a surface in a request -> the value of the program's option.
 SURFACES = {"SES": "ses", "SAS": "sas", "VDW": "vdw"}
@@ -151,7 +151,7 @@ def _shape(library, atoms, request, task):
         "mesh.triangle": mesh.triangles, "mesh.kind": mesh.triangle_kinds, "mesh.patch": mesh.triangle_patches,
         "mesh.component": mesh.triangle_components, "mesh.atom": mesh.triangle_atoms,
         "mesh.sharp_corner": mesh.sharp_corners, "mesh.sharp_corner_normal": mesh.sharp_normals.astype(np.float32),
-        "mesh.sharp_edge": np.empty((0, 2), np.uint32), **measures.of_surface(library, made, mesh)}
+        "mesh.sharp_edge": np.empty((0, 2), np.uint32), **measures_of(library, made, mesh)}
     header = {
         "generator": f"libmeniscus {library.version()}",
         "device": made.device,
@@ -167,6 +167,57 @@ def _shape(library, atoms, request, task):
             "kind": "cavity" if part["kind"] else "outer", "area": float(part["area"]), "volume": float(part["volume"]),
             "euler": int(part["euler"])} for part in made.components]}
     return header, arrays
+
+
+#: Points nearer than this (Å) to the axis of a spindle torus get the curvature at this distance, as in Meniscus.
+CORE = 0.001
+
+
+def measures_of(library, made, mesh):
+    """Returns arrays by their names in .mns files. made, mesh: a surface and a mesh of the package `library`."""
+    mean, gaussian = curvatures(made, mesh)
+    arrays = {"mesh.mean_curvature": mean, "mesh.gaussian_curvature": gaussian}
+    try:
+        arrays["atom.area"] = made.atom_areas.astype(np.float32)
+        arrays["atom.accessible_area"] = (made.atom_sas_areas.astype(np.float32) if made.kind == "ses" else
+                                          arrays["atom.area"])
+    except library.Error:
+        pass  # the areas of the atoms do not add up, so they are left out rather than wrong
+    return arrays
+
+
+def curvatures(made, mesh):
+    """Returns the mean and the Gaussian curvature at vertices, in 1/Å and 1/Å². Among the patches of a vertex's
+    triangles, the one that it lies on counts."""
+    corner, x = mesh.triangles.ravel(), mesh.vertices
+    kind, patch = np.repeat(mesh.triangle_kinds, 3), np.repeat(mesh.triangle_patches, 3)
+    # The principal curvatures, and the distance from the surface of the patch in Å.
+    along, around, off = (np.zeros(len(corner)) for _ in range(3))
+    patches, balls = made.patches, made.balls
+    convex, torus, concave = (np.flatnonzero(kind == which) for which in range(3))
+    if len(convex):
+        atom = patches.convex["atom"][patch[convex]]
+        radius = balls["radius"][atom]
+        along[convex] = around[convex] = 1.0 / radius
+        off[convex] = np.abs(np.linalg.norm(x[corner[convex]] - balls["center"][atom], axis=1) - radius)
+    if len(torus):
+        rows = patches.toroidal[patch[torus]]
+        offset = x[corner[torus]] - rows["center"]
+        height = np.einsum("nx,nx->n", offset, rows["axis"])
+        out = np.linalg.norm(offset - height[:, None] * rows["axis"], axis=1)
+        along[torus] = -1.0 / made.probe
+        around[torus] = (rows["radius"] - out) / made.probe / np.maximum(out, CORE)
+        off[torus] = np.abs(np.hypot(rows["radius"] - out, height) - made.probe)
+    if len(concave):
+        along[concave] = around[concave] = -1.0 / made.probe
+        off[concave] = np.abs(
+            np.linalg.norm(x[corner[concave]] - patches.concave["center"][patch[concave]], axis=1) - made.probe)
+    # The last assignment to a vertex counts: that of the nearest patch, and of equally near ones the first.
+    order = np.lexsort((-np.arange(len(corner)), -np.round(off, 6)))
+    mean, gaussian = (np.zeros(len(x), dtype=np.float32) for _ in range(2))
+    mean[corner[order]] = 0.5 * (along + around)[order]
+    gaussian[corner[order]] = (along * around)[order]
+    return mean, gaussian
 
 
 def _painted(shape, atoms):
