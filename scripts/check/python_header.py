@@ -66,14 +66,14 @@ def module_text():
             fields = [f'("{field}", {ctype(declared, classes)}{f" * {size}" if size else ""})'
                       for declared, names in re.findall(r"((?:const )?\w+(?:\* ?const)?\*?) ([^;]+);", found["fields"])
                       for field, size in re.findall(r"(\w+)(?:\[(\d+)\])?", names)]
-            text += f"\n\nclass {name}(Struct):\n" + listed("    _fields_ = [", fields, "]", 16) + "\n\n"
+            text += f"\nclass {name}(Struct):\n" + listed("    _fields_ = [", fields, "]", 16) + "\n"
         elif found["function"]:
             types = [ctype(re.sub(r"\w+$", "", argument), classes)
                      for argument in found["arguments"].split(",") if argument != "void"]
             functions.append(f'"{found["function"]}": ({ctype(found["result"], classes)}, [{", ".join(types)}])')
     text += "\n\n#: The types of the result and of the arguments of each function.\n"
     text += "FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {\n" + listed("    ", functions, "}", 4)
-    return re.sub(r"\n{4,}", "\n\n\n", text)
+    return re.sub(r"\n{3,}", "\n\n", text)
 
 
 if __name__ == "__main__":

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, Iterator, NamedTuple, Optional, overload
 import numpy as np
 
 from ._arguments import Device, Floats, Kind, Rows
+from ._arrays import is_content
 from ._errors import InputError, wrong_type
 from ._library import about_file
-from ._molecule_file import is_content
 from ._read import first_of, models_of, structure_of
 from ._sources import TAKEN_BY, Source, is_molecule, opened, package_of
 from ._structure import Structure

@@ -16,10 +16,9 @@ import numpy as np
 
 from . import _header as header
 from ._arguments import AnyArray, Bytes, Path, Projection, number, word
-from ._arrays import real_array
+from ._arrays import as_file, handle_of, real_array
 from ._errors import InputError, UsageError, wrong_type
 from ._library import Handle, call
-from ._molecule_file import as_file, handle_of
 from ._written import save_bytes
 
 DEVICES = {"cpu": header.CPU, "auto": header.AUTO, "gpu": header.GPU, "software": header.SOFTWARE}

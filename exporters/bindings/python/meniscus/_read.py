@@ -8,8 +8,8 @@ from typing import IO, Any, Iterable, Literal, Mapping, Optional, Sequence, Unio
 import numpy as np
 
 from ._arguments import Hydrogens, Path, RadiiSet, UnknownElement
+from ._arrays import as_file, handle_of, is_content
 from ._errors import InputError, warn
-from ._molecule_file import as_file, handle_of, is_content
 from ._sources import Source, opened, package_of
 from ._structure import Structure
 

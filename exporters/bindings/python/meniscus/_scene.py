@@ -17,8 +17,8 @@ import numpy as np
 from . import _header as header
 from . import _library as lib
 from ._arguments import Device, Path, plain
+from ._arrays import WHOLE, column_of
 from ._errors import InputError, UsageError, wrong_type
-from ._molecule_file import WHOLE, column_of
 from ._page import Page, made
 from ._picture import Picture, blank, renderer
 from ._scene_values import SceneAttributes

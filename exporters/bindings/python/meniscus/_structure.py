@@ -12,10 +12,9 @@ import numpy as np
 from . import _header as header
 from . import _library as lib
 from ._arguments import AnyArray, Floats, Path, Singles, number
-from ._arrays import real_array
+from ._arrays import Report, WHOLE, column_of, handle_of, real_array, renamed, report_of
 from ._columns import NUMBERS, SYMBOLS, Atom, Columns, atoms_of, dataframe_of, parts_of
 from ._errors import InputError, also, wrong_type
-from ._molecule_file import WHOLE, Report, column_of, handle_of, renamed, report_of
 from ._radii import atomic_numbers, radii_of
 from ._written import cif_of, written
 
