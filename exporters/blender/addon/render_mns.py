@@ -186,10 +186,9 @@ def add_lights(scene, camera, style, look):
 
 def bright_field(tree, camera):
     """Returns the output with the colour of BRIGHT_FIELD in the direction of a ray."""
-    toward = tree.nodes.new("ShaderNodeVectorMath")
-    toward.operation = "DOT_PRODUCT"
-    tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"], toward.inputs[0])
-    toward.inputs[1].default_value = camera.matrix_world.col[2].xyz
+    generated = tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"]
+    toward = compat.add_node(tree, "ShaderNodeVectorMath", generated, camera.matrix_world.col[2].xyz,
+                             operation="DOT_PRODUCT")
     half = compat.math_node(tree, "MULTIPLY_ADD", toward.outputs["Value"], 0.5, 0.5)
     ramp = tree.nodes.new("ShaderNodeValToRGB")
     ramp.color_ramp.elements.remove(ramp.color_ramp.elements[-1])

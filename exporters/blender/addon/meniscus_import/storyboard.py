@@ -84,12 +84,9 @@ def set_up_background(scene, board, name):
         if shown is not None:
             for socket in ("Color", "Strength"):
                 light.inputs[socket].default_value = shown.inputs[socket].default_value
-    seen = tree.nodes.new("ShaderNodeBackground")
-    seen.name = seen.label = "Seen"
-    mix = tree.nodes.new("ShaderNodeMixShader")
-    tree.links.new(tree.nodes.new("ShaderNodeLightPath").outputs["Is Camera Ray"], mix.inputs[0])
-    tree.links.new(light.outputs[0], mix.inputs[1])
-    tree.links.new(seen.outputs[0], mix.inputs[2])
+    seen = compat.add_node(tree, "ShaderNodeBackground", name="Seen", label="Seen")
+    mix = compat.add_node(tree, "ShaderNodeMixShader", tree.nodes.new("ShaderNodeLightPath").outputs["Is Camera Ray"],
+                          light.outputs[0], seen.outputs[0])
     tree.links.new(mix.outputs[0], compat.find_or_add(tree, "OUTPUT_WORLD", "ShaderNodeOutputWorld").inputs["Surface"])
     linear = [mesh_arrays.linear(color or (1.0, 1.0, 1.0)) for color in colors]
     camera_rig.key(board, tree, 'nodes["Seen"].inputs[0].default_value', linear, seen.inputs[0].default_value)
