@@ -106,7 +106,7 @@ class Parts(Case):
             self.assertEqual(type(plain), np.ndarray)
         for number, symbol in enumerate(meniscus._columns.SYMBOLS[1:], 1):
             self.assertEqual(meniscus.radii_of([str(symbol)])[0], meniscus.radii_of([number])[0])
-            self.assertEqual(meniscus._radii.atomic_numbers([symbol])[0], number)
+            self.assertEqual(meniscus._columns.atomic_numbers([symbol])[0], number)
 
 
 class Arrays(Case):

@@ -22,13 +22,12 @@ del _numpy
 
 from ._errors import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, OutputError,
                       UsageError)
-from ._columns import Atom
+from ._columns import Atom, radii_of
 from ._library import library_path, version
 from ._mesh import Mesh
 from ._page import Page, page
 from ._patches import Patches, Pocket
 from ._picture import Camera, Picture
-from ._radii import radii_of
 from ._read import read
 from ._scene import Property, Scene, properties
 from ._structure import Structure

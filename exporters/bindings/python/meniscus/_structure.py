@@ -13,9 +13,9 @@ from . import _header as header
 from . import _library as lib
 from ._arguments import AnyArray, Floats, Path, Singles, number
 from ._arrays import Report, WHOLE, column_of, handle_of, real_array, renamed, report_of
-from ._columns import NUMBERS, SYMBOLS, Atom, Columns, atoms_of, dataframe_of, parts_of
+from ._columns import (NUMBERS, SYMBOLS, Atom, Columns, atomic_numbers, atoms_of, dataframe_of, parts_of,
+                       radii_of)
 from ._errors import InputError, also, wrong_type
-from ._radii import atomic_numbers, radii_of
 from ._written import cif_of, written
 
 #: The parameters of Structure() and their columns.
