@@ -40,7 +40,7 @@ class Importing(ImportHelper):
                                           description="Show colours as they are; Filmic and AgX make them paler",
                                           default=False)
 
-    def options(self, *names):
+    def shared_values(self, *names):
         """Returns the values of the shared properties and of others by their names."""
         return {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
                                                        "use_camera", *names)}
@@ -95,7 +95,7 @@ class IMPORT_SCENE_OT_meniscus(Importing, bpy.types.Operator):
         imported = 0
         for path in paths:
             try:
-                build.import_file(path, context, **self.options("scale", "parts"))
+                build.import_file(path, context, **self.shared_values("scale", "parts"))
                 imported += 1
             except (mns_reader.MnsError, OSError) as error:
                 self.report({"ERROR"}, str(error))
@@ -119,7 +119,7 @@ class IMPORT_SCENE_OT_meniscus_sequence(ImportingRun, bpy.types.Operator):
 
     @build.reports_errors
     def execute(self, context):
-        options = self.options("set_time")
+        options = self.shared_values("set_time")
         window = context.window_manager
         window.progress_begin(0, 1)
         try:
@@ -152,7 +152,7 @@ class IMPORT_SCENE_OT_meniscus_storyboard(ImportingRun, bpy.types.Operator):
     @build.reports_errors
     def execute(self, context):
         storyboard.import_file(self.filepath, context, scale=self.scale or None,
-                               **self.options("set_time", "set_background"))
+                               **self.shared_values("set_time", "set_background"))
         self.report_view_transform(context)
         return {"FINISHED"}
 
