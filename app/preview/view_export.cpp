@@ -192,6 +192,7 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
   const Strips strips = strips_for(strip_contents(view.annotations), view.annotations.letters, settings.size);
   settings.size.y -= strips.top + strips.bottom;
   settings.samples = view.samples;
+  settings.adaptive = true;
   settings.look = look_of(figure.look, view.size, background, figure.hues(), figure.molecule.patches.has_value());
   settings.progress = [&watch](double share) { watch("picture", share); };
   SurfaceRequest on_cpu;

@@ -183,6 +183,7 @@ RenderSettings render_settings(const Scene& scene, const PictureLayout& layout) 
   RenderSettings settings;
   settings.size = layout.size.size();
   settings.samples = scene.image.samples;
+  settings.adaptive = true;
   settings.aovs = scene.image.aovs;
   settings.mattes = scene.image.cryptomatte;
   settings.look =

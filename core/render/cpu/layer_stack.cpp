@@ -171,6 +171,7 @@ void LayerStack::cast_tile(std::size_t tile, LaneTile task, const LaneKernels& k
   if (is_empty && !task.front.color) return;
   Workplace& place = workplaces_.local();
   place.hits.clear();
+  task.counts = nullptr;  // the layers of all rays of a tile are put together at once
   place.farthest.assign(ray_count(task), kFar);
   place.clipped.resize(ray_count(task));
   const TileWork work{task, kernels, place};
