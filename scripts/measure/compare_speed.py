@@ -43,8 +43,7 @@ CASES = [
       "ligand=element", "--zoom-to", "within 5 of (ligand and chain A)", "--clip", "depth>0.55", "--background", "white", "-o",
       "made.png"], 1),
     ("picture: 1IHM, 677,040 atoms", ["render", "1ihm.pdb", "--assembly", "1", "-o", "made.png"], 1),
-    ("picture: 1TII, 10,000 × 7,500 pixels", ["render", TOXIN, "--size", "10000x7500", "-o", "made.png"], 1),
-]
+    ("picture: 1TII, 10,000 × 7,500 pixels", ["render", TOXIN, "--size", "10000x7500", "-o", "made.png"], 1)]
 
 
 @dataclass

@@ -48,7 +48,9 @@ enum Column {
   kB,
   kModel,
   kEntityId,
-  kGroup
+  kGroup,
+  kCharge,
+  kSegment
 };
 std::vector<std::string> column_names(std::string_view text) {
   const std::vector<std::string_view> names = fields_of(text);
@@ -58,7 +60,7 @@ std::vector<std::string> column_names(std::string_view text) {
 const std::vector<std::string> kColumns = column_names(
     "Cartn_x Cartn_y Cartn_z ?type_symbol ?auth_atom_id ?label_atom_id ?auth_comp_id ?label_comp_id ?auth_asym_id "
     "?label_asym_id ?auth_seq_id ?label_seq_id ?pdbx_PDB_ins_code ?label_alt_id ?occupancy ?B_iso_or_equiv "
-    "?pdbx_PDB_model_num ?label_entity_id ?group_PDB");
+    "?pdbx_PDB_model_num ?label_entity_id ?group_PDB ?charge ?auth_segid");
 
 /// Returns the line of a row of _atom_site. In nearly all files a row is one line; otherwise the first line of the loop
 /// is returned.
@@ -149,6 +151,8 @@ Atom read_row(const TextFile& file, const cif::Table& table, std::size_t number_
   if (row.has2(kAlt)) atom.altloc = first_letter(row[kAlt]);
   if (row.has2(kOccupancy)) atom.occupancy = kept_number(row[kOccupancy]);
   if (row.has2(kB)) atom.b_factor = kept_number(row[kB]);
+  if (row.has2(kCharge)) atom.charge = kept_number(row[kCharge]);
+  if (row.has2(kSegment)) atom.segment = cif::as_string(row[kSegment]);
   const gemmi::Element symbol(row.has2(kSymbol) ? cif::as_string(row[kSymbol]) : std::string());
   atom.element = static_cast<std::uint8_t>(symbol.atomic_number());
   return atom;
@@ -427,9 +431,9 @@ bool recognizes(std::string_view text) {
 
 const Reader kMmcifReader{
     {"mmCIF", ".cif .mmcif .mcif", "macromolecular CIF of the wwPDB", "PDBx/mmCIF dictionary; Hall, Allen & Brown 1991",
-     "_atom_site (author's names where given, label_asym_id too), _entity and _entity_poly, _struct_conf and "
-     "_struct_sheet_range, _exptl, pLDDT of _ma_qa_metric_local; chemical components (_chem_comp_atom, "
-     "_chem_comp_bond), each a model"},
+     "_atom_site (author's names where given, label_asym_id too; partial charges as charge, segments as auth_segid), "
+     "_entity and _entity_poly, _struct_conf and _struct_sheet_range, _exptl, pLDDT of _ma_qa_metric_local; chemical "
+     "components (_chem_comp_atom, _chem_comp_bond), each a model"},
     recognizes,
     read,
     read_mmcif_assemblies};
