@@ -2,6 +2,7 @@
 // Reports that there is no `meniscus preview`, in builds without its page.
 #include "app/commands/command_table.h"
 #include "app/options/scene_options.h"
+#include "app/preview/server/serve.h"
 #include "app/process/program_main.h"
 
 namespace meniscus {
@@ -14,5 +15,7 @@ void add_preview(CLI::App& command) {
         "this build has no preview; build Meniscus from source (meniscus help install), or use meniscus render");
   });
 }
+
+std::vector<std::uint8_t> encode_jpeg(std::span<const std::uint8_t>, glm::ivec2, bool) { return {}; }
 
 }  // namespace meniscus

@@ -73,14 +73,8 @@ class BallGrid {
   /// order()[last], over all rows together, include all whose centres are within `reach` (Å).
   template <typename Visit>
   void for_each_row_near(const glm::dvec3& point, double reach, Visit&& visit) const {
-    for_each_row_between(point - reach, point + reach, visit);
-  }
-
-  /// Does the same for all balls whose centres lie between the two corners of a box.
-  template <typename Visit>
-  void for_each_row_between(const glm::dvec3& low_corner, const glm::dvec3& high_corner, Visit&& visit) const {
-    const glm::ivec3 low = cell_of(low_corner);
-    const glm::ivec3 high = cell_of(high_corner);
+    const glm::ivec3 low = cell_of(point - reach);
+    const glm::ivec3 high = cell_of(point + reach);
     for (int z = low.z; z <= high.z; ++z)
       for (int y = low.y; y <= high.y; ++y) {
         const std::size_t row = (static_cast<std::size_t>(z) * size_.y + y) * size_.x;

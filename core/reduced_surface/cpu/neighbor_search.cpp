@@ -104,24 +104,27 @@ NeighborSearch::NeighborSearch(std::span<const Ball> atoms, double probe_radius,
 // Takes the balls from `first` on while they are as close as those of a cell.
 void NeighborSearch::surround(std::size_t first, Surroundings& around) const {
   glm::dvec3 low = center(first), high = low;
+  double heaviest = weight(first);
   std::size_t past = first + 1;
   for (; past < size(); ++past) {
     const glm::dvec3 new_low = glm::min(low, center(past)), new_high = glm::max(high, center(past));
     const glm::dvec3 side = new_high - new_low;
-    if (std::max({side.x / 2, side.y, side.z}) > largest_radius_) break;
+    if (std::max({side.x, side.y, side.z}) > largest_radius_) break;
     low = new_low;
     high = new_high;
+    heaviest = std::max(heaviest, weight(past));
   }
   around.first_ = first;
   around.past_ = past;
   around.rows_.clear();
   std::size_t count = 0;
-  grid_.for_each_row_between(low - 2 * largest_radius_, high + 2 * largest_radius_,
-                             [&](std::uint32_t row, std::uint32_t row_end) {
-                               if (row == row_end) return;
-                               around.rows_.push_back({row, row_end});
-                               count += row_end - row;
-                             });
+  const glm::dvec3 middle = 0.5 * (low + high), half = high - middle;
+  const double reach = std::sqrt(heaviest) + largest_radius_ + 1.001 * std::max({half.x, half.y, half.z});
+  grid_.for_each_row_near(middle, reach, [&](std::uint32_t row, std::uint32_t row_end) {
+    if (row == row_end) return;
+    around.rows_.push_back({row, row_end});
+    count += row_end - row;
+  });
   around.table_.make_room(count + kLanes);
   around.places_.resize(count + kLanes);
   around.overlaps_.resize(count + kLanes);
