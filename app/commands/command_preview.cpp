@@ -2,6 +2,7 @@
 // `meniscus preview`: shows the surface in a browser while it changes.
 #include "app/commands/command_table.h"
 #include "app/options/scene_options.h"
+#include "app/preview/server/serve.h"
 #include "app/process/program_main.h"
 
 #ifdef MENISCUS_PREVIEW
@@ -28,7 +29,6 @@
 #include "app/commands/preview_command.h"
 #include "app/preview/command_json.h"
 #include "app/preview/server/clients.h"
-#include "app/preview/server/serve.h"
 #include "app/preview/session.h"
 #include "app/process/child_process.h"
 #include "app/reports/notes.h"
@@ -281,6 +281,8 @@ void add_preview(CLI::App& command) {
         "this build has no preview; build Meniscus from source (meniscus help install), or use meniscus render");
   });
 }
+
+std::vector<std::uint8_t> encode_jpeg(std::span<const std::uint8_t>, glm::ivec2, bool) { return {}; }
 
 }  // namespace meniscus
 

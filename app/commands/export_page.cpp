@@ -8,6 +8,7 @@
 #include "app/commands/shared_scenes.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
+#include "app/preview/server/serve.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
@@ -16,7 +17,6 @@
 #include "core/base/text.h"
 #include "core/camera/camera.h"
 #include "core/image/color_space.h"
-#include "core/image/image_codec.h"
 #include "core/image/png_file.h"
 #include "core/render/look.h"
 #include "core/render/picture.h"
@@ -133,32 +133,13 @@ struct PageCommand : SceneCommand {
   std::vector<std::string> named_views;
 };
 
-/// Returns a picture as JPEG, on its background. Throws Error if there is no OpenImageIO.
-page::StillPicture jpeg_still(const Framebuffer& drawn, const Look& look) {
-  std::vector<float> pixels;
-  pixels.reserve(3 * drawn.color.size());
-  for (const glm::vec4& pixel : drawn.color) {
-    const glm::vec4 color = display_color(pixel, look.background);
-    for (const float channel : {color.x, color.y, color.z}) pixels.push_back(channel);
-  }
-  ImageToEncode image;
-  image.format = "jpeg";
-  image.compression = "jpeg:80";
-  image.color_space = "sRGB";
-  image.width = drawn.size.x;
-  image.height = drawn.size.y;
-  image.channels = {"R", "G", "B"};
-  const std::unique_ptr<RowEncoder> encoder = image_codec().begin(image);
-  encoder->add(pixels);
-  return {"image/jpeg", encoder->finish()};
-}
-
+/// Returns a picture as JPEG, on its background; as PNG in a build without TurboJPEG.
 page::StillPicture still_picture(const Framebuffer& drawn, const Look& look) {
-  try {
-    return jpeg_still(drawn, look);
-  } catch (const Error&) {
-    return page::png_still(drawn, look);
-  }
+  constexpr std::size_t kChannels = 4;
+  std::vector<std::uint8_t> pixels(kChannels * drawn.color.size());
+  display_bytes(drawn.color, look.background, kChannels, pixels.data());
+  std::vector<std::uint8_t> bytes = encode_jpeg(pixels, drawn.size, false);
+  return bytes.empty() ? page::png_still(drawn, look) : page::StillPicture{"image/jpeg", std::move(bytes)};
 }
 
 /// The page of a run; a molecule is a run of one frame.
