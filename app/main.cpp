@@ -11,7 +11,6 @@
 #include <glm/detail/setup.hpp>
 #include <libdeflate.h>
 #include <nlohmann/detail/abi_macros.hpp>
-#include <openssl/crypto.h>
 #include <sys/utsname.h>
 #if defined(__GLIBC__)
 #include <gnu/libc-version.h>
@@ -63,10 +62,10 @@ std::string system_line() {
 
 std::string libraries_line() {
   return fmt::format(
-      "oneTBB {}, fmt {}.{}.{}, zlib {}, libdeflate {}, OpenSSL {}, GLM {}.{}.{}, CLI11 {}, JSON for Modern C++ "
+      "oneTBB {}, fmt {}.{}.{}, zlib {}, libdeflate {}, GLM {}.{}.{}, CLI11 {}, JSON for Modern C++ "
       "{}.{}.{}",
       TBB_runtime_version(), FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100, ::zlibVersion(),
-      LIBDEFLATE_VERSION_STRING, ::OpenSSL_version(OPENSSL_VERSION_STRING), GLM_VERSION_MAJOR, GLM_VERSION_MINOR,
+      LIBDEFLATE_VERSION_STRING, GLM_VERSION_MAJOR, GLM_VERSION_MINOR,
       GLM_VERSION_PATCH, CLI11_VERSION, NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
       NLOHMANN_JSON_VERSION_PATCH);
 }

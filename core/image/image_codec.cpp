@@ -13,8 +13,8 @@ namespace meniscus {
 namespace {
 
 const ImageCodec& load() {
-  constexpr ModuleFile kModule{MENISCUS_IMAGE_MODULE_NAME, MENISCUS_IMAGE_MODULE,
-                               "reading pictures, and writing formats other than PNG,", std::size_t{640} << 20};
+  constexpr ModuleFile kModule{"meniscus_openimageio.so", "reading pictures, and writing formats other than PNG,",
+                               std::size_t{640} << 20};
   using Give = const ImageCodec*(const char* version, std::size_t image_size);
   void* const give = load_from_module(kModule, "meniscus_image_codec");
   if (const ImageCodec* const codec = reinterpret_cast<Give*>(give)(MENISCUS_VERSION, sizeof(ImageToEncode)))

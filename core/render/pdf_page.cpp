@@ -6,8 +6,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/text_file.h"
 #include "core/base/version.h"
+#include "core/render/built_in_fonts.h"
 #include "core/render/vector_page.h"
 
 namespace meniscus {
@@ -168,7 +168,7 @@ class PdfEncoder : public PageEncoder {
                   in_quotes(program.file)));
     std::string name = program.postscript_name;
     std::erase_if(name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-'; });
-    const std::string bytes = read_file_bytes(program.file);
+    const std::string bytes = font_bytes(program.file);
     const int file = object(stream(
         program.is_cff ? "<< /Subtype /OpenType" : fmt::format("<< /Length1 {}", bytes.size()), compressed(bytes)));
     const auto& [left, bottom, right, top] = program.box;

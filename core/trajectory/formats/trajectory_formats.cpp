@@ -118,7 +118,7 @@ namespace {
 bool recognizes(std::string_view start) { return start.starts_with("\x89HDF\r\n\x1a\n"); }
 
 OpenH5md* load() {
-  constexpr ModuleFile kModule{MENISCUS_HDF5_MODULE_NAME, MENISCUS_HDF5_MODULE, "H5MD files", std::size_t{96} << 20};
+  constexpr ModuleFile kModule{"meniscus_hdf5.so", "H5MD files", std::size_t{96} << 20};
   using Give = OpenH5md*(const char* version, std::size_t frame_size);
   void* const give = load_from_module(kModule, "meniscus_open_h5md");
   if (OpenH5md* const open = reinterpret_cast<Give*>(give)(MENISCUS_VERSION, sizeof(Frame))) return open;

@@ -45,6 +45,20 @@ __all__ = [
     "radii_of", "read", "series", "surface", "version", "widget"]
 
 
+def _look_for_the_other_project() -> None:
+    """Warns if the project that has the name and the import name meniscus on PyPI is installed in the same folder: pip
+    replaces files of one with files of the other without a word."""
+    from glob import escape, glob
+    from os import path
+    from ._errors import warn
+    if glob(path.join(escape(path.dirname(__path__[0])), "meniscus-*.dist-info")):
+        warn("the package meniscus, which is another project, is installed beside meniscus-ses, and the files of one "
+             "replace those of the other: pip uninstall meniscus meniscus-ses, then install the one that you need")
+
+
+_look_for_the_other_project()
+
+
 def __getattr__(name: str) -> str:
     if name == "__version__":  # the version of the library, which is loaded when it is first used
         return version()
