@@ -2,18 +2,11 @@
 // Looks at the files of a bundle, removes unfinished ones, and hands the pictures to the encoder of the film.
 #include "app/farm/bundle_folder.h"
 
-#include <algorithm>
-#include <array>
 #include <bit>
-#include <cstddef>
-#include <cstdint>
 #include <fstream>
-#include <map>
 #include <random>
 #include <set>
 #include <sstream>
-#include <stdexcept>
-#include <system_error>
 
 #include <fmt/format.h>
 

@@ -2,15 +2,7 @@
 // The folder of a bundle on the disk: checksums, missing frames, unfinished files, faults of pictures, and the film.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <system_error>
-#include <vector>
 
 #include "app/farm/bundle.h"
 #include "app/process/child_process.h"

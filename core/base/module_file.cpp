@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds modules next to the program, in its installation or by the loader, and loads them.
+// Finds modules next to the program, in its installation or by the loader, and loads them. The library alone has none.
 #include "core/base/module_file.h"
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+#ifdef MENISCUS_APP
 
 #include <filesystem>
 #include <string>
@@ -9,9 +15,6 @@
 #include <dlfcn.h>
 #include <sys/mman.h>
 
-#include <fmt/format.h>
-
-#include "core/base/error.h"
 #include "core/base/system_file.h"
 
 namespace meniscus {
@@ -52,6 +55,17 @@ void* load_from_module(const ModuleFile& module, const char* function) {
   throw CapacityError(
       fmt::format("{} need {}, which cannot be loaded: {}", module.purpose, module.name, why ? why : path.c_str()));
 }
+
+#else
+
+namespace meniscus {
+
+void* load_from_module(const ModuleFile& module, const char*) {
+  throw Error(
+      fmt::format("{} are for the program meniscus: the library alone does not have {}", module.purpose, module.name));
+}
+
+#endif
 
 void refuse_module(const ModuleFile& module) {
   throw Error(fmt::format("{} belongs to another build; install it together with the program", module.name));

@@ -2,10 +2,7 @@
 // Loads the module with OpenImageIO, and finds the time that files bear.
 #include "core/image/image_codec.h"
 
-#include <array>
 #include <charconv>
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <string_view>
 

@@ -7,13 +7,9 @@
 #include FT_FONT_FORMATS_H
 #include FT_OUTLINE_H
 
-#include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <initializer_list>
-#include <map>
 
 #include "core/base/error.h"
 #include "core/base/system_file.h"

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes PDF pages.
-#include <array>
 #include <cctype>
-#include <cmath>
-#include <map>
 
-#include <fmt/format.h>
 #include <zlib.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
 #include "core/render/built_in_fonts.h"
-#include "core/render/page_encoder.h"
+#include "core/render/vector_page.h"
 
 namespace meniscus {
 namespace {

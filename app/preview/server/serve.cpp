@@ -29,35 +29,8 @@ namespace {
 using Clock = LiveView::Clock;
 using Json = nlohmann::json;
 
-/// Encodes JPEG with one compressor for all pictures: small and quick while something moves.
-class JpegEncoder {
- public:
-  JpegEncoder() : compressor_(tjInitCompress()) {
-    if (!compressor_) throw Error(std::string("JPEG: ") + tjGetErrorStr2(nullptr));
-  }
-  ~JpegEncoder() { tjDestroy(compressor_); }
-  JpegEncoder(const JpegEncoder&) = delete;
-  JpegEncoder& operator=(const JpegEncoder&) = delete;
-
-  /// rgba: 4 bytes a pixel, rows from the top; alpha is left out.
-  std::vector<std::uint8_t> encode(std::span<const std::uint8_t> rgba, glm::ivec2 size) {
-    constexpr int kQuality = 80;  // of 100
-    unsigned char* bytes = nullptr;
-    unsigned long count = 0;
-    const int failed = tjCompress2(compressor_, rgba.data(), size.x, 0, size.y, TJPF_RGBX, &bytes, &count, TJSAMP_420,
-                                   kQuality, TJFLAG_FASTDCT);
-    std::vector<std::uint8_t> result;
-    if (!failed) result.assign(bytes, bytes + count);
-    tjFree(bytes);
-    if (failed) throw Error(std::string("JPEG: ") + tjGetErrorStr2(compressor_));
-    return result;
-  }
-
- private:
-  void* compressor_;
-};
-
-/// The same pixels as PNG, nothing lost, lightly compressed. scene: that it is of; empty: not said.
+/// Returns pixels as PNG, lightly compressed, without any loss. rgba: 4 bytes a pixel, rows from the top; alpha is
+/// left out. scene: the scene of the picture; empty for none.
 std::vector<std::uint8_t> png_of(std::span<const std::uint8_t> rgba, glm::ivec2 size, std::string scene) {
   ImageToEncode image;
   image.format = "png";
@@ -147,7 +120,7 @@ class ServedSession {
         still_waiting.insert(client);
         continue;
       }
-      network_.send_picture(client, picture_.message, picture_.bytes);
+      network_.send(client, picture_.message, picture_.bytes);
       shown_[client] = picture_.number;
     }
     waiting_ = std::move(still_waiting);
@@ -175,13 +148,9 @@ class ServedSession {
     if (!figure_) message["unavailable"] = escaped(figure_fault_);
     for (auto& [client, reader] : figure_pages_) {
       if (!lacks_the_figure(reader)) continue;
-      if (figure_) {
-        const std::string bytes = page::bytes_for_page(*figure_, *reader.known);
-        network_.send_picture(client, message,
-                              std::make_shared<const std::vector<std::uint8_t>>(bytes.begin(), bytes.end()));
-      } else {
-        network_.send(client, message);
-      }
+      const std::string bytes = figure_ ? page::bytes_for_page(*figure_, *reader.known) : "";
+      network_.send(client, message,
+                    figure_ ? std::make_shared<const std::vector<std::uint8_t>>(bytes.begin(), bytes.end()) : nullptr);
       reader = {{}, figure_revision_};
     }
   }
@@ -223,7 +192,7 @@ class ServedSession {
     const auto begin = Clock::now();
     const bool full = quality == Quality::full;
     picture_.bytes = std::make_shared<const std::vector<std::uint8_t>>(full ? png_of(rgba, size, scene())
-                                                                            : jpeg_.encode(rgba, size));
+                                                                            : encode_jpeg(rgba, size, true));
     const std::chrono::duration<double, std::milli> elapsed = Clock::now() - begin;
     ++picture_.number;
     picture_.revision = session_.state().revision;
@@ -267,7 +236,6 @@ class ServedSession {
   LiveView view_;
   Network& network_;
   Mailbox& mailbox_;
-  JpegEncoder jpeg_;
   SentPicture picture_;
   std::set<ClientNumber> waiting_;                   ///< for a picture they have not seen
   std::map<ClientNumber, std::uint64_t> shown_;      ///< number of the picture each was sent last
@@ -279,6 +247,21 @@ class ServedSession {
 };
 
 }  // namespace
+
+std::vector<std::uint8_t> encode_jpeg(std::span<const std::uint8_t> rgba, glm::ivec2 size, bool quickly) {
+  constexpr int kQuality = 80;  // of 100
+  const std::unique_ptr<void, int (*)(void*)> compressor(tjInitCompress(), tjDestroy);
+  if (!compressor) throw Error(std::string("JPEG: ") + tjGetErrorStr2(nullptr));
+  unsigned char* bytes = nullptr;
+  unsigned long count = 0;
+  const int failed = tjCompress2(compressor.get(), rgba.data(), size.x, 0, size.y, TJPF_RGBX, &bytes, &count,
+                                 quickly ? TJSAMP_420 : TJSAMP_444, kQuality, quickly ? TJFLAG_FASTDCT : 0);
+  std::vector<std::uint8_t> result;
+  if (!failed) result.assign(bytes, bytes + count);
+  tjFree(bytes);
+  if (failed) throw Error(std::string("JPEG: ") + tjGetErrorStr2(compressor.get()));
+  return result;
+}
 
 void serve_session(const ServeOptions& options, const MakeSession& make) {
   Mailbox mailbox;

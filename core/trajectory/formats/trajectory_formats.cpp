@@ -2,19 +2,13 @@
 // Lists the trajectory formats, chooses one by content, and loads the module that reads H5MD.
 #include "core/trajectory/formats/trajectory_formats.h"
 
-#include <algorithm>
-#include <array>
-
-#include <fmt/format.h>
-
+#include "core/base/binary_file.h"
 #include "core/base/error.h"
-#include "core/base/gzip.h"
 #include "core/base/module_file.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/base/version.h"
 #include "core/structure/formats/structure_formats.h"
-#include "core/base/binary_file.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {
