@@ -2,6 +2,7 @@
 // The program's keys, in addition to those of the stage. Letters are matched as typed, in either case, so that they follow
 // the user's keyboard.
 
+const kFast = 1000;  // ms between steps that follow each other
 const kUsual = { "look.ambient_occlusion": 1, "look.silhouettes": 1.5 };
 // These have no number: not every molecule has them, and kinds of patch have a key of their own.
 const kUnnumbered = ["auto", "kind", "copy", "model"];
@@ -20,10 +21,12 @@ export const has_lines = ({ values }) => ["silhouettes", "outer_lines", "inner_l
 export function program_keys({ command, set, state, schemes, name }) {
   const values = () => state().values;
   const flip = (key, is_on) => set(key, is_on ? 0 : kUsual[key]);
+  let probe = 0, stepped = -Infinity;  // the last step, and when it was: states of before it may come later
   const step_probe = (tenths) => {
     if (values()["surface.kind"] === "vdw") return;
-    values()["surface.probe"] = Math.max(0, Math.round(10 * values()["surface.probe"] + tenths) / 10);  // the key may come again before the reply
-    set("surface.probe", values()["surface.probe"]);
+    const now = performance.now(), from = now - stepped < kFast ? probe : values()["surface.probe"];
+    [probe, stepped] = [Math.max(0, Math.round(10 * from + tenths) / 10), now];
+    set("surface.probe", probe);
   };
   const step_frame = (step) => {
     const { frame, frames } = state();
