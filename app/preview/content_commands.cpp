@@ -26,7 +26,7 @@
 #include "core/scene/cut.h"
 #include "core/scene/representations.h"
 #include "core/scene/scene_values.h"
-#include "core/structure/residue_letters.h"
+#include "core/structure/residue_names.h"
 #include "core/structure/selection/selection_words.h"
 
 namespace meniscus {

@@ -23,7 +23,7 @@
 #include "core/color/coloring.h"
 #include "core/render/annotation.h"
 #include "core/scene/figure.h"
-#include "core/scene/picture_device.h"
+#include "core/scene/renderers.h"
 #include "core/scene/scene.h"
 #include "core/structure/structure.h"
 

@@ -87,6 +87,17 @@ inline unsigned negative_of_eight(const std::int32_t* numbers) {
 #endif
 }
 
+inline unsigned negative_of_eight(const std::int16_t* numbers) {
+#if defined(__SSE2__)
+  const __m128i eight = _mm_loadu_si128(reinterpret_cast<const __m128i*>(numbers));
+  return static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(eight, _mm_setzero_si128())));
+#else
+  unsigned bits = 0;
+  for (unsigned n = 0; n < 8; ++n) bits |= static_cast<unsigned>(numbers[n] < 0) << n;
+  return bits;
+#endif
+}
+
 inline unsigned negative_of_eight(const std::int64_t* numbers) {
 #if defined(__SSE2__)
   const auto two = [&](std::size_t n) {

@@ -3,14 +3,7 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
-#include <vector>
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include "core/base/progress.h"

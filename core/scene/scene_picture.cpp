@@ -2,15 +2,8 @@
 // Lays out the picture of a scene, and finds atoms that cannot be seen in it.
 #include "core/scene/scene_picture.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <unordered_set>
-#include <utility>
-
-#include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -240,7 +240,7 @@ class Figures(unittest.TestCase):
     def test_what_is_beside_the_surface_says_what_it_is(self):
         replies = self.session(MOLECULE, commands=[
             {"command": "add", "key": "figure.spheres", "value": "resid 1-500"},
-            {"command": "take_away", "selection": "not resid 1"},
+            {"command": "set", "key": "surface.show", "value": "resid 1"},
             {"command": "zoom_to", "selection": "all"},
             {"command": "pick", "x": 120, "y": 90}])
         self.assertTrue(replies[-1]["hit"])

@@ -29,21 +29,8 @@ namespace {
 using Clock = LiveView::Clock;
 using Json = nlohmann::json;
 
-/// Returns pixels as JPEG: small and quick while something moves. rgba: 4 bytes a pixel, rows from the top; alpha is
-/// left out.
-std::vector<std::uint8_t> jpeg_of(std::span<const std::uint8_t> rgba, glm::ivec2 size) {
-  constexpr int kQuality = 80;  // of 100
-  const std::unique_ptr<void, int (*)(tjhandle)> compressor(tjInitCompress(), tjDestroy);
-  unsigned char* bytes = nullptr;
-  unsigned long count = 0;
-  const bool is_done = compressor && tjCompress2(compressor.get(), rgba.data(), size.x, 0, size.y, TJPF_RGBX, &bytes,
-                                                 &count, TJSAMP_420, kQuality, TJFLAG_FASTDCT) == 0;
-  const std::unique_ptr<unsigned char, void (*)(unsigned char*)> owner(bytes, tjFree);
-  if (!is_done) throw Error(std::string("JPEG: ") + tjGetErrorStr2(compressor.get()));
-  return {bytes, bytes + count};
-}
-
-/// The same pixels as PNG, nothing lost, lightly compressed. scene: that it is of; empty: not said.
+/// Returns pixels as PNG, lightly compressed, without any loss. rgba: 4 bytes a pixel, rows from the top; alpha is
+/// left out. scene: the scene of the picture; empty for none.
 std::vector<std::uint8_t> png_of(std::span<const std::uint8_t> rgba, glm::ivec2 size, std::string scene) {
   ImageToEncode image;
   image.format = "png";
@@ -204,8 +191,8 @@ class ServedSession {
     const glm::ivec2 size = session_.picture_size();
     const auto begin = Clock::now();
     const bool full = quality == Quality::full;
-    picture_.bytes =
-        std::make_shared<const std::vector<std::uint8_t>>(full ? png_of(rgba, size, scene()) : jpeg_of(rgba, size));
+    picture_.bytes = std::make_shared<const std::vector<std::uint8_t>>(full ? png_of(rgba, size, scene())
+                                                                            : encode_jpeg(rgba, size, true));
     const std::chrono::duration<double, std::milli> elapsed = Clock::now() - begin;
     ++picture_.number;
     picture_.revision = session_.state().revision;
@@ -260,6 +247,21 @@ class ServedSession {
 };
 
 }  // namespace
+
+std::vector<std::uint8_t> encode_jpeg(std::span<const std::uint8_t> rgba, glm::ivec2 size, bool quickly) {
+  constexpr int kQuality = 80;  // of 100
+  const std::unique_ptr<void, int (*)(void*)> compressor(tjInitCompress(), tjDestroy);
+  if (!compressor) throw Error(std::string("JPEG: ") + tjGetErrorStr2(nullptr));
+  unsigned char* bytes = nullptr;
+  unsigned long count = 0;
+  const int failed = tjCompress2(compressor.get(), rgba.data(), size.x, 0, size.y, TJPF_RGBX, &bytes, &count,
+                                 quickly ? TJSAMP_420 : TJSAMP_444, kQuality, quickly ? TJFLAG_FASTDCT : 0);
+  std::vector<std::uint8_t> result;
+  if (!failed) result.assign(bytes, bytes + count);
+  tjFree(bytes);
+  if (failed) throw Error(std::string("JPEG: ") + tjGetErrorStr2(compressor.get()));
+  return result;
+}
 
 void serve_session(const ServeOptions& options, const MakeSession& make) {
   Mailbox mailbox;

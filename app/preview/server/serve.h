@@ -5,7 +5,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
 
 #include "app/preview/server/network.h"
 #include "app/preview/session.h"
@@ -31,5 +35,9 @@ using MakeSession = std::function<std::unique_ptr<PreviewSession>(const std::fun
 /// this thread, which has its GL context. Throws what Network throws, and after the pages were notified GpuError and
 /// what `make` throws.
 void serve_session(const ServeOptions& options, const MakeSession& make);
+
+/// Returns a picture as JPEG; nothing in a build without TurboJPEG. rgba: 4 bytes a pixel, rows from the top; alpha is
+/// left out. quickly: colours have half the resolution, as is enough while something moves. Throws Error if it fails.
+std::vector<std::uint8_t> encode_jpeg(std::span<const std::uint8_t> rgba, glm::ivec2 size, bool quickly);
 
 }  // namespace meniscus

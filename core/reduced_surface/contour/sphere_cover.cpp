@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Samples a sphere at the vertices of a twice subdivided icosahedron, and tests sums of angles by products of cosines.
+// Samples a sphere at the vertices of a subdivided icosahedron, and tests sums of angles by products of cosines, in
+// whole numbers.
 #include "core/reduced_surface/contour/sphere_cover.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <map>
-#include <numeric>
-#include <utility>
+#include <cstdint>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/math/vector_loops.h"
@@ -17,54 +16,102 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kDirections = 162;
-constexpr std::size_t kBlock = 16;    // directions that are tested together
-constexpr std::size_t kPadded = 176;  // whole blocks
+constexpr std::size_t kDirections = 252;
+constexpr std::size_t kPadded = SphereCover::kPadded;
+constexpr std::size_t kBlock = 32;  // directions that are tested together
 static_assert(kPadded % kBlock == 0);
-constexpr double kRoom = 1e-4;  // radians, for single precision
+constexpr double kRoom = 1e-4;  // radians, for rounding in double and single precision
+
+// Axes of caps and directions are vectors of whole numbers of 16 bits, of which vector units multiply the most at once.
+// An axis of a cap has the length kAxisLength, but for half a unit in each number. A direction has the length
+// kLength, but for kLengthError, and exactly the numbers that are stored.
+constexpr float kAxisLength = 256, kLength = 127, kLengthError = 0.25f;
+constexpr float kProduct = kAxisLength * kLength;  // the dot product of an axis and the same direction
+// The largest error of a dot product: of the axis, of the direction's length, and of the number that it is compared to.
+constexpr float kProductError = 0.9f * (kLength + kLengthError) + kAxisLength * kLengthError + 5;
+constexpr float kBeyond = 1.002f;  // as a cosine: larger than any product, with its error
+static_assert(kBeyond * kProduct + kProductError < 0x7fff);
+static_assert((kBeyond - 1) * kProduct + kProductError > 0.87 * (kLength + kLengthError) + kAxisLength * kLengthError);
 
 // The directions, and the largest angle from any point of the sphere to the nearest of them: the largest circumradius
-// of a triangle of the subdivision.
+// of a triangle between them.
 struct WatchedDirections {
-  alignas(64) std::array<float, kPadded> x{}, y{}, z{};
+  alignas(64) std::array<std::int16_t, kPadded> x{}, y{}, z{};
+  std::array<glm::dvec3, kDirections> unit{};
   double cos_angle = 1;
   double sin_angle = 0;
   double cos_near = 1;  // cosine of an angle in the middle of the allowance for rounding
 
   WatchedDirections() {
     const double g = (1 + std::sqrt(5.0)) / 2;
-    std::vector<glm::dvec3> points;
+    std::vector<glm::dvec3> corners, points;
     for (const double s : {-1.0, 1.0})
       for (const double t : {-g, g}) {
-        points.push_back({s, t, 0});
-        points.push_back({0, s, t});
-        points.push_back({t, 0, s});
+        corners.push_back(glm::normalize(glm::dvec3(s, t, 0)));
+        corners.push_back(glm::normalize(glm::dvec3(0, s, t)));
+        corners.push_back(glm::normalize(glm::dvec3(t, 0, s)));
       }
-    for (glm::dvec3& p : points) p = glm::normalize(p);
-    std::vector<std::array<std::size_t, 3>> triangles;
+    double smallest = 1;
     for (std::size_t a = 0; a < 12; ++a)
       for (std::size_t b = a + 1; b < 12; ++b)
         for (std::size_t c = b + 1; c < 12; ++c)
-          if (glm::dot(points[a], points[b]) > 0.4 && glm::dot(points[b], points[c]) > 0.4 &&
-              glm::dot(points[c], points[a]) > 0.4)
-            triangles.push_back({a, b, c});
-    for (int level = 0; level < 2; ++level) subdivide(points, triangles);
-    double smallest = 1;
-    for (const auto& [a, b, c] : triangles) {
-      const glm::dvec3 center = glm::normalize(glm::cross(points[b] - points[a], points[c] - points[a]));
-      smallest = std::min(smallest, std::abs(glm::dot(center, points[a])));
-    }
+          if (glm::dot(corners[a], corners[b]) > 0.4 && glm::dot(corners[b], corners[c]) > 0.4 &&
+              glm::dot(corners[c], corners[a]) > 0.4)
+            smallest = std::min(smallest, divide(corners[a], corners[b], corners[c], points));
+    std::ranges::sort(points, {}, [](const glm::dvec3& p) { return std::array{p.x, p.y, p.z}; });
+    points.erase(std::unique(points.begin(), points.end()), points.end());
     const double angle = std::acos(smallest) + kRoom;
     cos_angle = std::cos(angle);
     sin_angle = std::sin(angle);
     cos_near = std::cos(angle - kRoom / 2);
     cluster(points);
     for (std::size_t n = 0; n < kPadded; ++n) {
-      const glm::vec3 direction(points[std::min(n, kDirections - 1)]);
-      x[n] = direction.x;
-      y[n] = direction.y;
-      z[n] = direction.z;
+      const glm::dvec3& direction = points[std::min(n, kDirections - 1)];
+      x[n] = static_cast<std::int16_t>(direction.x);
+      y[n] = static_cast<std::int16_t>(direction.y);
+      z[n] = static_cast<std::int16_t>(direction.z);
+      if (n < kDirections) unit[n] = glm::normalize(direction);
     }
+  }
+
+  // Appends the directions in a triangle of the sphere, which are the corners of smaller triangles, five along each
+  // side. Returns the cosine of the largest circumradius of these.
+  static double divide(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, std::vector<glm::dvec3>& points) {
+    constexpr std::size_t kSide = 5;
+    const double arc = std::acos(glm::dot(a, b)) / kSide;
+    const auto part = [&](std::size_t n) {
+      return std::sin(static_cast<double>(n) * arc);
+    };  // equal steps on the sides
+    std::array<std::array<glm::dvec3, kSide + 1>, kSide + 1> at;
+    for (std::size_t i = 0; i <= kSide; ++i)
+      for (std::size_t j = 0; i + j <= kSide; ++j)
+        points.push_back(at[i][j] = rounded(glm::normalize(part(i) * a + part(j) * b + part(kSide - i - j) * c)));
+    double smallest = 1;
+    const auto measure = [&](const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r) {
+      const glm::dvec3 u = glm::normalize(p), v = glm::normalize(q), w = glm::normalize(r);
+      smallest = std::min(smallest, std::abs(glm::dot(glm::normalize(glm::cross(v - u, w - u)), u)));
+    };
+    for (std::size_t i = 0; i < kSide; ++i)
+      for (std::size_t j = 0; i + j < kSide; ++j) {
+        measure(at[i][j], at[i + 1][j], at[i][j + 1]);
+        if (i + j + 1 < kSide) measure(at[i + 1][j], at[i + 1][j + 1], at[i][j + 1]);
+      }
+    return smallest;
+  }
+
+  // Returns the vector of whole numbers nearest to a direction among those near it that have the right length.
+  static glm::dvec3 rounded(const glm::dvec3& direction) {
+    const glm::dvec3 near = glm::round(double{kLength} * direction);
+    glm::dvec3 best(0);
+    double cosine = -1;
+    for (int n = 0; n < 27; ++n) {
+      const glm::dvec3 p = near + glm::dvec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+      const double length = glm::length(p), along = glm::dot(p, direction) / length;
+      if (std::abs(length - kLength) > kLengthError || along < cosine) continue;
+      best = p;
+      cosine = along;
+    }
+    return best;
   }
 
   // Orders directions so that the directions of a block are neighbours, and covered by the same few balls.
@@ -77,21 +124,6 @@ struct WatchedDirections {
       });
     }
   }
-
-  static void subdivide(std::vector<glm::dvec3>& points, std::vector<std::array<std::size_t, 3>>& triangles) {
-    std::map<std::pair<std::size_t, std::size_t>, std::size_t> middles;
-    const auto middle = [&](std::size_t a, std::size_t b) {
-      const auto [at, added] = middles.try_emplace(std::minmax(a, b), points.size());
-      if (added) points.push_back(glm::normalize(points[a] + points[b]));
-      return at->second;
-    };
-    std::vector<std::array<std::size_t, 3>> finer;
-    for (const auto& [a, b, c] : triangles) {
-      const std::size_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
-    }
-    triangles = std::move(finer);
-  }
 };
 
 const WatchedDirections& watched() {
@@ -99,201 +131,188 @@ const WatchedDirections& watched() {
   return directions;
 }
 
-constexpr float kNowhere = 4;  // larger than any cosine: an empty cap
-constexpr float kWide = 0.6f;  // caps of smaller cosine, about ten around an atom of a protein, cover most
+constexpr double kWide = 0.8;  // caps of smaller cosine, about twelve around an atom of a protein, cover most
 
 // The number of caps, or directions, in one step. Lists are padded with entries that change nothing.
 constexpr std::size_t kStep = 4;
 constexpr std::size_t whole_steps(std::size_t count) { return (count + kStep - 1) / kStep * kStep; }
 
+// The number of circles that are tested together.
+constexpr std::size_t kCircles = 16;
+constexpr std::size_t whole_blocks(std::size_t count) { return (count + kCircles - 1) / kCircles * kCircles; }
+
 struct Points {
-  const float *x, *y, *z;
+  const std::int16_t *x, *y, *z;
 };
-struct CapColumns {
-  const float *x, *y, *z, *cosine;
-};
-struct CircleColumns {
-  float *x, *y, *z, *cosine, *low, *high;
+// Axes, and products with them: from `limit` on a direction is in the narrowed cap; from `low` to there it may be near
+// the circle.
+struct Caps {
+  const std::int16_t *x, *y, *z, *limit, *low;
 };
 
 // Narrows caps. A ball covers the cap of angle a, cos a = c; narrowed by the sampling angle it is cos(a - angle).
 // Directions within the sampling angle of its rim have cos(a + angle) <= dot(axis, direction) <= cos(a - angle).
+// out: five columns of `room` numbers each, the members of Caps; scratch: as many numbers.
 MENISCUS_VECTOR_CLONES
-void narrow_caps(const Blockers::Columns& balls, std::size_t count, double inverse_radius, double cos_angle,
-                 double sin_angle, const CircleColumns& out) {
+void narrow_caps(const Blockers::Columns& balls, std::size_t count, float inverse_radius, float cos_angle,
+                 float sin_angle, std::int32_t* scratch, std::int16_t* out, std::size_t room) {
   const Blockers::Columns b = balls;
-  const CircleColumns o = out;
+  std::int32_t *x = scratch, *y = x + room, *z = y + room, *limit = z + room, *least = limit + room;
+  const auto whole = [](float number) { return static_cast<std::int32_t>(number + 0x10000p0f + 0.5f) - 0x10000; };
   MENISCUS_INDEPENDENT_STEPS
   for (std::size_t n = 0; n < count; ++n) {
-    const double inverse = 1 / b.distance[n], c = b.half_power[n] * inverse * inverse_radius;
-    const double along = c * cos_angle, across = std::sqrt(1 - c * c) * sin_angle;
-    const double open = c < cos_angle ? along + across : kNowhere;
-    const double known = c < -1 ? kNowhere : open;
-    const double low = c >= -cos_angle ? along - across : -2.0, high = c <= cos_angle ? along + across : 2.0;
-    const bool has_axis = b.distance[n] > 1e-6, has_rim = has_axis & (c > -1) & (c < 1);
-    o.x[n] = static_cast<float>(has_axis ? b.x[n] * inverse : 0.0);
-    o.y[n] = static_cast<float>(has_axis ? b.y[n] * inverse : 0.0);
-    o.z[n] = static_cast<float>(has_axis ? b.z[n] * inverse : 0.0);
-    o.cosine[n] = static_cast<float>(has_axis ? known : kNowhere);
-    o.low[n] = static_cast<float>(has_rim ? low : -2.0);
-    o.high[n] = static_cast<float>(has_rim ? high : 2.0);
+    const float distance = static_cast<float>(b.distance[n]), inverse = 1 / distance;
+    const float c = static_cast<float>(b.half_power[n]) * inverse * inverse_radius;
+    const float along = c * cos_angle, across = std::sqrt(1 - c * c) * sin_angle;
+    const float open = c < cos_angle ? along + across : kBeyond;
+    const float known = c < -1 ? kBeyond : open;
+    const float low = c >= -cos_angle ? along - across : -kBeyond;
+    const bool has_axis = distance > 1e-6f, has_rim = has_axis & (c > -1) & (c < 1);
+    const float length = has_axis ? kAxisLength * inverse : 0.0f;
+    x[n] = whole(static_cast<float>(b.x[n]) * length);
+    y[n] = whole(static_cast<float>(b.y[n]) * length);
+    z[n] = whole(static_cast<float>(b.z[n]) * length);
+    limit[n] = whole((has_axis ? known : kBeyond) * kProduct + kProductError);
+    least[n] = whole((has_rim ? low : -kBeyond) * kProduct - kProductError);
   }
+  for (std::size_t n = 0; n < 5 * room; ++n) out[n] = static_cast<std::int16_t>(scratch[n]);
 }
 
-std::int32_t sign_bits(float number) { return std::bit_cast<std::int32_t>(number); }
+std::int16_t product(std::int16_t ax, std::int16_t ay, std::int16_t az, std::int16_t bx, std::int16_t by,
+                     std::int16_t bz) {
+  return static_cast<std::int16_t>(ax * bx + ay * by + az * bz);
+}
+std::int16_t mask_of(bool yes) { return yes ? -1 : 0; }
 
-// Computes, for each direction, in whole blocks, a number that is negative if no cap contains it: the sign bits of
-// dot(axis, direction) - cosine, combined. Each step takes several caps, because the results of a block go through
-// memory.
+// Computes, for each direction, in whole blocks, a number that is -1 if none of the listed caps contains it, else 0.
+// Each step takes several caps, because the results of a block go through memory.
 MENISCUS_VECTOR_CLONES
-void sign_outside(const Points& directions, std::size_t count, const CapColumns& caps, std::size_t cap_count,
-                  std::int32_t* sign) {
-  const CapColumns c = caps;
+void sign_outside(const Points& directions, std::size_t count, const Caps& caps, const std::uint32_t* list,
+                  std::size_t cap_count, std::int16_t* sign) {
+  const Caps c = caps;
   for (std::size_t first = 0; first < count; first += kBlock) {
-    const float *x = directions.x + first, *y = directions.y + first, *z = directions.z + first;
-    std::int32_t* outside = sign + first;
+    const std::int16_t *x = directions.x + first, *y = directions.y + first, *z = directions.z + first;
+    std::int16_t* outside = sign + first;
     for (std::size_t l = 0; l < kBlock; ++l) outside[l] = -1;
     for (std::size_t n = 0; n < cap_count; n += kStep) {
-      const float x0 = c.x[n], y0 = c.y[n], z0 = c.z[n], cosine0 = c.cosine[n];
-      const float x1 = c.x[n + 1], y1 = c.y[n + 1], z1 = c.z[n + 1], cosine1 = c.cosine[n + 1];
-      const float x2 = c.x[n + 2], y2 = c.y[n + 2], z2 = c.z[n + 2], cosine2 = c.cosine[n + 2];
-      const float x3 = c.x[n + 3], y3 = c.y[n + 3], z3 = c.z[n + 3], cosine3 = c.cosine[n + 3];
-      std::int32_t any = 0;
+      const std::size_t a0 = list[n], a1 = list[n + 1], a2 = list[n + 2], a3 = list[n + 3];
+      const std::int16_t x0 = c.x[a0], y0 = c.y[a0], z0 = c.z[a0], limit0 = c.limit[a0];
+      const std::int16_t x1 = c.x[a1], y1 = c.y[a1], z1 = c.z[a1], limit1 = c.limit[a1];
+      const std::int16_t x2 = c.x[a2], y2 = c.y[a2], z2 = c.z[a2], limit2 = c.limit[a2];
+      const std::int16_t x3 = c.x[a3], y3 = c.y[a3], z3 = c.z[a3], limit3 = c.limit[a3];
+      std::int16_t any = 0;
       MENISCUS_INDEPENDENT_STEPS
       for (std::size_t l = 0; l < kBlock; ++l) {
-        const std::int32_t outside0 = sign_bits(x0 * x[l] + y0 * y[l] + z0 * z[l] - cosine0);
-        const std::int32_t outside1 = sign_bits(x1 * x[l] + y1 * y[l] + z1 * z[l] - cosine1);
-        const std::int32_t outside2 = sign_bits(x2 * x[l] + y2 * y[l] + z2 * z[l] - cosine2);
-        const std::int32_t outside3 = sign_bits(x3 * x[l] + y3 * y[l] + z3 * z[l] - cosine3);
+        const std::int16_t outside0 = mask_of(product(x0, y0, z0, x[l], y[l], z[l]) < limit0);
+        const std::int16_t outside1 = mask_of(product(x1, y1, z1, x[l], y[l], z[l]) < limit1);
+        const std::int16_t outside2 = mask_of(product(x2, y2, z2, x[l], y[l], z[l]) < limit2);
+        const std::int16_t outside3 = mask_of(product(x3, y3, z3, x[l], y[l], z[l]) < limit3);
         outside[l] &= outside0 & outside1 & (outside2 & outside3);
         any |= outside[l];
       }
-      if (any >= 0) break;
+      if (any == 0) break;
     }
   }
 }
 
-// Computes, for each circle, in whole blocks, a number that is negative if no direction is near it.
+// Computes, for each circle, in whole blocks, a number that is -1 if no direction is near it, else 0.
 MENISCUS_VECTOR_CLONES
-void sign_far(const CircleColumns& circles, std::size_t count, const Points& directions, std::size_t direction_count,
-              std::int32_t* sign) {
+void sign_far(const Caps& caps, std::size_t count, const Points& directions, std::size_t direction_count,
+              std::int16_t* sign) {
   const Points d = directions;
-  for (std::size_t first = 0; first < count; first += kBlock) {
-    const float *x = circles.x + first, *y = circles.y + first, *z = circles.z + first;
-    const float *low = circles.low + first, *high = circles.high + first;
-    std::int32_t* far = sign + first;
-    for (std::size_t l = 0; l < kBlock; ++l) far[l] = -1;
+  for (std::size_t first = 0; first < count; first += kCircles) {
+    const std::int16_t *x = caps.x + first, *y = caps.y + first, *z = caps.z + first;
+    const std::int16_t *limit = caps.limit + first, *low = caps.low + first;
+    std::int16_t* far = sign + first;
+    for (std::size_t l = 0; l < kCircles; ++l) far[l] = -1;
     for (std::size_t n = 0; n < direction_count; n += kStep) {
-      const float x0 = d.x[n], y0 = d.y[n], z0 = d.z[n], x1 = d.x[n + 1], y1 = d.y[n + 1], z1 = d.z[n + 1];
-      const float x2 = d.x[n + 2], y2 = d.y[n + 2], z2 = d.z[n + 2], x3 = d.x[n + 3], y3 = d.y[n + 3], z3 = d.z[n + 3];
-      std::int32_t any = 0;
+      const std::int16_t x0 = d.x[n], y0 = d.y[n], z0 = d.z[n], x1 = d.x[n + 1], y1 = d.y[n + 1], z1 = d.z[n + 1];
+      const std::int16_t x2 = d.x[n + 2], y2 = d.y[n + 2], z2 = d.z[n + 2], x3 = d.x[n + 3], y3 = d.y[n + 3],
+                         z3 = d.z[n + 3];
+      std::int16_t any = 0;
       MENISCUS_INDEPENDENT_STEPS
-      for (std::size_t l = 0; l < kBlock; ++l) {
-        const float dot0 = x[l] * x0 + y[l] * y0 + z[l] * z0, dot1 = x[l] * x1 + y[l] * y1 + z[l] * z1;
-        const float dot2 = x[l] * x2 + y[l] * y2 + z[l] * z2, dot3 = x[l] * x3 + y[l] * y3 + z[l] * z3;
-        const std::int32_t far0 = sign_bits(dot0 - low[l]) | sign_bits(high[l] - dot0);
-        const std::int32_t far1 = sign_bits(dot1 - low[l]) | sign_bits(high[l] - dot1);
-        const std::int32_t far2 = sign_bits(dot2 - low[l]) | sign_bits(high[l] - dot2);
-        const std::int32_t far3 = sign_bits(dot3 - low[l]) | sign_bits(high[l] - dot3);
+      for (std::size_t l = 0; l < kCircles; ++l) {
+        const std::int16_t p0 = product(x[l], y[l], z[l], x0, y0, z0), p1 = product(x[l], y[l], z[l], x1, y1, z1);
+        const std::int16_t p2 = product(x[l], y[l], z[l], x2, y2, z2), p3 = product(x[l], y[l], z[l], x3, y3, z3);
+        const std::int16_t far0 = mask_of(p0 < low[l]) | mask_of(p0 >= limit[l]);
+        const std::int16_t far1 = mask_of(p1 < low[l]) | mask_of(p1 >= limit[l]);
+        const std::int16_t far2 = mask_of(p2 < low[l]) | mask_of(p2 >= limit[l]);
+        const std::int16_t far3 = mask_of(p3 < low[l]) | mask_of(p3 >= limit[l]);
         far[l] &= far0 & far1 & (far2 & far3);
         any |= far[l];
       }
-      if (any >= 0) break;
+      if (any == 0) break;
     }
   }
 }
 
-constexpr std::size_t whole_blocks(std::size_t count) { return (count + kBlock - 1) / kBlock * kBlock; }
+// Fills a list up to whole steps by its last entry.
+template <typename Number>
+void repeat_last(Number* list, std::size_t count) {
+  for (std::size_t n = count; n < whole_steps(count); ++n) list[n] = list[count - 1];
+}
 
 }  // namespace
 
-template <std::size_t kColumns>
-void SphereCover::Rows<kColumns>::make_room(std::size_t count) {
-  if (count <= columns[0].size()) return;
-  for (std::vector<float>& column : columns) column.resize(2 * count);
-}
-
 // Lists the caps that cover something, the wide ones first: the others do not matter where these cover all.
-void SphereCover::list_caps(std::size_t count) {
-  caps_.make_room(count + kStep);
-  const float *x = circles_.column(0), *y = circles_.column(1), *z = circles_.column(2), *cosine = circles_.column(3);
-  float *to_x = caps_.column(0), *to_y = caps_.column(1), *to_z = caps_.column(2), *to_cosine = caps_.column(3);
-  std::uint32_t* past = listed_.data();
-  const auto append_between = [&](float low, float high) {
-    for (std::size_t n = 0; n < count; ++n) signs_[n] = ((cosine[n] >= low) & (cosine[n] < high)) ? -1 : 0;
+void SphereCover::list_caps(const std::int16_t* limit, std::size_t count) {
+  std::uint32_t* past = caps_.data();
+  const auto append_between = [&](double low, double high) {
+    const auto from = static_cast<std::int16_t>(low * kProduct), to = static_cast<std::int16_t>(high * kProduct);
+    for (std::size_t n = 0; n < whole_blocks(count); ++n) signs_[n] = mask_of((limit[n] >= from) & (limit[n] < to));
     past = list_negative(signs_.data(), count, 0, past);
-    return static_cast<std::size_t>(past - listed_.data());
+    return static_cast<std::size_t>(past - caps_.data());
   };
-  wide_count_ = append_between(-2, kWide);
-  const std::size_t kept = append_between(kWide, kNowhere);
-  for (std::size_t n = 0; n < kept; ++n) {
-    const std::uint32_t circle = listed_[n];
-    to_x[n] = x[circle];
-    to_y[n] = y[circle];
-    to_z[n] = z[circle];
-    to_cosine[n] = cosine[circle];
-  }
-  cap_count_ = whole_steps(kept);
-  std::fill(to_cosine + kept, to_cosine + cap_count_, kNowhere);
+  wide_count_ = append_between(-1, kWide);
+  cap_count_ = append_between(kWide, kBeyond);
+  repeat_last(caps_.data(), cap_count_);
+  cap_count_ = whole_steps(cap_count_);
   wide_count_ = std::min(whole_steps(wide_count_), cap_count_);
 }
 
 // Keeps the directions with a negative sign. They may be in the list already, because none moves to a later place.
-void SphereCover::list_uncovered(const float* x, const float* y, const float* z, std::size_t count) {
-  float *to_x = uncovered_.column(0), *to_y = uncovered_.column(1), *to_z = uncovered_.column(2);
-  const std::uint32_t* past = list_negative(signs_.data(), count, 0, listed_.data());
-  uncovered_count_ = static_cast<std::size_t>(past - listed_.data());
+void SphereCover::list_uncovered(const std::int16_t* x, const std::int16_t* y, const std::int16_t* z, std::size_t count,
+                                 std::uint32_t* list) {
+  uncovered_count_ = static_cast<std::size_t>(list_negative(signs_.data(), count, 0, list) - list);
   for (std::size_t n = 0; n < uncovered_count_; ++n) {
-    const std::uint32_t direction = listed_[n];
-    uncovered_numbers_[n] = uncovered_numbers_[direction];
-    to_x[n] = x[direction];
-    to_y[n] = y[direction];
-    to_z[n] = z[direction];
+    const std::uint32_t direction = list[n];
+    uncovered_[0][n] = x[direction];
+    uncovered_[1][n] = y[direction];
+    uncovered_[2][n] = z[direction];
   }
-}
-
-template <std::size_t kColumns>
-void SphereCover::Rows<kColumns>::repeat_last(std::size_t count, std::size_t past) {
-  for (std::vector<float>& column : columns)
-    for (std::size_t n = count; n < past; ++n) column[n] = column[count - 1];
 }
 
 bool SphereCover::is_near(const glm::dvec3& point, std::span<const std::uint8_t> uncovered) {
   const WatchedDirections& w = watched();
-  double nearest = -1;
-  for (const std::uint8_t n : uncovered)
-    nearest = std::max(nearest, point.x * w.x[n] + point.y * w.y[n] + point.z * w.z[n]);
-  return nearest > w.cos_near;
+  return std::ranges::any_of(uncovered, [&](std::uint8_t n) { return glm::dot(point, w.unit[n]) > w.cos_near; });
 }
 
 bool SphereCover::test(const Blockers& blockers) {
   const WatchedDirections& w = watched();
-  const std::size_t count = blockers.size(), room = whole_blocks(count);
-  circles_.make_room(room);
-  uncovered_.make_room(kPadded);
-  if (signs_.size() < std::max(room, kPadded)) {
-    signs_.resize(2 * std::max(room, kPadded));
-    listed_.resize(signs_.size() + kLanes);
+  const std::size_t count = blockers.size(), room = whole_blocks(count), most = std::max(room, kPadded);
+  if (signs_.size() < most) {
+    products_.resize(2 * kCapColumns * most);
+    circles_.resize(2 * kCapColumns * most);
+    signs_.resize(2 * most);
+    caps_.resize(2 * most + kLanes);
   }
-  const auto of = [&](std::size_t c) { return circles_.column(c); };
-  const CircleColumns circles{of(0), of(1), of(2), of(3), of(4), of(5)};
-  narrow_caps(blockers.columns(), whole_vectors(count), 1 / std::sqrt(blockers.first_weight()), w.cos_angle,
-              w.sin_angle, circles);
-  list_caps(count);
-  const auto cap = [&](std::size_t c) { return caps_.column(c); };
-  sign_outside({w.x.data(), w.y.data(), w.z.data()}, kPadded, {cap(0), cap(1), cap(2), cap(3)}, wide_count_,
-               signs_.data());
-  uncovered_numbers_.resize(kDirections);
-  std::iota(uncovered_numbers_.begin(), uncovered_numbers_.end(), std::uint8_t{0});
-  list_uncovered(w.x.data(), w.y.data(), w.z.data(), kDirections);
-  const Points left{uncovered_.column(0), uncovered_.column(1), uncovered_.column(2)};
-  sign_outside(left, whole_blocks(uncovered_count_),
-               {cap(0) + wide_count_, cap(1) + wide_count_, cap(2) + wide_count_, cap(3) + wide_count_},
+  narrow_caps(blockers.columns(), whole_vectors(count), static_cast<float>(1 / std::sqrt(blockers.first_weight())),
+              static_cast<float>(w.cos_angle), static_cast<float>(w.sin_angle), products_.data(), circles_.data(),
+              room);
+  const std::int16_t* column = circles_.data();
+  const Caps caps{column, column + room, column + 2 * room, column + 3 * room, column + 4 * room};
+  list_caps(caps.limit, count);
+  sign_outside({w.x.data(), w.y.data(), w.z.data()}, kPadded, caps, caps_.data(), wide_count_, signs_.data());
+  list_uncovered(w.x.data(), w.y.data(), w.z.data(), kDirections, outside_wide_.data());
+  const Points left{uncovered_[0].data(), uncovered_[1].data(), uncovered_[2].data()};
+  sign_outside(left, (uncovered_count_ + kBlock - 1) / kBlock * kBlock, caps, caps_.data() + wide_count_,
                cap_count_ - wide_count_, signs_.data());
-  list_uncovered(left.x, left.y, left.z, uncovered_count_);
+  list_uncovered(left.x, left.y, left.z, uncovered_count_, outside_all_.data());
+  for (std::size_t n = 0; n < uncovered_count_; ++n)
+    uncovered_numbers_[n] = static_cast<std::uint8_t>(outside_wide_[outside_all_[n]]);
   if (uncovered_count_ == 0) return false;
-  uncovered_.repeat_last(uncovered_count_, whole_steps(uncovered_count_));
-  sign_far(circles, room, left, whole_steps(uncovered_count_), signs_.data());
+  for (auto& numbers : uncovered_) repeat_last(numbers.data(), uncovered_count_);
+  sign_far(caps, room, left, whole_steps(uncovered_count_), signs_.data());
   return true;
 }
 

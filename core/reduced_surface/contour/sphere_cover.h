@@ -2,7 +2,7 @@
 // Decides quickly and safely whether a part of a SAS sphere is covered: most atoms and circles are, and need no more
 // work.
 //
-// A sphere is sampled in 162 directions, so dense that every point lies within a known angle of one. A direction counts
+// A sphere is sampled in 252 directions, so dense that every point lies within a known angle of one. A direction counts
 // as covered when one ball covers everything within that angle of it, with an allowance for rounding; so "covered" is
 // certain, and "not covered" only means that a precise test is needed.
 #pragma once
@@ -22,6 +22,8 @@ namespace meniscus {
 /// The part of a first ball's sphere that other balls surely cover. Reused from sphere to sphere to save allocations.
 class SphereCover {
  public:
+  static constexpr std::size_t kPadded = 256;  ///< the number of directions, in whole blocks
+
   /// Tests the sphere of the blockers' first ball. False if all of it is surely covered: then nothing else is known.
   bool test(const Blockers& blockers);
 
@@ -39,27 +41,22 @@ class SphereCover {
   static bool is_near(const glm::dvec3& point, std::span<const std::uint8_t> uncovered);
 
  private:
-  // Columns of numbers of circles, caps, or directions, padded to whole vectors with undefined values.
-  template <std::size_t kColumns>
-  struct Rows {
-    std::array<std::vector<float>, kColumns> columns;
-    float* column(std::size_t c) { return columns[c].data(); }
-    void make_room(std::size_t count);
-    void repeat_last(std::size_t count, std::size_t past);
-  };
+  static constexpr std::size_t kCapColumns = 5;
 
-  void list_caps(std::size_t count);
-  void list_uncovered(const float* x, const float* y, const float* z, std::size_t count);
+  void list_caps(const std::int16_t* limit, std::size_t count);
+  void list_uncovered(const std::int16_t* x, const std::int16_t* y, const std::int16_t* z, std::size_t count,
+                      std::uint32_t* list);
 
-  Rows<6> circles_;  // per blocker: axis, cosine of its cap, limits of dot products with the axis for directions near
-                     // its circle
-  Rows<4> caps_;     // per cap: axis, cosine
-  Rows<3> uncovered_;
+  std::vector<std::int32_t> products_;  // per blocker: axis and limits of products with it (Caps), column by column
+  std::vector<std::int16_t> circles_;   // the same in 16 bits
+  std::vector<std::uint32_t> caps_;     // the blockers whose caps cover something, the wide ones first
   std::size_t cap_count_ = 0, wide_count_ = 0;  // numbers of caps, in whole steps
+  std::array<std::array<std::int16_t, kPadded>, 3> uncovered_{};
+  std::array<std::uint8_t, kPadded> uncovered_numbers_{};
   std::size_t uncovered_count_ = 0;
-  std::vector<std::int32_t> signs_;
-  std::vector<std::uint32_t> listed_;  // scratch: numbers of circles or directions
-  std::vector<std::uint8_t> uncovered_numbers_;
+  std::vector<std::int16_t> signs_;
+  // Scratch: the directions outside the wide caps, and the places in this list of those outside all caps.
+  std::array<std::uint32_t, kPadded + kLanes> outside_wide_{}, outside_all_{};
 };
 
 }  // namespace meniscus

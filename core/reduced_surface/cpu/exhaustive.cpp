@@ -48,7 +48,7 @@ double middle_of(const ExposedArc& arc) {
 struct Worker {
   explicit Worker(double roundoff) : contour(roundoff) {}
 
-  NeighborSearch::Rows rows;
+  NeighborSearch::Surroundings surroundings;
   Blockers blockers;
   Blockers open_blockers;
   Blockers nearest_first;  // blockers sorted around the atom nearest_of
@@ -113,7 +113,7 @@ class Enumeration {
     group.first_uncovered.assign(1, 0);
     for (std::size_t place = number * kGroup; place < past_last(number); ++place) {
       const std::size_t known = group.neighbors.size();
-      search_.append_neighbors(place, w.rows, group.neighbors);
+      search_.append_neighbors(place, w.surroundings, group.neighbors);
       const std::size_t count = group.neighbors.size() - known;
       group.pairs += count;
       if (test_sphere(place, known, group.neighbors, w)) {

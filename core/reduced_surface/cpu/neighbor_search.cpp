@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes squared distances for whole rows of cells, in loops that compilers vectorize.
+// Computes squared distances from balls to all around them, in loops that compilers vectorize.
 #include "core/reduced_surface/cpu/neighbor_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -48,26 +49,33 @@ struct BallColumns {
   const double *x, *y, *z, *radius;
 };
 
-// Lists the balls of some rows that overlap a ball around (x, y, z) of this SAS radius, without `self`; returns the end
-// of the list.
+// Copies whole vectors of balls: up to seven more than `count`.
 MENISCUS_VECTOR_CLONES
-std::uint32_t* list_overlapping(const BallColumns& balls, const NeighborSearch::Rows& rows, std::uint32_t self,
-                                double x, double y, double z, double radius, double probe_radius, std::uint32_t* list) {
-  constexpr std::uint32_t kMost = 64;  // balls of a row at once, in whole vectors
-  std::int64_t overlaps[kMost];        // negative if the ball overlaps
-  for (const auto& [row_first, last] : rows)
-    for (std::uint32_t first = row_first; first < last; first += kMost) {
-      const double *bx = balls.x + first, *by = balls.y + first, *bz = balls.z + first, *br = balls.radius + first;
-      const std::uint32_t count = std::min(kMost, last - first);
-      for (std::size_t n = 0; n < whole_vectors(count); ++n) {
-        const double dx = bx[n] - x, dy = by[n] - y, dz = bz[n] - z;
-        const double reach = radius + br[n] + probe_radius + kGrowth;
-        overlaps[n] = dx * dx + dy * dy + dz * dz - reach * reach < 0 ? -1 : 0;
-      }
-      if (self - first < count) overlaps[self - first] = 0;
-      list = list_negative(overlaps, count, first, list);
-    }
-  return list;
+void copy_balls(const BallColumns& from, std::uint32_t first, std::size_t count, const std::array<double*, 4>& columns,
+                std::uint32_t* places) {
+  const double *x = from.x + first, *y = from.y + first, *z = from.z + first, *radius = from.radius + first;
+  double *to_x = columns[0], *to_y = columns[1], *to_z = columns[2], *to_radius = columns[3];
+  MENISCUS_INDEPENDENT_STEPS
+  for (std::size_t n = 0; n < whole_vectors(count); ++n) {
+    to_x[n] = x[n];
+    to_y[n] = y[n];
+    to_z[n] = z[n];
+    to_radius[n] = radius[n];
+    places[n] = first + static_cast<std::uint32_t>(n);
+  }
+}
+
+// Computes, for each ball, a number that is negative if it overlaps a ball around (x, y, z) that reaches `reach` Å
+// beyond van der Waals balls.
+MENISCUS_VECTOR_CLONES
+void sign_overlapping(const BallColumns& balls, std::size_t count, double x, double y, double z, double reach,
+                      std::int64_t* overlaps) {
+  const BallColumns b = balls;
+  MENISCUS_INDEPENDENT_STEPS
+  for (std::size_t n = 0; n < whole_vectors(count); ++n) {
+    const double dx = b.x[n] - x, dy = b.y[n] - y, dz = b.z[n] - z, sum = reach + b.radius[n];
+    overlaps[n] = dx * dx + dy * dy + dz * dz - sum * sum < 0 ? -1 : 0;
+  }
 }
 
 }  // namespace
@@ -93,22 +101,62 @@ NeighborSearch::NeighborSearch(std::span<const Ball> atoms, double probe_radius,
   });
 }
 
-void NeighborSearch::append_neighbors(std::size_t place, Rows& rows, std::vector<std::uint32_t>& neighbors) const {
-  const glm::dvec3 at = center(place);
-  const double radius = std::sqrt(weight(place));
-  rows.clear();
-  std::size_t candidates = 0;
-  grid_.for_each_row_near(at, radius + largest_radius_, [&](std::uint32_t first, std::uint32_t last) {
-    if (first == last) return;
-    rows.push_back({first, last});
-    candidates += last - first;
+// Takes the balls from `first` on while they are as close as those of a cell.
+void NeighborSearch::surround(std::size_t first, Surroundings& around) const {
+  glm::dvec3 low = center(first), high = low;
+  double heaviest = weight(first);
+  std::size_t past = first + 1;
+  for (; past < size(); ++past) {
+    const glm::dvec3 new_low = glm::min(low, center(past)), new_high = glm::max(high, center(past));
+    const glm::dvec3 side = new_high - new_low;
+    if (std::max({side.x, side.y, side.z}) > largest_radius_) break;
+    low = new_low;
+    high = new_high;
+    heaviest = std::max(heaviest, weight(past));
+  }
+  around.first_ = first;
+  around.past_ = past;
+  around.rows_.clear();
+  std::size_t count = 0;
+  const glm::dvec3 middle = 0.5 * (low + high), half = high - middle;
+  const double reach = std::sqrt(heaviest) + largest_radius_ + 1.001 * std::max({half.x, half.y, half.z});
+  grid_.for_each_row_near(middle, reach, [&](std::uint32_t row, std::uint32_t row_end) {
+    if (row == row_end) return;
+    around.rows_.push_back({row, row_end});
+    count += row_end - row;
   });
-  const std::size_t known = neighbors.size();
-  neighbors.resize(known + candidates + kLanes);
-  const BallColumns balls{table_.column(kX), table_.column(kY), table_.column(kZ), table_.column(kRadius)};
-  std::uint32_t* past = list_overlapping(balls, rows, static_cast<std::uint32_t>(place), at.x, at.y, at.z, radius,
-                                         probe_radius_, neighbors.data() + known);
-  neighbors.resize(static_cast<std::size_t>(past - neighbors.data()));
+  around.table_.make_room(count + kLanes);
+  around.places_.resize(count + kLanes);
+  around.overlaps_.resize(count + kLanes);
+  around.listed_.resize(count + kLanes);
+  const BallColumns from{table_.column(kX), table_.column(kY), table_.column(kZ), table_.column(kRadius)};
+  std::size_t at = 0;
+  for (const auto& [row, row_end] : around.rows_) {
+    const auto to = [&](Surroundings::Column c) { return around.table_.column(c) + at; };
+    copy_balls(from, row, row_end - row, {to(around.kX), to(around.kY), to(around.kZ), to(around.kRadius)},
+               around.places_.data() + at);
+    at += row_end - row;
+  }
+  around.count_ = count;
+}
+
+void NeighborSearch::append_neighbors(std::size_t place, Surroundings& around,
+                                      std::vector<std::uint32_t>& neighbors) const {
+  if (place < around.first_ || place >= around.past_) surround(place, around);
+  const std::size_t count = around.count_, known = neighbors.size();
+  const auto of = [&](Surroundings::Column c) { return around.table_.column(c); };
+  const glm::dvec3 at = center(place);
+  sign_overlapping({of(around.kX), of(around.kY), of(around.kZ), of(around.kRadius)}, count, at.x, at.y, at.z,
+                   std::sqrt(weight(place)) + probe_radius_ + kGrowth, around.overlaps_.data());
+  const std::uint32_t* listed = around.listed_.data();
+  const std::uint32_t* past = list_negative(around.overlaps_.data(), count, 0, around.listed_.data());
+  neighbors.resize(known + static_cast<std::size_t>(past - listed));
+  std::uint32_t* to = neighbors.data() + known;
+  for (; listed < past; ++listed) {
+    *to = around.places_[*listed];
+    to += *to != place ? 1 : 0;
+  }
+  neighbors.resize(static_cast<std::size_t>(to - neighbors.data()));
 }
 
 void NeighborSearch::list_blockers(std::size_t place, std::span<const std::uint32_t> neighbors,

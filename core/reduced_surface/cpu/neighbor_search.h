@@ -25,18 +25,32 @@ class NeighborSearch {
   std::uint32_t atom(std::size_t place) const { return atom_[place]; }
   double weight(std::size_t place) const { return table_.column(kWeight)[place]; }
 
-  /// Ranges of places, one per row of cells: the first, and one past the last.
-  using Rows = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  /// The balls around a few that are close to each other. Reused to save allocations.
+  class Surroundings {
+    friend class NeighborSearch;
+    enum Column : std::size_t { kX, kY, kZ, kRadius, kColumnCount };
 
-  /// Appends the places of all balls that overlap the ball at `place`, or come within rounding of it; `rows` is scratch
-  /// memory.
-  void append_neighbors(std::size_t place, Rows& rows, std::vector<std::uint32_t>& neighbors) const;
+    std::size_t first_ = 0, past_ = 0;  // these few
+    std::vector<std::pair<std::uint32_t, std::uint32_t>>
+        rows_;                           // places: the first of a row of cells, one past its last
+    std::size_t count_ = 0;              // of the balls around
+    std::vector<std::uint32_t> places_;  // their places
+    ColumnTable<kColumnCount> table_;
+    std::vector<std::int64_t> overlaps_;  // scratch
+    std::vector<std::uint32_t> listed_;
+  };
+
+  /// Appends the places of all balls that overlap the ball at `place`, or come within rounding of it. `around` is kept
+  /// from one place to the next.
+  void append_neighbors(std::size_t place, Surroundings& around, std::vector<std::uint32_t>& neighbors) const;
 
   /// Lists these balls as blockers around the ball at `place`; their labels are their places.
   void list_blockers(std::size_t place, std::span<const std::uint32_t> neighbors, Blockers& blockers) const;
 
  private:
   enum Column : std::size_t { kX, kY, kZ, kRadius, kWeight, kColumnCount };
+
+  void surround(std::size_t first, Surroundings& around) const;
 
   glm::dvec3 center(std::size_t place) const {
     return {table_.column(kX)[place], table_.column(kY)[place], table_.column(kZ)[place]};

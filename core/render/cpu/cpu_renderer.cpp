@@ -2,17 +2,11 @@
 // Draws pictures on the CPU: packs scenes, casts the tiles of their blocks on all threads, and finishes samples.
 #include "core/render/cpu/cpu_renderer.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <cstddef>
-#include <limits>
 #include <numbers>
-#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "core/image/color_space.h"

@@ -2,18 +2,6 @@
 // Pictures of computed surfaces and shapes made by the CPU alone, for files and for previews.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
-
 #include "core/base/progress.h"
 #include "core/render/cpu/lane_kernels.h"
 #include "core/render/cpu/occluders.h"

@@ -2,14 +2,7 @@
 // Casts opaque layers first, which limit the visible distance in the others. Then sorts and composites all layers.
 #include "core/render/cpu/layer_stack.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
 #include <tuple>
-#include <utility>
-
-#include <glm/geometric.hpp>
 
 #include "core/base/progress.h"
 #include "core/color/color_maps.h"

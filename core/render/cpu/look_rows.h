@@ -60,7 +60,6 @@ struct LookedAtBlock {
 
 #include "gpu_shaders/look/view_space.glsl"
 #include "gpu_shaders/look/light_maps.glsl"
-#include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/ray_cast/studio_light.glsl"
 #include "gpu_shaders/look/finish.glsl"
 

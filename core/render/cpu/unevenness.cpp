@@ -2,10 +2,6 @@
 // Compares neighbouring pixels of the first sample.
 #include "core/render/cpu/unevenness.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-
 #include <tbb/parallel_for.h>
 
 #include "core/render/cpu/lane_kernels.h"
