@@ -64,9 +64,10 @@ async def ask(client, command, number=1):
 
 
 class Browser:
-    """One page in a Chromium of its own; `async with Browser(program) as page`. options: more of the command line."""
+    """One page in a Chromium of its own; `async with Browser(program) as page`. options: more of the command line. By
+    default the page has no WebGL: on a busy machine that of software stops the page for minutes."""
 
-    def __init__(self, program, size=(1280, 800), options=()):
+    def __init__(self, program, size=(1280, 800), options=("--disable-3d-apis",)):
         self.program, self.size, self.options = program, size, options
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self.downloads = os.path.join(self.folder.name, "downloads")

@@ -53,7 +53,7 @@ class Figures(unittest.TestCase):
         if "firefox" in BROWSER:
             cls.browser = playwright.firefox.launch(channel="moz-firefox", executable_path=BROWSER)
         else:
-            cls.browser = playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"])
+            cls.browser = playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu", "--disable-3d-apis"])
         cls.addClassCleanup(cls.browser.close)
 
     def open(self, file, *options, size=SMALL):

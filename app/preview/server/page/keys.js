@@ -2,6 +2,7 @@
 // The program's keys, in addition to those of the stage. Letters are matched as typed, in either case, so that they follow
 // the user's keyboard.
 
+const kFast = 1000;  // ms between steps that follow each other
 const kUsual = { "look.ambient_occlusion": 1, "look.silhouettes": 1.5 };
 // These have no number: not every molecule has them, and kinds of patch have a key of their own.
 const kUnnumbered = ["auto", "kind", "copy", "model"];
@@ -13,23 +14,27 @@ export const key_help = [
   ["K", "colour by kind of patch"], ["A", "shade"], ["L", "lines"], ["G", "legend in pictures"], ["E", "name what is written"]];
 
 /// True if lines are drawn around what a state shows.
-export const has_lines = ({ values }) => ["silhouettes", "outer_lines", "inner_lines", "part_lines"].some((line) => values[`look.${line}`] > 0);
+const has_lines = ({ values }) => ["silhouettes", "outer_lines", "inner_lines", "part_lines"].some((line) => values[`look.${line}`] > 0);
 
 /// Returns press(key), which does what the key means, and returns false for keys without a meaning. state() is what the
 /// program shows, schemes() the words of the colour schemes, name() goes to the name of what is written.
 export function program_keys({ command, set, state, schemes, name }) {
   const values = () => state().values;
   const flip = (key, is_on) => set(key, is_on ? 0 : kUsual[key]);
+  const last = {};  // what the keys have set, and when
+  /// Returns the next value of a step by a key. Fast steps follow each other, for states of before them may come later.
+  const go_on = (name, told, step) => {
+    const now = performance.now(), value = step(now - last[name]?.at < kFast ? last[name].value : told);
+    last[name] = { value, at: now };
+    return value;
+  };
   const step_probe = (tenths) => {
-    if (values()["surface.kind"] === "vdw") return;
-    values()["surface.probe"] = Math.max(0, Math.round(10 * values()["surface.probe"] + tenths) / 10);  // the key may come again before the reply
-    set("surface.probe", values()["surface.probe"]);
+    const { "surface.kind": kind, "surface.probe": told } = values();
+    if (kind !== "vdw") set("surface.probe", go_on("probe", told, (radius) => Math.max(0, Math.round(10 * radius + tenths) / 10)));
   };
   const step_frame = (step) => {
-    const { frame, frames } = state();
-    if (frames < 2) return;
-    state().frame = (frame + step + frames) % frames;  // likewise
-    command("frame", { index: state().frame });
+    const { frame: told, frames } = state();
+    if (frames > 1) command("frame", { index: go_on("frame", told, (frame) => (frame + step + frames) % frames) });
   };
   const acts = {
     z: () => { if (state().undo > 0) command("undo"); },

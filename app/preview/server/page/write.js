@@ -5,7 +5,7 @@ import { hex_of } from "./properties.js";
 
 const $ = (id) => document.getElementById(id);
 const kEndings = { film: ".mp4", povray: "", blender: ".mns", scene: ".json", story: ".json", camera_path: ".json" };
-const kFilms = { strip: "Strip", turntable: "Turntable", frames: "All frames" };
+const kFilms = { strip: "Strip", turntable: "Turntable", frames: "Frames" };
 
 /// picture(): the PNG on the stage, if it is there in full; changed(): is called after something was written. Returns
 /// show(state), and begin(), which shows what an earlier page has begun.
