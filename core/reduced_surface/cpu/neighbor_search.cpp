@@ -49,7 +49,7 @@ struct BallColumns {
   const double *x, *y, *z, *radius;
 };
 
-// Copies whole vectors of balls: up to seven more than `count`.
+// Copies balls and their places in whole vectors, which may be up to seven balls more than `count`.
 MENISCUS_VECTOR_CLONES
 void copy_balls(const BallColumns& from, std::uint32_t first, std::size_t count, const std::array<double*, 4>& columns,
                 std::uint32_t* places) {
@@ -101,7 +101,7 @@ NeighborSearch::NeighborSearch(std::span<const Ball> atoms, double probe_radius,
   });
 }
 
-// Takes the balls from `first` on while they are as close as those of a cell.
+// Finds the balls around those from `first` on that are as close to each other as the balls of one cell.
 void NeighborSearch::surround(std::size_t first, Surroundings& around) const {
   glm::dvec3 low = center(first), high = low;
   double heaviest = weight(first);
