@@ -34,8 +34,8 @@ theme:
     - {media: "(prefers-color-scheme: light)", scheme: default, primary: blue grey}
     - {media: "(prefers-color-scheme: dark)", scheme: slate, primary: blue grey}
   features: [navigation.tabs, navigation.indexes, navigation.top, search.suggest, content.code.copy]
-plugins: [search]
-extra: {generator: false}
+plugins: [search, offline]
+extra: {generator: false, polyfills: [iframe-worker.js]}
 extra_css: [manual.css]
 extra_javascript: [manual.js]
 markdown_extensions:
@@ -50,15 +50,49 @@ CSS = """.md-grid { max-width: 72rem; }
 .md-typeset a { text-decoration: underline; }
 .md-tabs__link { opacity: 1; }
 .highlight:not(.language-text):not(.language-json) pre > code { white-space: pre-wrap; }
+.whole { white-space: nowrap; }
+@media (max-width: 44.9em) { .comment { display: block; padding-left: 2ch; } }
 """
-# Adds what the theme lacks for users of a keyboard or a screen reader: a name of the search, and regions that scroll.
-SCRIPT = """function complete() {
+# Adds what the theme lacks for users of a keyboard or a screen reader: a name of the search, and regions that scroll. Options
+# do not break at their dashes, and on a phone a comment in a block of commands has a line of its own.
+SCRIPT = """function mark(code, name, pattern) {
+  code.dataset.marked = "";
+  const texts = document.createNodeIterator(code, NodeFilter.SHOW_TEXT), found = [];
+  for (let text; (text = texts.nextNode());) found.push(text);
+  for (const text of found)
+    text.replaceWith(...text.data.split(pattern).map((piece, n) => n % 2 ? Object.assign(document.createElement("span"),
+      {textContent: piece, className: name}) : piece));
+}
+function complete() {
+  document.querySelectorAll(".md-typeset code:not([data-marked])").forEach((code) => {
+    mark(code, "comment", /((?<= )# .*\\n?)/);
+    mark(code, "whole", /((?<![\\w-])--?[a-z][\\w-]*)/i);
+  });
   document.querySelector(".md-search")?.setAttribute("aria-label", "Search");
   document.querySelectorAll("pre > code, .md-typeset__scrollwrap").forEach((region) => { region.tabIndex = 0; });
   document.querySelectorAll(".md-code__nav").forEach((buttons, n) => buttons.setAttribute("aria-label", `Code ${n + 1}`));
 }
 new MutationObserver(complete).observe(document.body, {childList: true, subtree: true});
 complete();
+"""
+# A page that was opened from a file may start no worker. The worker of the search then runs in a hidden frame.
+WORKER = """if (location.protocol === "file:") window.Worker = class extends EventTarget {
+  constructor(address) {
+    super();
+    const frame = document.body.appendChild(Object.assign(document.createElement("iframe"), {hidden: true}));
+    this.inner = frame.contentWindow;
+    this.loaded = new Promise((resolve) => {
+      this.inner.document.open();
+      this.inner.postMessage = (data) => this.dispatchEvent(new MessageEvent("message", {data}));
+      const script = Object.assign(this.inner.document.createElement("script"), {src: address, onload: resolve});
+      this.inner.document.appendChild(this.inner.document.createElement("html")).appendChild(script);
+      this.inner.document.close();
+    });
+  }
+  postMessage(data) {
+    this.loaded.then(() => this.inner.dispatchEvent(new MessageEvent("message", {data})));
+  }
+};
 """
 
 
@@ -152,6 +186,7 @@ def main():
     add_figure(program, pages)
     (pages / "manual.css").write_text(CSS)
     (pages / "manual.js").write_text(SCRIPT)
+    (pages / "iframe-worker.js").write_text(WORKER)
     options = pages / "reference" / "options"
     options.mkdir()
     for command in COMMANDS:

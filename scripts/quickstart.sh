@@ -10,10 +10,12 @@ out=$PWD/quickstart
 step() { printf '\n== %s (%s s)\n' "$1" "$SECONDS"; }
 
 step "1/5 packages"
-install_packages "${build_packages[@]}" "${run_packages[@]}" "${film_packages[@]}" "${sample_packages[@]}" \
-  "${compare_packages[@]}"
+to_build=("${build_packages[@]}" "${run_packages[@]}")
+others=("${film_packages[@]}" "${sample_packages[@]}" "${compare_packages[@]}")
+((EUID == 0)) || install_packages "${to_build[@]}" "${others[@]}"  # names all that are missing
+install_packages "${to_build[@]}"
 
-step "2/5 build"
+step "2/5 build, and beside it the packages of the other programs"
 build=${MENISCUS_BUILD:-$here/build/release}
 log=$out/build.log
 mkdir -p "$out"
@@ -21,7 +23,10 @@ echo "this takes minutes; its words go to $log"
 {
   cmake -S "$here" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=OFF &&
     cmake --build "$build" --target meniscus
-} >"$log" 2>&1 || {
+} >"$log" 2>&1 &
+building=$!
+install_packages "${others[@]}"
+wait "$building" || {
   tail -n 20 "$log" >&2
   echo "the build failed; its whole log: $log" >&2
   exit 1

@@ -26,7 +26,7 @@ echo "source" >&2
 git archive --format=tar --prefix="meniscus-$version/" HEAD | gzip -n -9 >"$made/meniscus-$version.tar.gz"
 
 echo "Debian packages" >&2
-cmake -S . -B build/packages -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=OFF >/dev/null
+cmake -S . -B build/packages -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=OFF -DMENISCUS_HARDENED=ON >/dev/null
 cmake --build build/packages >&2
 cpack --config build/packages/CPackConfig.cmake -B build/packages/made >&2
 mv build/packages/made/*.deb "$made"

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus bench`: times the stages of the surface for several molecules, one row each, like table 1 of the paper
 // (Krone, Dachsbacher & Ertl 2010).
-#include <algorithm>
-#include <filesystem>
 #include <iostream>
-#include <memory>
 
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 
 #include "app/bench/paper_bench.h"

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Times frames from a turning camera, with a changing probe, and with moving atoms.
 #include "app/bench/paper_bench.h"
+#include "core/gpu/egl_context.h"
+
+#ifdef MENISCUS_WITH_GL
 
 #include <algorithm>
 #include <array>
@@ -16,7 +19,6 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/text.h"
-#include "core/gpu/egl_context.h"
 #include "core/render/gl_renderer.h"
 #include "core/visible_surface/view_pipeline.h"
 #include "core/color/coloring.h"
@@ -176,3 +178,15 @@ void print_paper_tables(const std::vector<PaperBenchMolecule>& molecules, const 
 }
 
 }  // namespace meniscus
+
+#else
+
+namespace meniscus {
+
+void print_paper_tables(const std::vector<PaperBenchMolecule>&, const PaperBenchSettings& settings) {
+  const EglContext context(settings.device);  // throws: this build has no GL
+}
+
+}  // namespace meniscus
+
+#endif

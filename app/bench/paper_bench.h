@@ -3,9 +3,6 @@
 // stages.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include <glm/vec2.hpp>
 
 #include "core/base/constants.h"

@@ -3,13 +3,7 @@
 // cavities.
 #include "app/bench/rolling_probe.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <numbers>
-#include <vector>
-
-#include <glm/geometric.hpp>
 
 #include "core/math/ball.h"
 #include "core/reduced_surface/reduced_surface.h"

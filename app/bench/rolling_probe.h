@@ -6,12 +6,6 @@
 // tested against every ball in turn.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "core/base/constants.h"
 #include "core/math/double_geometry.h"
 #include "core/math/quad_geometry.h"

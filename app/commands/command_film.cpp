@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus film`: makes a film that goes from one scene to the next.
-#include <array>
-#include <cstdint>
-#include <memory>
-#include <numeric>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "app/commands/command_table.h"
@@ -24,8 +15,7 @@
 #include "core/base/progress.h"
 #include "core/base/text.h"
 #include "core/render/image_output.h"
-#include "core/scene/motion_blur.h"
-#include "core/scene/picture_device.h"
+#include "core/scene/renderers.h"
 #include "core/scene/transition.h"
 
 namespace meniscus {

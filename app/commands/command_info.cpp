@@ -1,27 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus info`: shows the contents of a file and the atoms that a surface would use; frames and times of
 // trajectories.
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <iostream>
-#include <limits>
-#include <map>
-#include <memory>
 #include <tuple>
 
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 
 #include "app/commands/command_table.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
-#include "app/reports/file_report.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
-#include "core/structure/outside_polymer.h"
+#include "core/structure/residues.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 
 namespace meniscus {

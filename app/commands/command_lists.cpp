@@ -2,11 +2,7 @@
 // Commands that print what the program knows: colours, file formats, completion scripts.
 
 #include <iostream>
-#include <memory>
-#include <string>
-#include <vector>
 
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
 

@@ -1,14 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus morph`: makes a path from one structure to another, as models of a PDB file.
-#include <algorithm>
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "app/commands/command_table.h"
 #include "app/options/property_options.h"

@@ -1,13 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus panels`: makes one picture of several scenes, side by side; `meniscus looks`: of one molecule in all looks.
-#include <algorithm>
-#include <array>
-#include <filesystem>
-#include <memory>
-#include <string_view>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "app/commands/command_table.h"
 #include "app/commands/shared_scenes.h"
@@ -20,7 +12,7 @@
 #include "core/render/image_output.h"
 #include "core/scene/frozen_selections.h"
 #include "core/scene/panel_page.h"
-#include "core/scene/picture_device.h"
+#include "core/scene/renderers.h"
 #include "core/scene/scene_lengths.h"
 #include "core/scene/scene_values.h"
 #include "core/structure/superposition.h"

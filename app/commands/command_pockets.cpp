@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus pockets`: finds pockets of a molecule or of the frames of a run, and writes their tables.
-
-#include <algorithm>
 #include <iostream>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
-#include "app/commands/pockets_command.h"
 #include "app/options/named_files.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
@@ -23,15 +13,27 @@
 #include "app/reports/pocket_report.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
+#include "core/pockets/pockets.h"
 #include "core/queries/cavity_tracks.h"
 #include "core/scene/frozen_selections.h"
 #include "core/scene/molecule_pockets.h"
 #include "core/scene/scene_paths.h"
+#include "core/structure/selection/selection.h"
 #include "exporters/mesh_files/mesh_file_maker.h"
 #include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus {
 namespace {
+
+struct PocketsCommand : SceneCommand {
+  PocketRequest pockets;
+  Selection ligand = parse_selection("ligand");
+  bool json = false;
+  std::string csv;     ///< path; empty: none; "-": standard output
+  std::string mesh;    ///< path; empty: none
+  std::string figure;  ///< path of a scene; empty: none
+  double mesh_tolerance = 0.02;
+};
 
 /// There are more positions of the large probe than atoms.
 constexpr std::uint64_t kPocketBytesPerAtom = 10 * kSurfaceBytesPerAtom;
@@ -154,8 +156,8 @@ class PocketTables {
   std::string held_;  ///< for a single molecule: printed once its table is complete
 };
 
-}  // namespace
-
+/// Prints the pockets of the molecule, or a line or a row for every frame as soon as it is finished. Tables
+/// get their final names at the end, with the frames that could be made; there is one mesh and one scene per frame.
 void print_pockets(const PocketsCommand& requested) {
   PocketsCommand command = requested;
   freeze_selections(command.scene, {&command.ligand});
@@ -163,6 +165,8 @@ void print_pockets(const PocketsCommand& requested) {
     throw UsageError("--figure: " + fault);
   PocketTables(command).make();
 }
+
+}  // namespace
 
 namespace {
 

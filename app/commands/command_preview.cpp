@@ -1,5 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus preview`: shows the surface in a browser while it changes.
+#include "app/commands/command_table.h"
+#include "app/options/scene_options.h"
+#include "app/preview/server/serve.h"
+#include "app/process/program_main.h"
+
+#ifdef MENISCUS_PREVIEW
+
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
@@ -19,15 +26,11 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/command_table.h"
 #include "app/commands/preview_command.h"
-#include "app/options/scene_options.h"
 #include "app/preview/command_json.h"
 #include "app/preview/server/clients.h"
-#include "app/preview/server/serve.h"
 #include "app/preview/session.h"
-#include "app/process/browser.h"
-#include "app/process/program_main.h"
+#include "app/process/child_process.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -35,7 +38,6 @@
 #include "core/scene/frame_run.h"
 #include "core/scene/frozen_selections.h"
 #include "core/scene/molecule.h"
-#include "core/scene/picture_device.h"
 #include "core/scene/renderers.h"
 #include "core/scene/run_framing.h"
 #include "core/scene/view_aim.h"
@@ -266,3 +268,22 @@ void add_preview(CLI::App& command) {
 }
 
 }  // namespace meniscus
+
+#else
+
+namespace meniscus {
+
+void add_preview(CLI::App& command) {
+  describe(command, "", "This build has no preview; those from source have (meniscus help install).");
+  command.allow_extras();
+  command.callback([] {
+    throw UsageError(
+        "this build has no preview; build Meniscus from source (meniscus help install), or use meniscus render");
+  });
+}
+
+std::vector<std::uint8_t> encode_jpeg(std::span<const std::uint8_t>, glm::ivec2, bool) { return {}; }
+
+}  // namespace meniscus
+
+#endif

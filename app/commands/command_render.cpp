@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus render`: ray casts the analytic surface of a molecule into a picture, or each frame of a run into pictures
 // or a film.
-#include <algorithm>
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
@@ -23,21 +15,74 @@
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
+#include "core/image/cryptomatte.h"
 #include "core/render/image_output.h"
 #include "core/render/picture_file.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/frozen_selections.h"
-#include "core/scene/mattes.h"
-#include "core/scene/motion_blur.h"
-#include "core/scene/picture_device.h"
+#include "core/scene/renderers.h"
+#include "core/scene/representations.h"
 #include "core/scene/scene_paths.h"
 #include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
+#include "core/scene/transition.h"
+#include "core/structure/structure.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/frame_list.h"
 
 namespace meniscus {
 namespace {
+
+std::string named(const std::string& text) { return text.empty() ? "-" : escaped(text); }
+
+std::string residue_of(const Atom& atom) {
+  if (atom.residue_name.empty()) return "-";
+  const std::string code = atom.insertion_code == ' ' ? "" : escaped(std::string(1, atom.insertion_code));
+  return fmt::format("{} {}{}", escaped(atom.residue_name), atom.residue_number, code);
+}
+
+/// Collects a matte name by name.
+class Namer {
+ public:
+  explicit Namer(const char* layer) : matte_{layer, {}, {}} {}
+
+  void add(const std::string& name) {
+    const auto [known, is_new] = ids_.try_emplace(name, 0);
+    if (is_new) known->second = matte_id(name);
+    matte_.id.push_back(known->second);
+  }
+
+  Matte take() {
+    nlohmann::json manifest = nlohmann::json::object();
+    for (const auto& [name, id] : ids_) manifest[name] = fmt::format("{:08x}", id);
+    matte_.manifest = manifest.dump();
+    return std::move(matte_);
+  }
+
+ private:
+  Matte matte_;
+  std::unordered_map<std::string, std::uint32_t> ids_;
+};
+
+/// Returns CryptoChain, CryptoResidue and CryptoAtom of shown_atoms(): "A", "A/LYS 15", "A/LYS 15/CA", with "-" for a
+/// name that the file does not give. The place in the file distinguishes atoms of one name: the second has "#42"
+/// appended. Copies of one atom (Instances) share a name.
+std::shared_ptr<const std::vector<Matte>> mattes_of(const Structure& structure) {
+  Namer chains("CryptoChain"), residues("CryptoResidue"), atoms("CryptoAtom");
+  std::unordered_map<std::string, std::uint32_t> places;  // places in the file, by name
+  for (const Atom& atom : shown_atoms(structure)) {
+    const std::string chain = named(atom.chain), residue = chain + "/" + residue_of(atom);
+    std::string name = residue + "/" + named(atom.name);
+    const std::uint32_t first = places.try_emplace(name, atom.index).first->second;
+    if (first != atom.index) name += fmt::format("#{}", atom.index);
+    chains.add(chain);
+    residues.add(residue);
+    atoms.add(name);
+  }
+  auto mattes = std::make_shared<std::vector<Matte>>();
+  for (Namer* const namer : {&chains, &residues, &atoms}) mattes->push_back(namer->take());
+  return mattes;
+}
 
 /// Returns the bytes that a pixel of an .exr takes before compression.
 double channel_bytes(const Scene& scene) {

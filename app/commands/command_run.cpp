@@ -2,15 +2,6 @@
 // Reads molecules and runs, and hands their structures or figures to a command.
 #include "app/commands/command_run.h"
 
-#include <algorithm>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <unistd.h>
 
 #include "app/process/program_main.h"
@@ -18,16 +9,16 @@
 #include "core/base/text.h"
 #include "core/camera/camera_json.h"
 #include "core/queries/copies.h"
-#include "core/scene/context_areas.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/figure_key.h"
 #include "core/scene/frozen_selections.h"
+#include "core/scene/molecule.h"
 #include "core/scene/representations.h"
 #include "core/scene/scene_lengths.h"
 #include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/surface_computer.h"
-#include "core/structure/selection/places.h"
+#include "core/structure/selection/selection.h"
 
 namespace meniscus {
 

@@ -2,18 +2,6 @@
 // A molecule, or the frames of a run, that a command takes one after another as numbers or as figures.
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "app/options/scene_options.h"
 #include "app/reports/csv_tables.h"
 #include "app/reports/run_frames.h"

@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus surface`: computes the complete surface and writes its numbers.
 
-#include <algorithm>
 #include <iostream>
 #include <iterator>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
@@ -20,16 +12,14 @@
 #include "app/process/program_main.h"
 #include "app/reports/csv_tables.h"
 #include "app/reports/notes.h"
-#include "app/reports/series_plot.h"
 #include "app/reports/surface_report.h"
 #include "core/base/constants.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
-#include "core/mesh/mesh_attributes.h"
+#include "core/mesh/mesh_colors.h"
 #include "core/mesh/tessellate.h"
 #include "core/queries/cavity_tracks.h"
 #include "core/scene/area_columns.h"
-#include "core/scene/context_areas.h"
 #include "core/scene/frozen_selections.h"
 #include "core/scene/molecule.h"
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export atoms`: writes the atoms of a surface, and their positions in each frame, as arrays.
-#include <filesystem>
 #include <iostream>
-#include <memory>
-#include <utility>
 
 #include "app/commands/command_table.h"
 #include "app/options/scene_options.h"

@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export blender`: writes mesh, analytic patches, atoms and camera as one .mns file.
-#include <algorithm>
-#include <filesystem>
 #include <iostream>
-#include <memory>
-#include <mutex>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"

@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export mesh`: writes the closed mesh in any format; `meniscus export ply` is its older form.
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <iostream>
-#include <memory>
-#include <optional>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"

@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export mvs`: writes a view for Mol* and other viewers of MolViewSpec.
-#include <algorithm>
-#include <cmath>
 #include <iostream>
-#include <memory>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export page`: writes one HTML file in which readers turn the exact surface.
 #include <iostream>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
+#include <system_error>
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
-#include "app/commands/page_views.h"
+#include "app/commands/shared_scenes.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/preview/server/serve.h"
@@ -18,18 +13,118 @@
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
+#include "core/camera/camera.h"
 #include "core/image/color_space.h"
+#include "core/image/png_file.h"
 #include "core/render/look.h"
 #include "core/render/picture.h"
 #include "core/scene/annotations.h"
+#include "core/scene/cut.h"
+#include "core/scene/figure.h"
 #include "core/scene/molecule.h"
 #include "core/scene/scene_paths.h"
+#include "core/scene/scene_values.h"
 #include "exporters/page/page_file.h"
 #include "exporters/page/scene_page.h"
 
 namespace meniscus {
 namespace {
+
+/// The views of --named-view NAME=FILE. FILE is a camera, as for --camera, or a scene, which provides its camera, its
+/// cuts and the opacity of all atoms.
+class NamedViews {
+ public:
+  /// Reads the files and protects them from being replaced by outputs. trusts_scenes: scenes may name any files. Throws
+  /// UsageError, and the errors of reading.
+  NamedViews(const std::vector<std::string>& texts, const SceneCommand& page, bool trusts_scenes);
+
+  /// Finds the cameras. Throws like FigureRun::camera_for(), with the name of the view.
+  void aim(FigureRun& run);
+  /// Returns the views of a figure with its objects; call aim() first. Throws like cut_atoms(), with the name of the
+  /// view.
+  std::vector<page::PageView> of(const Scene& page, const Figure& figure) const;
+
+ private:
+  struct View {
+    std::string name;
+    Scene scene;                   ///< with the size of the page
+    std::optional<Camera> camera;  ///< from a file, until the view is aimed
+  };
+  std::vector<View> views_;
+};
+
+/// True for a picture, or a text that is a scene.
+bool is_scene(const std::string& file) {
+  std::error_code unreadable;
+  if (file.starts_with('{') || !std::filesystem::is_regular_file(path_of_text(file), unreadable)) return false;
+  return is_png(file) || read_scene_text(file).find("\"meniscus_scene\"") != std::string::npos;
+}
+
+/// Returns the opacity of all atoms; 1 if some differ.
+float opacity_of(const Scene& scene) {
+  const std::vector<OpacityRule>& rules = scene.molecule.color.opacities;
+  return rules.size() == 1 && !rules.front().atoms ? rules.front().opacity : 1.0f;
+}
+
+/// Adds the name of the view to errors.
+template <typename Work>
+void named(const std::string& name, const Work& work) {
+  try {
+    work();
+  } catch (const RequestError& error) {
+    throw RequestError(fmt::format("--named-view {}: {}", in_quotes(name), error.what()));
+  }
+}
+
+NamedViews::NamedViews(const std::vector<std::string>& texts, const SceneCommand& page, bool trusts_scenes) {
+  const auto refuse = [](const std::string& text, const std::string& why) {
+    throw UsageError(fmt::format("--named-view {}: {}", in_quotes(text), why));
+  };
+  for (const std::string& text : texts) {
+    const std::size_t sign = std::min(text.find('='), text.size());
+    const std::string file = text.substr(std::min(sign + 1, text.size()));
+    View view{text.substr(0, sign), {}, {}};
+    if (view.name.empty() || file.empty()) refuse(text, "write NAME=FILE, such as 'Active site=site.json'");
+    if (std::ranges::any_of(views_, [&](const View& other) { return other.name == view.name; }))
+      refuse(text, "there is a view of this name before it; choose another");
+    if (is_scene(file)) {
+      std::vector<std::string> words{page.scene.molecule.file};
+      if (trusts_scenes) words.push_back("--trust-scene");
+      view.scene = prepared_scene(read_scene_file(file, std::move(words), page.reporting).scene);
+    } else {
+      view.scene.picture.camera_file = file;
+    }
+    view.scene.picture.width = page.scene.picture.width;
+    view.scene.picture.height = page.scene.picture.height;
+    view.camera = given_camera(view.scene.picture);
+    if (view.scene.figure.cuts.size() > page::kMostPlanes)
+      refuse(text, fmt::format("pages show at most {} planes, and its scene has {}", page::kMostPlanes,
+                               view.scene.figure.cuts.size()));
+    views_.push_back(std::move(view));
+  }
+}
+
+void NamedViews::aim(FigureRun& run) {
+  for (View& view : views_) named(view.name, [&] { view.camera = run.camera_for(view.scene.picture, view.camera); });
+}
+
+std::vector<page::PageView> NamedViews::of(const Scene& page, const Figure& figure) const {
+  std::vector<page::PageView> shown;
+  for (const View& view : views_) {
+    page::PageView& made = shown.emplace_back(page::PageView{view.name, view.camera.value()});
+    if (page.figure.hides_surface) continue;
+    const FigureRequest& requested = view.scene.figure;
+    named(view.name, [&] {
+      made.clip = surface_planes(requested, cut_atoms(requested.cuts, figure.molecule.structure), made.camera,
+                                 figure.molecule.objects);
+    });
+    made.opacity = opacity_of(view.scene);
+    made.looks_inside = uses_atoms(requested.cuts);
+  }
+  return shown;
+}
 
 constexpr double kManyBytes = 15e6;
 constexpr std::size_t kMostBytes = 250'000'000;  // a browser's text has at most 2^29 letters

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export mitsuba` and `meniscus export pbrt`: write a scene for path tracers, with meshes as fine as the
 // picture needs.
-#include <algorithm>
 #include <iostream>
-#include <memory>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"

@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export povray`: writes a folder with a POV-Ray scene of the analytic patches.
-#include <algorithm>
 #include <iostream>
-#include <map>
-#include <memory>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"

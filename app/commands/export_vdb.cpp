@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export vdb`: writes the exact signed distance from the surface as a level set of OpenVDB.
 #include <iostream>
-#include <memory>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"

@@ -2,14 +2,6 @@
 // Meshes what a figure shows for Blender, path tracers and viewers.
 #include "app/commands/figure_meshes.h"
 
-#include <algorithm>
-#include <filesystem>
-#include <optional>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/mesh/mesh_colors.h"

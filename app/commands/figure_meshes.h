@@ -2,12 +2,6 @@
 // Meshes of a figure for Blender, path tracers and viewers, and what is said of them.
 #pragma once
 
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "app/commands/command_run.h"
 #include "app/options/scene_options.h"
 #include "core/camera/camera.h"

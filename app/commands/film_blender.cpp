@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus film --to blender`: writes a storyboard as surfaces, with the times and the way in which each is shown.
-#include <algorithm>
-#include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "app/commands/figure_meshes.h"
 #include "app/commands/storyboard.h"

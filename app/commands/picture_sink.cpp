@@ -2,12 +2,8 @@
 // Draws pictures into files, or for a film, with their legend and annotations.
 #include "app/commands/picture_sink.h"
 
-#include <algorithm>
-#include <filesystem>
 #include <system_error>
-#include <vector>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "app/process/program_main.h"

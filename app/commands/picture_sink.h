@@ -2,14 +2,6 @@
 // The destination of the pictures of `meniscus render`: a file, numbered files, or a film.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <span>
-#include <string>
-
 #include "app/commands/render_command.h"
 #include "app/film/film.h"
 #include "app/options/named_files.h"

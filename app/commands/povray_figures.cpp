@@ -2,16 +2,8 @@
 // Writes figures and films of scenes for POV-Ray.
 #include "app/commands/povray_figures.h"
 
-#include <algorithm>
 #include <iostream>
-#include <optional>
-#include <set>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "app/commands/storyboard.h"

@@ -2,10 +2,6 @@
 // Figures in the form of POV-Ray's scenes, for single scenes, runs and films.
 #pragma once
 
-#include <span>
-#include <string>
-#include <vector>
-
 #include "app/options/property_options.h"
 #include "core/math/ball.h"
 #include "core/scene/figure.h"

@@ -2,19 +2,8 @@
 // Options of the preview, and the scenes that it reads again, opens and makes films of.
 #include "app/commands/preview_command.h"
 
-#include <algorithm>
 #include <charconv>
-#include <chrono>
-#include <cstdint>
-#include <filesystem>
-#include <numeric>
-#include <optional>
 #include <sstream>
-#include <string_view>
-#include <utility>
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "app/options/property_options.h"
 #include "app/process/child_process.h"

@@ -2,13 +2,6 @@
 // The options of `meniscus preview`, and the scene files that it starts with, saves and opens.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include <CLI/CLI.hpp>
 
 #include "app/options/scene_options.h"

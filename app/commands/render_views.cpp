@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus render --extent`: pictures by the GPU, from atoms to pixels, without the complete surface.
+#include "app/commands/render_command.h"
+#include "core/gpu/egl_context.h"
+
+#ifdef MENISCUS_WITH_GL
+
 #include <algorithm>
 #include <initializer_list>
 #include <iostream>
@@ -16,22 +21,20 @@
 
 #include "app/commands/command_run.h"
 #include "app/commands/picture_sink.h"
-#include "app/commands/render_command.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "app/reports/run_frames.h"
 #include "core/base/text.h"
 #include "core/color/color_schemes.h"
-#include "core/gpu/egl_context.h"
 #include "core/render/gl_renderer.h"
 #include "core/render/picture.h"
 #include "core/render/picture_file.h"
 #include "core/scene/figure_key.h"
 #include "core/scene/frozen_selections.h"
-#include "core/scene/hidden_atoms.h"
 #include "core/scene/molecule.h"
 #include "core/scene/run_framing.h"
+#include "core/scene/surface_objects.h"
 #include "core/scene/view_aim.h"
 #include "core/visible_surface/view_pipeline.h"
 
@@ -198,3 +201,15 @@ void render_views(const RenderCommand& requested) {
 }
 
 }  // namespace meniscus
+
+#else
+
+namespace meniscus {
+
+void render_views(const RenderCommand& command) {
+  const EglContext context(command.scene.molecule.surface.gl);  // throws: this build has no GL
+}
+
+}  // namespace meniscus
+
+#endif

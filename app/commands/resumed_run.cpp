@@ -2,11 +2,7 @@
 // Compares the notes of pictures with the run that is to be resumed.
 #include "app/commands/resumed_run.h"
 
-#include <filesystem>
 #include <set>
-#include <system_error>
-
-#include <fmt/format.h>
 
 #include "app/farm/bundle_folder.h"
 #include "app/process/program_main.h"

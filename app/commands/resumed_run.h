@@ -2,10 +2,6 @@
 // Finds what is left to do for `--resume`: a run's missing pictures, and whether those that are there belong to it.
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include "core/base/output_file.h"
 #include "core/scene/scene.h"
 

@@ -2,12 +2,6 @@
 // Turns the options that scenes share into words, and lets each scene parse them.
 #include "app/commands/shared_scenes.h"
 
-#include <algorithm>
-#include <optional>
-#include <utility>
-
-#include <fmt/format.h>
-
 #include "app/commands/render_command.h"
 #include "app/process/program_main.h"
 #include "core/base/text.h"

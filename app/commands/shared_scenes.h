@@ -2,11 +2,6 @@
 // Scenes that commands read from files, with the options that their command line sets for all, and drafts of scenes.
 #pragma once
 
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "app/options/scene_options.h"
 
 namespace meniscus {

@@ -2,13 +2,6 @@
 // Reads the scenes of a storyboard, counts its pictures, and goes through them.
 #include "app/commands/storyboard.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <utility>
-
-#include <fmt/format.h>
-
 #include "app/commands/shared_scenes.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"

@@ -2,18 +2,10 @@
 // The scenes of a film in order, with the duration of each and the transition to the next.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "app/commands/command_run.h"
 #include "app/commands/picture_sink.h"
 #include "app/options/scene_options.h"
-#include "core/scene/picture_device.h"
+#include "core/scene/renderers.h"
 #include "core/scene/scene_picture.h"
 #include "core/scene/transition.h"
 

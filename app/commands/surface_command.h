@@ -2,10 +2,6 @@
 // The options of `meniscus surface`.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "app/options/scene_options.h"
 #include "core/structure/selection/selection.h"
 

@@ -2,11 +2,8 @@
 // Writes and reads bundle.json, and cuts the run into chunks.
 #include "app/farm/bundle.h"
 
-#include <algorithm>
-#include <cmath>
 #include <concepts>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"

@@ -2,13 +2,6 @@
 // A bundle is a run of frames as a folder that any machine can work on; bundle.json in it says what is to be made.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "app/film/film.h"
 
 namespace meniscus::farm {

@@ -2,15 +2,7 @@
 // The folder of a bundle on the disk: checksums, missing frames, unfinished files, faults of pictures, and the film.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <system_error>
-#include <vector>
 
 #include "app/farm/bundle.h"
 #include "app/process/child_process.h"
@@ -52,8 +44,8 @@ class HiddenFolder {
 /// it, and a program that is being stopped writes nothing more. Throws OutputError.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Return the SHA-256 of a text or of a file's content, as 64 hexadecimal digits (FIPS 180-4, by OpenSSL). The second
-/// one throws InputError if the file cannot be read.
+/// Return the SHA-256 of a text or of a file's content, as 64 hexadecimal digits (FIPS 180-4). The second one throws
+/// InputError if the file cannot be read.
 std::string sha256(std::string_view bytes);
 std::string sha256_of_file(const std::filesystem::path& path);
 

@@ -2,16 +2,8 @@
 // Builds a bundle next to its final name, tries one frame, fills the templates of the engines, and renames the folder.
 #include "app/farm/make_bundle.h"
 
-#include <algorithm>
-#include <array>
 #include <fstream>
-#include <cmath>
-#include <optional>
-#include <set>
-#include <string_view>
-#include <utility>
 
-#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include "app/farm/bundle_folder.h"

@@ -2,12 +2,6 @@
 // Makes the folder of a bundle from a command that was parsed, but not run, with the job files of the engines.
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "app/farm/bundle.h"
 #include "app/options/scene_options.h"
 #include "core/base/text.h"

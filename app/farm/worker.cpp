@@ -3,17 +3,9 @@
 // hidden folder of the worker, and get their names when they are whole and without dates.
 #include "app/farm/worker.h"
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <random>
-#include <set>
-#include <utility>
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "app/farm/bundle_folder.h"
 #include "app/process/child_process.h"

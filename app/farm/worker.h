@@ -2,12 +2,6 @@
 // The one worker that people and every engine run: makes the missing frames of a bundle by the programs of its steps.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "app/farm/bundle.h"
 #include "app/reports/run_frames.h"
 

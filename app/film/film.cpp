@@ -2,15 +2,7 @@
 // Chooses the arguments of ffmpeg, feeds it pictures, and reads the film to see whether all frames are there.
 #include "app/film/film.h"
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cerrno>
-#include <cstring>
-#include <span>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>

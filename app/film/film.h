@@ -2,14 +2,6 @@
 // Films that ffmpeg encodes from pictures: their formats, and whether such a file is complete.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <glm/vec2.hpp>
 #include <sys/types.h>
 
 #include "app/process/program_main.h"

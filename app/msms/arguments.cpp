@@ -2,14 +2,8 @@
 // Reads the options of MSMS by their abbreviations, and computes the component that they select.
 #include "app/msms/arguments.h"
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
 #include <numeric>
-#include <span>
-#include <string_view>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "app/process/program_main.h"

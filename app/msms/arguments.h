@@ -2,11 +2,7 @@
 // The command line of MSMS, and the surface that it selects.
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <span>
-#include <string>
-#include <vector>
 
 #include "app/msms/drop_in.h"
 #include "core/mesh/triangle_mesh.h"

@@ -2,13 +2,7 @@
 // Reads spheres of xyzr files or of molecules, and writes all files of a run or none.
 #include "app/msms/drop_in.h"
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <system_error>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/system_file.h"

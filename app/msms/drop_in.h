@@ -3,9 +3,6 @@
 #pragma once
 
 #include <map>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "core/base/output_file.h"
 #include "core/math/ball.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Implements local_socket.h for Linux and macOS.
-#include <cerrno>
 #include <cstring>
 
 #include <fcntl.h>

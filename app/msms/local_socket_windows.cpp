@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Implements local_socket.h for Windows.
-#include <algorithm>
 #include <climits>
 #include <system_error>
 

@@ -2,19 +2,8 @@
 // The program `meniscus-msms`: the command line, files, socket and output of MSMS for exact surfaces.
 #include "app/msms/socket_server.h"
 
-#include <algorithm>
-#include <array>
 #include <chrono>
-#include <cstddef>
-#include <cstdint>
 #include <iostream>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "app/msms/arguments.h"
 #include "app/msms/drop_in.h"

@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program `meniscus-nanoshaper`: NanoShaper's configuration file and its files of triangles for exact surfaces.
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
 #include <iostream>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "app/msms/drop_in.h"
 #include "app/process/program_main.h"

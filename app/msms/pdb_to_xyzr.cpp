@@ -2,11 +2,6 @@
 // The programs `meniscus-pdb_to_xyzr` and, by that name, `meniscus-pdb_to_xyzrn`: spheres of a molecule for MSMS.
 #include <iostream>
 #include <iterator>
-#include <span>
-#include <string>
-#include <string_view>
-
-#include <fmt/format.h>
 
 #include "app/process/program_main.h"
 #include "app/process/system_process.h"

@@ -2,12 +2,6 @@
 // Serves one surface over a socket on this machine, as VMD requests it from MSMS.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
-
 #include "app/msms/arguments.h"
 
 namespace meniscus::msms {

@@ -16,8 +16,8 @@
 #include <CLI/CLI.hpp>
 
 #include "core/properties/properties.h"
-#include "core/scene/ineffective_values.h"
 #include "core/scene/scene.h"
+#include "core/scene/scene_values.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands that move the camera and the time: named views, frames, keys of the camera, sizes of pictures.
-#include <algorithm>
-#include <numbers>
+// The commands that move the camera and the time: views, frames, keys of the camera, sizes of pictures.
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "app/preview/camera_motion.h"
 #include "app/preview/command_json.h"
@@ -16,12 +12,6 @@
 
 namespace meniscus {
 namespace {
-
-constexpr double kLongestDrag = 100.0;  // heights of the picture
-
-glm::dvec2 drag_of(const CommandReader& command) {
-  return {command.number("dx", -kLongestDrag, kLongestDrag), command.number("dy", -kLongestDrag, kLongestDrag)};
-}
 
 /// The same state, which is given away, with another camera.
 Outcome seen_from(PreviewState& state, const Camera& camera, nlohmann::json reply = nlohmann::json::object()) {
@@ -38,15 +28,6 @@ std::vector<Instances> copies_of(const std::vector<Instances>& copies, const std
     if (!group.atoms.empty()) kept.push_back(std::move(group));
   }
   return kept;
-}
-
-/// The view that "name" names.
-std::map<std::string, Camera>::iterator named_view(const CommandReader& command, PreviewState& state) {
-  const std::string name = command.text("name");
-  const auto view = state.named_views.find(name);
-  if (view == state.named_views.end())
-    throw RequestError(fmt::format("{}: no view is called {}", command.word(), in_quotes(name)));
-  return view;
 }
 
 constexpr int kLongestSide = 8192;  // pixels; a GL texture holds it on all hardware of GL 4.5
@@ -73,29 +54,9 @@ Outcome played(const CommandReader& command, PreviewState state, bool plays) {
 }  // namespace
 
 Outcome orbit(const CommandReader& command, PreviewState state, const Surroundings&) {
-  return seen_from(state, orbited(state.camera, drag_of(command)));
-}
-
-Outcome pan(const CommandReader& command, PreviewState state, const Surroundings&) {
-  return seen_from(state, panned(state.camera, drag_of(command)));
-}
-
-Outcome zoom(const CommandReader& command, PreviewState state, const Surroundings& around) {
-  constexpr double kMost = 1e3;  // more does not come of one movement; wheels are added up while a picture is drawn
-  const double factor = std::clamp(command.number("factor", 1.0 / kMostZoom, kMostZoom), 1.0 / kMost, kMost);
-  if (command.has("x") != command.has("y")) throw RequestError("zoom: \"x\" and \"y\" are one place; give both");
-  glm::dvec2 place(0.0);  // from the middle
-  if (command.has("x")) {
-    const glm::dvec2 size(around.molecule.picture_size(state));
-    place = {command.number("x", 0.0, state.size.x), command.number("y", 0.0, state.size.y)};
-    place = (place - 0.5 * size) / size.y;
-  }
-  const Camera camera = command.has("x") ? zoomed_at(state.camera, factor, place) : zoomed(state.camera, factor);
-  return seen_from(state, camera);
-}
-
-Outcome roll(const CommandReader& command, PreviewState state, const Surroundings&) {
-  return seen_from(state, rolled(state.camera, command.number("degrees", -360.0, 360.0) * (std::numbers::pi / 180.0)));
+  constexpr double kLongest = 100.0;  // heights of the picture
+  const glm::dvec2 drag(command.number("dx", -kLongest, kLongest), command.number("dy", -kLongest, kLongest));
+  return seen_from(state, orbited(state.camera, drag));
 }
 
 Outcome zoom_to(const CommandReader& command, PreviewState state, const Surroundings& around) {
@@ -114,13 +75,6 @@ Outcome zoom_to(const CommandReader& command, PreviewState state, const Surround
   return seen_from(state, camera, {{"atoms", count}});
 }
 
-Outcome center(const CommandReader& command, PreviewState state, const Surroundings& around) {
-  const auto point = around.pictures.pick(state, around.molecule, pixel_of(command, state));
-  if (!point) throw RequestError("center: nothing is there");
-  const Camera camera = centered(state.camera, point->position, balls_in_view(around.molecule));
-  return seen_from(state, camera, {{"position", {point->position.x, point->position.y, point->position.z}}});
-}
-
 Outcome reset_view(const CommandReader&, PreviewState state, const Surroundings& around) {
   if (!around.first.overview) return seen_from(state, around.first.camera);
   state.overview = true;
@@ -129,28 +83,6 @@ Outcome reset_view(const CommandReader&, PreviewState state, const Surroundings&
 
 Outcome set_camera(const CommandReader& command, PreviewState state, const Surroundings&) {
   return seen_from(state, parse_camera(json_line(command.value("camera")), "camera"));
-}
-
-Outcome save_view(const CommandReader& command, PreviewState state, const Surroundings&) {
-  constexpr std::size_t kMostViews = 100, kLongestName = 60;
-  const std::string name = command.text("name");
-  if (name.empty() || name.size() > kLongestName)
-    throw RequestError(fmt::format("save_view: a name has 1 to {} letters", kLongestName));
-  if (!state.named_views.contains(name) && state.named_views.size() == kMostViews)
-    throw RequestError(fmt::format("save_view: at most {} views are kept; forget one", kMostViews));
-  state.named_views[name] = state.camera;
-  const std::size_t count = state.named_views.size();
-  return {std::move(state), Renewal::nothing, {{"views", count}}};
-}
-
-Outcome recall_view(const CommandReader& command, PreviewState state, const Surroundings&) {
-  return seen_from(state, named_view(command, state)->second);
-}
-
-Outcome forget_view(const CommandReader& command, PreviewState state, const Surroundings&) {
-  state.named_views.erase(named_view(command, state));
-  const std::size_t count = state.named_views.size();
-  return {std::move(state), Renewal::nothing, {{"views", count}}};
 }
 
 Outcome show_frame(const CommandReader& command, PreviewState state, const Surroundings& around) {

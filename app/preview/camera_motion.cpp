@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rotates and moves a camera in such a way that distances do not drift, however long one drags.
+// Turns a camera in such a way that its distance does not drift, however often it is turned.
 #include "app/preview/camera_motion.h"
-#include "core/math/ball.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <glm/geometric.hpp>
+
+#include "core/math/ball.h"
 
 namespace meniscus {
 namespace {
@@ -25,20 +26,13 @@ glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
   return v * c + glm::cross(axis, v) * s + axis * (glm::dot(axis, v) * (1.0 - c));
 }
 
-/// The camera on the other side of `forward`, as far from its target as it was.
-Camera looking(Camera camera, const glm::dvec3& forward, const glm::dvec3& up) {
-  camera.position = camera.target - glm::normalize(forward) * distance_of(camera);
-  camera.up = glm::normalize(up);
-  return camera;
-}
-
 /// Moves an orthographic camera back, so that no ball comes before its plane however it turns about its target.
 Camera outside(Camera camera, std::span<const Ball> balls) {
   if (camera.projection == Projection::perspective) return camera;
   double reach = 0.0;
   for (const Ball& ball : balls) reach = std::max(reach, glm::length(ball.center - camera.target) + ball.radius);
   const glm::dvec3 forward = view_basis(camera).forward;
-  camera.position = camera.target - forward * std::max(2.0 * reach, kSmallestReach);
+  camera.position = camera.target - forward * std::max(2.0 * reach, 1e-2);
   return camera;
 }
 
@@ -54,45 +48,11 @@ Camera orbited(const Camera& camera, glm::dvec2 drag) {
   const ViewBasis basis = view_basis(camera);
   if (length == 0.0) return camera;
   const glm::dvec3 axis = glm::normalize(basis.up * (-drag.x / length) + basis.right * (-drag.y / length));
-  const double angle = length * kTurnPerHeight;
-  return looking(camera, turned(basis.forward, axis, angle), turned(basis.up, axis, angle));
-}
-
-Camera panned(const Camera& camera, glm::dvec2 drag) {
-  const ViewBasis basis = view_basis(camera);
-  const glm::dvec3 shift = (basis.up * drag.y - basis.right * drag.x) * height_at_target(camera);
+  const double angle = length * std::numbers::pi;
   Camera moved = camera;
-  moved.position += shift;
-  moved.target += shift;
+  moved.position = camera.target - glm::normalize(turned(basis.forward, axis, angle)) * distance_of(camera);
+  moved.up = glm::normalize(turned(basis.up, axis, angle));
   return moved;
-}
-
-Camera zoomed(const Camera& camera, double factor) {
-  Camera moved = camera;
-  if (camera.projection == Projection::orthographic) {
-    moved.height = std::clamp(camera.height / factor, kSmallestReach, kLargestReach);
-  } else {
-    const double distance = std::clamp(distance_of(camera) / factor, kSmallestReach, kLargestReach);
-    moved.position = camera.target - view_basis(camera).forward * distance;
-  }
-  return moved;
-}
-
-Camera zoomed_at(const Camera& camera, double factor, glm::dvec2 place) {
-  const Camera moved = zoomed(camera, factor);
-  return panned(moved, place * (1.0 - height_at_target(camera) / height_at_target(moved)));
-}
-
-Camera centered(const Camera& camera, const glm::dvec3& point, std::span<const Ball> balls) {
-  Camera moved = camera;
-  moved.position += point - camera.target;
-  moved.target = point;
-  return outside(moved, balls);
-}
-
-Camera rolled(const Camera& camera, double angle) {
-  const ViewBasis basis = view_basis(camera);
-  return looking(camera, basis.forward, turned(basis.up, basis.forward, -angle));
 }
 
 Camera projected(const Camera& camera, Projection projection, std::span<const Ball> balls) {

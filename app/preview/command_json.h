@@ -39,9 +39,6 @@ enum class Change {
 };
 Change change_of(const nlohmann::json& command);
 
-/// The most by which one command zooms in, and its reciprocal out, however many turns of a wheel became one.
-inline constexpr double kMostZoom = 1e300;
-
 /// Makes one command of two that follow each other, `first` then `second`; false if both are needed.
 bool merge_commands(nlohmann::json& first, const nlohmann::json& second);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of commands, and those of the session itself: undo and redo, keys, the end.
+// The table of commands, and those of the session itself: undo and redo, and its end.
 #include "app/preview/commands.h"
 
 #include <algorithm>
@@ -17,31 +17,18 @@ namespace {
 std::vector<Command> all_commands() {
   using Effect = Command::Effect;
   return {
-      {"orbit", {"dx", "dy"}, Effect::motion, orbit},
-      {"pan", {"dx", "dy"}, Effect::motion, pan},
-      {"zoom", {"factor", "x", "y"}, Effect::motion, zoom},
-      {"roll", {"degrees"}, Effect::motion, roll},
+      {"orbit", {"dx", "dy"}, Effect::slide, orbit},
       {"zoom_to", {"selection"}, Effect::edit, zoom_to},
-      {"center", {"x", "y"}, Effect::edit, center},
       {"reset_view", {}, Effect::edit, reset_view},
       {"camera", {"camera"}, Effect::edit, set_camera},
-      {"save_view", {"name"}, Effect::none, save_view},
-      {"recall_view", {"name"}, Effect::edit, recall_view},
-      {"forget_view", {"name"}, Effect::none, forget_view},
-      {"hide", {"selection"}, Effect::edit, hide},
-      {"represent", {"as", "selection"}, Effect::edit, represent},
-      {"object", {"object", "index"}, Effect::slide, put_object},
-      {"set", {"key", "value"}, Effect::slide, set_property},
-      {"paint", {"selection", "color"}, Effect::edit, paint},
-      {"opacity", {"opacity", "selection", "index"}, Effect::slide, set_opacity},
-      {"cut", {"plane", "index"}, Effect::slide, set_cut},
-      {"remove", {"of", "index"}, Effect::edit, remove_entry},
+      {"set", {"key", "value", "index"}, Effect::slide, set_property},
+      {"add", {"key", "value"}, Effect::slide, set_property},
       {"look_into", {"selection"}, Effect::edit, look_into},
       {"take_away", {"selection"}, Effect::edit, take_away},
       {"bring_back", {"selection"}, Effect::edit, bring_back},
       {"strip", {"place"}, Effect::slide, show_strip},
-      {"undo", {}, Effect::back, undo},
-      {"redo", {}, Effect::forward, redo},
+      {"undo", {}, Effect::back, go_through_history},
+      {"redo", {}, Effect::forward, go_through_history},
       {"end_step", {}, Effect::ends_step, end_step},
       {"frame", {"index"}, Effect::picture, show_frame},
       {"next_frame", {}, Effect::picture, next_frame},
@@ -53,7 +40,6 @@ std::vector<Command> all_commands() {
       {"play", {"fps", "strip"}, Effect::none, play},
       {"pause", {"fps"}, Effect::none, pause},
       {"resize", {"width", "height"}, Effect::picture, resize},
-      {"press", {"key"}, Effect::none, press, false},  // what it means is recorded
       {"pick", {"x", "y", "place", "wait", "area"}, Effect::none, pick},
       {"export",
        {"format", "of", "path", "archive", "width", "height", "samples", "transparent", "turns", "seconds", "force",
@@ -78,20 +64,16 @@ std::vector<Command> all_commands() {
 
 /// Words that recorded sessions of former versions may have, and the keys by which "set" does the same.
 constexpr std::pair<std::string_view, std::string_view> kFormerWords[] = {
-    {"surface", "surface.kind"},         {"probe", "surface.probe"},          {"show", "surface.show"},
-    {"patches", "surface.patches"},      {"color", "surface.color"},          {"patch_kinds", "surface.color"},
-    {"projection", "camera.projection"}, {"samples", "image.samples"},        {"preset", "look.preset"},
-    {"look", "look.ambient and so on"},  {"legend", "legend.shown and so on"}};
+    {"surface", "surface.kind"},         {"probe", "surface.probe"},           {"show", "surface.show"},
+    {"patches", "surface.patches"},      {"color", "surface.color"},           {"patch_kinds", "surface.color"},
+    {"projection", "camera.projection"}, {"samples", "image.samples"},         {"preset", "look.preset"},
+    {"look", "look.ambient and so on"},  {"legend", "legend.shown and so on"}, {"hide", "surface.show"},
+    {"paint", "surface.color"},          {"opacity", "surface.opacity"},       {"cut", "surface.clip"},
+    {"object", "figure.object"},         {"represent", "figure.sticks"}};
 
 const std::vector<Command>& command_table() {
   static const std::vector<Command> all = all_commands();
   return all;
-}
-
-/// The figure that undo or redo brings back, in place of the state's.
-Outcome restored(PreviewState state, const PreviewFigure& figure, std::size_t undo_steps, std::size_t redo_steps) {
-  static_cast<PreviewFigure&>(state) = figure;
-  return {std::move(state), Renewal::shapes, {{"undo", undo_steps}, {"redo", redo_steps}}, true};
 }
 
 }  // namespace
@@ -117,16 +99,15 @@ const Command& row_of(const CommandReader& command) {
   return *row;
 }
 
-Outcome undo(const CommandReader&, PreviewState state, const Surroundings& around) {
+Outcome go_through_history(const CommandReader& command, PreviewState state, const Surroundings& around) {
   const EditHistory& history = around.history;
-  if (!history.before()) throw RequestError("undo: nothing was changed yet");
-  return restored(std::move(state), *history.before(), history.undo_steps() - 1, history.redo_steps() + 1);
-}
-
-Outcome redo(const CommandReader&, PreviewState state, const Surroundings& around) {
-  const EditHistory& history = around.history;
-  if (!history.after()) throw RequestError("redo: nothing was undone");
-  return restored(std::move(state), *history.after(), history.undo_steps() + 1, history.redo_steps() - 1);
+  const bool is_back = command.word() == "undo";
+  const PreviewFigure* const figure = is_back ? history.before() : history.after();
+  if (!figure) throw RequestError(is_back ? "undo: nothing was changed yet" : "redo: nothing was undone");
+  static_cast<PreviewFigure&>(state) = *figure;
+  const std::size_t undo_steps = is_back ? history.undo_steps() - 1 : history.undo_steps() + 1;
+  const std::size_t redo_steps = is_back ? history.redo_steps() + 1 : history.redo_steps() - 1;
+  return {std::move(state), Renewal::shapes, {{"undo", undo_steps}, {"redo", redo_steps}}, true};
 }
 
 Outcome end_step(const CommandReader&, PreviewState state, const Surroundings&) { return {std::move(state)}; }
@@ -134,10 +115,6 @@ Outcome end_step(const CommandReader&, PreviewState state, const Surroundings&) 
 Outcome quit(const CommandReader&, PreviewState state, const Surroundings&) {
   state.ended = true;
   return {std::move(state)};
-}
-
-KeyMeaning press(const CommandReader& command, const Surroundings& around) {
-  return key_meaning(command.text("key"), get_state(command, around));
 }
 
 }  // namespace meniscus

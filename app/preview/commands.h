@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/preview/command_json.h"
-#include "app/preview/key_table.h"
 #include "app/preview/preview_state.h"
 #include "app/preview/shown_molecule.h"
 #include "app/preview/view_cache.h"
@@ -44,8 +43,6 @@ struct Outcome {
 using Reducer = Outcome(const CommandReader& command, PreviewState state, const Surroundings& around);
 /// Answers or exports; the state stays.
 using Service = nlohmann::json(const CommandReader& command, const Surroundings& around);
-/// Means another command, or nothing.
-using Translator = KeyMeaning(const CommandReader& command, const Surroundings& around);
 
 /// A row of the table.
 struct Command {
@@ -55,7 +52,6 @@ struct Command {
     picture,   ///< there is another; not to be undone
     edit,      ///< and this is a step by itself
     slide,     ///< the same command again makes one step of both
-    motion,    ///< and so do all movements of the camera
     back,      ///< a step is undone
     forward,   ///< or done again
     ends_step  ///< the next step is one by itself
@@ -63,18 +59,15 @@ struct Command {
   std::string_view word;
   std::vector<std::string_view> keys;
   Effect effect;
-  std::variant<Reducer*, Service*, Translator*> run;
+  std::variant<Reducer*, Service*> run;
   bool is_recorded = true;  ///< unless it is a question
 
-  bool is_step() const { return effect == Effect::edit || effect == Effect::slide || effect == Effect::motion; }
+  bool is_step() const { return effect == Effect::edit || effect == Effect::slide; }
   bool makes_picture() const { return effect != Effect::none && effect != Effect::ends_step; }
   /// True if the next picture of a film that plays would undo what the command does.
   bool pauses_film() const { return makes_picture() && word != "next_frame" && word != "resize"; }
   /// Steps of one kind that follow each other are one; empty: this is a step by itself.
-  std::string_view kind_of_step() const {
-    if (effect == Effect::edit) return {};
-    return effect == Effect::motion ? "motion" : word;
-  }
+  std::string_view kind_of_step() const { return effect == Effect::edit ? std::string_view() : word; }
 };
 
 /// The row of a command. Throws RequestError for an unknown word or key.
@@ -83,23 +76,10 @@ const Command& row_of(const CommandReader& command);
 /// An error that was thrown in carrying out a command, with that command's word before it where there was another's.
 std::string said_by(const std::string& word, const std::string& error);
 
-/// The pixel of the picture at rest that "x" and "y" name.
-glm::ivec2 pixel_of(const CommandReader& command, const PreviewState& state);
-
 /// Returns the values of all properties that the preview changes, by their keys, for the state.
 nlohmann::json property_values(const PreviewState& state);
 /// Returns what pages need for controls of these properties: names, limits, words and help.
 nlohmann::json property_choices();
-
-/// Returns the state with the look of a preset. The figure of the beginning takes the place of what the look before it
-/// drew, or of what this one draws.
-Outcome with_preset(PreviewState state, LookPreset preset, const Surroundings& around);
-
-/// Returns a scheme whose word and rules were chosen, with the numbers, the scale and the title that it has in this
-/// preview. If `keeps_scale` is true, the scheme keeps its map, its range and its colour of missing numbers; else it
-/// gets those of the scheme that the preview began with, if that is the same one. Throws RequestError for a scheme that
-/// previews do not show, and for rules beside kinds of patch.
-ColorScheme previewed_scheme(ColorScheme chosen, const ColorScheme& before, const ColorScheme& first, bool keeps_scale);
 
 /// What the command "state" answers.
 Service get_state;
@@ -108,16 +88,13 @@ Service get_state;
 nlohmann::json place_selections(const Atom& atom, const ShownMolecule& molecule);
 
 // What the rows name, by file.
-Reducer orbit, pan, zoom, roll, zoom_to, center, reset_view, set_camera, save_view, recall_view, forget_view,
-    show_frame, next_frame, set_key, follow_keys, play, pause, resize;  // camera_commands.cpp
-Reducer hide, represent, put_object, set_cut, remove_entry;             // figure_commands.cpp
-Reducer set_property;                                                   // property_commands.cpp
-Reducer paint, set_opacity;                                             // look_commands.cpp
+Reducer orbit, zoom_to, reset_view, set_camera, show_frame, next_frame, set_key, follow_keys, play, pause,
+    resize;            // camera_commands.cpp
+Reducer set_property;  // property_commands.cpp
 /// The next picture of a strip that plays; at its end playing ends.
 Outcome next_of_strip(PreviewState state, const Surroundings& around);
 Reducer keep_scene, forget_scene, time_scene, show_strip;  // strip_commands.cpp
-Reducer undo, redo, end_step, quit;                        // commands.cpp
-Translator press;                                          // commands.cpp
+Reducer go_through_history, end_step, quit;                // commands.cpp
 Reducer look_into, take_away, bring_back;                  // content_commands.cpp
 Service get_contents, locate;                              // content_commands.cpp
 Service get_stats, get_choices, pick;                      // question_commands.cpp

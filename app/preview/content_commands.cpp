@@ -21,12 +21,12 @@
 #include "app/preview/commands.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/camera/view_request.h"
 #include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
 #include "core/scene/cut.h"
 #include "core/scene/representations.h"
-#include "core/structure/residue_letters.h"
+#include "core/scene/scene_values.h"
+#include "core/structure/residue_names.h"
 #include "core/structure/selection/selection_words.h"
 
 namespace meniscus {
@@ -400,15 +400,13 @@ Outcome look_into(const CommandReader& command, PreviewState state, const Surrou
   if (!context.aim || !context.read_shown)
     throw RequestError("look_into: this molecule cannot be read again, so nothing can be drawn inside its surface");
   const Selection selection = command.selection();
-  const Selection first = parse_selection(fmt::format("first ({})", selection.text()));
   std::erase_if(state.figure.cuts, [](const Cut& cut) { return cut.place == Cut::Place::before; });
-  state.figure.cuts.push_back(parse_cut("before " + first.text()));
   command.naming([&] { draw_beside(selection, state, around); });
   Scene scene = rendered_scene(state, {state.size});
   scene.picture.camera_file.clear();
   scene.picture.projection = state.camera.projection;
-  scene.picture.zoom_to = first;
-  scene.picture.direction = parse_view_direction("open");
+  set_value(scene, property_of("camera.look_into"), std::array{selection.text()});
+  state.figure.cuts = scene.figure.cuts;
   const Structure structure = context.read_shown(state.figure, state.frame);
   const std::vector<bool> chosen = selection.evaluate(shown_atoms(structure));
   const auto count = static_cast<std::size_t>(std::ranges::count(chosen, true));
@@ -423,11 +421,12 @@ Outcome take_away(const CommandReader& command, PreviewState state, const Surrou
   const bool was_beside =
       command.naming([&] { return remove_shapes(selection, state, around.molecule.atoms_in_view()); });
   if (surface_counts(selection, state, around)[1] > 0) hide_surface(selection, state);
-  if (!state.figure.hides_surface && surface_counts(all, state, around)[1] == 0) {
+  const std::size_t left = surface_counts(all, state, around)[1];
+  if (!state.figure.hides_surface && left == 0) {
     state.figure.hides_surface = true;
     state.molecule.show.reset();
   }
-  return {std::move(state), was_beside ? Renewal::shapes : Renewal::colors};
+  return {std::move(state), was_beside ? Renewal::shapes : Renewal::colors, {{"atoms", left}}};
 }
 
 Outcome bring_back(const CommandReader& command, PreviewState state, const Surroundings& around) {

@@ -20,7 +20,7 @@
 #include "app/preview/preview_state.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/color/color_maps.h"
+#include "core/camera/camera_json.h"
 #include "core/color/color_schemes.h"
 #include "core/properties/properties.h"
 #include "core/render/image_output.h"
@@ -36,14 +36,8 @@ using Json = nlohmann::json;
 constexpr int kLongestExportedSide = 16384;  // pixels
 constexpr int kMostSamples = 1024;           // as the property image.samples has it
 
-/// The size and the quality of an exported picture.
-struct PictureOptions {
-  glm::ivec2 size;
-  int samples;
-  bool transparent;
-};
-
-PictureOptions picture_options(const CommandReader& command, const PreviewState& state) {
+/// Returns the size and the quality of an exported picture.
+RenderedView picture_options(const CommandReader& command, const PreviewState& state) {
   const glm::ivec2 size = state.has_size ? state.picture.size() : state.size;
   return {{command.integer_or(size.x, "width", 16, kLongestExportedSide),
            command.integer_or(size.y, "height", 16, kLongestExportedSide)},
@@ -117,7 +111,7 @@ std::uint64_t pictures_of(FilmOf film, const CommandReader& command, const Surro
 }
 
 /// Returns the size of a film's pictures, which is even, because most encoders need that.
-glm::ivec2 film_size(const PictureOptions& options) { return 2 * (options.size / 2); }
+glm::ivec2 film_size(const RenderedView& options) { return 2 * (options.size / 2); }
 
 /// Sets the frames of a scene to one frame of the trajectory. number: ShownMolecule::number_of().
 void show_one_frame(Scene& scene, std::uint64_t number) {
@@ -136,7 +130,7 @@ Scene film_scene(FilmOf film, const CommandReader& command, const Surroundings& 
   if (is_run && state.follows_keys && !state.keys.empty())
     throw RequestError(
         "export: a film along the keys of a camera is made by meniscus render --camera-path; export them");
-  const PictureOptions options = picture_options(command, state);
+  const RenderedView options = picture_options(command, state);
   Scene scene = rendered_scene(state, {film_size(options), options.samples});
   scene.run_camera = {};
   scene.run_camera.turns = command.number_or(is_run ? 0.0 : 1.0, "turns", -100.0, 100.0);
@@ -154,8 +148,7 @@ Scene film_scene(FilmOf film, const CommandReader& command, const Surroundings& 
 Scene shown_scene(const CommandReader& command, const Surroundings& around) {
   const PreviewState& state = around.state;
   const ShownMolecule& molecule = around.molecule;
-  const PictureOptions options = picture_options(command, state);
-  RenderedView view{options.size, options.samples, options.transparent};
+  RenderedView view = picture_options(command, state);
   if (molecule.has_trajectory()) view.frame = molecule.number_of(state.frame);
   if (molecule.has_models()) {
     using By = ColorScheme::By;
@@ -248,11 +241,15 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
     throw RequestError("export: " + exporter.job->state()["path"].get<std::string>() +
                        " is being written; wait for it, or cancel it");
   const ExportTarget target = target_of(command, exporter.folder);
-  const PictureOptions options = picture_options(command, state);
+  const RenderedView options = picture_options(command, state);
   if (format == Format::png) check_image_path(target.path);
-  if (format == Format::camera) export_camera(state.camera, target);
-  if (format == Format::camera_path) export_camera_path(camera_keys(molecule, state), target);
   if (format >= Format::camera) {
+    const std::vector<CameraKey> keys = camera_keys(molecule, state);
+    if (format == Format::camera_path && keys.empty())
+      throw RequestError("export: the camera has no keys yet; set some, each at a frame");
+    OutputFile file(target.path, target.existing);
+    file.write(format == Format::camera ? camera_json(state.camera) : camera_path_json(keys));
+    file.commit();
     Exporter::add_once(exporter.written, target.path);
     return {{"path", target.path.string()}};
   }

@@ -80,18 +80,17 @@ struct PreviewState : PreviewFigure {
   std::map<std::size_t, Camera> keys;  ///< of the camera, by frame; all of one projection
   bool follows_keys = false;           ///< showing a frame moves the camera along its keys
   bool playing = false;
-  double frames_per_second = 10.0;            ///< while playing
-  glm::ivec2 size{1024, 768};                 ///< of the full picture with its legend, in pixels
-  bool copies_apart = false;                  ///< no probe may touch two copies of the structure (Structure::instances)
-  std::map<std::string, Camera> named_views;  ///< kept by the user
-  std::vector<KeptScene> strip;               ///< scenes kept for a film, in its order
-  std::uint64_t last_kept = 0;                ///< the number of the scene that was kept last
-  double strip_place = 0.0;                   ///< of the strip, which was shown last
-  std::uint64_t strip_shown = 0;              ///< how many pictures of a film that plays show the scene there
-  double strip_rate = 25.0;                   ///< pictures per second of the strip while it plays
-  bool plays_strip = false;                   ///< playing goes along the strip, not through the frames
-  std::uint64_t revision = 1;                 ///< grows with every change of what is seen
-  bool ended = false;                         ///< a command asked to end
+  double frames_per_second = 10.0;  ///< while playing
+  glm::ivec2 size{1024, 768};       ///< of the full picture with its legend, in pixels
+  bool copies_apart = false;        ///< no probe may touch two copies of the structure (Structure::instances)
+  std::vector<KeptScene> strip;     ///< scenes kept for a film, in its order
+  std::uint64_t last_kept = 0;      ///< the number of the scene that was kept last
+  double strip_place = 0.0;         ///< of the strip, which was shown last
+  std::uint64_t strip_shown = 0;    ///< how many pictures of a film that plays show the scene there
+  double strip_rate = 25.0;         ///< pictures per second of the strip while it plays
+  bool plays_strip = false;         ///< playing goes along the strip, not through the frames
+  std::uint64_t revision = 1;       ///< grows with every change of what is seen
+  bool ended = false;               ///< a command asked to end
 
   /// Returns the pictures per second of what plays.
   double rate() const { return plays_strip ? strip_rate : frames_per_second; }

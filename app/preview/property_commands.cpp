@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries out the command "set", which gives a property another value, and lists the properties for pages.
+// Carries out the commands "set" and "add", which change the values of properties, and lists the properties for pages.
 #include <algorithm>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,6 +16,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
+#include "core/color/color_schemes.h"
 #include "core/scene/annotations.h"
 #include "core/scene/molecule.h"
 #include "core/scene/scene_json.h"
@@ -80,6 +83,32 @@ std::string_view control_of(const Property& property) {
   return property.value == "COLOR" ? "color" : property.value == "EXPR" ? "selection" : "text";
 }
 
+/// An entry of a list property that a command changes, adds or removes.
+struct ListEntry {
+  std::size_t index;
+  bool is_removed;
+};
+
+/// Puts the texts of one entry into the list of all texts of its property: at the end if `index` is nothing. Without
+/// texts the entry is removed. Of opacities the last one of the same atoms counts, so it replaces the one before.
+ListEntry put_entry(std::optional<int> index, Texts entry, const Property& property, Texts& list) {
+  if (property.key == "surface.opacity" && !index)
+    std::erase_if(list, [&](const std::string& text) {
+      return text.substr(0, text.rfind('=') + 1) == entry.back().substr(0, entry.back().rfind('=') + 1);
+    });
+  const std::size_t place = index ? static_cast<std::size_t>(*index) : list.size();
+  const auto at = list.begin() + static_cast<std::ptrdiff_t>(place);
+  const bool is_removed = entry.empty();
+  list.insert(index ? list.erase(at) : at, entry.begin(), entry.end());
+  return {place, is_removed};
+}
+
+/// True if both objects are made of the same atoms in the same way, so that only their looks differ.
+bool has_same_shape(const FigureObjectRequest& a, const FigureObjectRequest& b) {
+  return a.shapes == b.shapes && a.text() == b.text() && a.radius == b.radius && a.kind == b.kind &&
+         a.probe_radius == b.probe_radius;
+}
+
 /// Throws RequestError if a list of the scene is longer than previews draw, or a text longer than they write.
 void check_extent(const Property& property, const Scene& scene) {
   constexpr std::size_t kMostEntries = 100, kMostCuts = 16, kLongestText = 200;
@@ -112,6 +141,63 @@ void check_among_others(const Property& property, const Scene& scene, const Show
   if (scene.picture.fits) throw RequestError("'auto' is not a size in pixels, such as 1920x1080");
 }
 
+/// The numbers of a file that a preview was begun with; of fluctuations there are others in their place.
+const NumberFile& numbers_at_first(const ColorScheme& first) {
+  static const NumberFile kNone;
+  return first.by == ColorScheme::By::rmsf ? kNone : first.file;
+}
+
+/// Returns a scheme whose word and rules were chosen, with the numbers, the scale and the title that it has in this
+/// preview. If `keeps_scale` is true, the scheme keeps its map, its range and its colour of missing numbers; else it
+/// gets those of the scheme that the preview began with, if that is the same one. Throws RequestError for a scheme that
+/// previews do not show, and for rules in addition to kinds of patch.
+ColorScheme previewed_scheme(ColorScheme color, const ColorScheme& before, const ColorScheme& first, bool keeps_scale) {
+  if (color.uses_file() && numbers_at_first(first).empty())
+    throw RequestError("'file' needs numbers; begin the preview with --color-by-file FILE");
+  color.set_numbers(numbers_at_first(first));
+  if (color.by == ColorScheme::By::rmsf && color.by == first.by) color.file = first.file;
+  require_previewed(color);
+  if (color.by == ColorScheme::By::kind && !color.rules.empty())
+    throw RequestError("'kind' colours patches, and rules colour atoms; leave the rules out");
+  color.opacities = before.opacities;
+  color.title = before.title;
+  color.unit = before.unit;
+  const ColorScheme none, &beginning = color.by == first.by && color.has_scale() ? first : none;
+  const ColorScheme& scale = keeps_scale ? before : beginning;
+  color.map = scale.map;
+  color.range = scale.range;
+  color.missing = scale.missing;
+  color.own_map = color.uses_scale() ? (keeps_scale ? before : first).own_map : nullptr;
+  color.share_scale();
+  return color;
+}
+
+/// Returns the state with the look of a preset. The figure of the beginning takes the place of what the look before it
+/// drew, or of what this one draws.
+Outcome with_preset(PreviewState state, LookPreset preset, const Surroundings& around) {
+  const Preset& before = preset_of(state.preset);
+  state.preset = preset;
+  state.look = {};
+  state.look.preset = state.preset;
+  if (before.settings.empty() && preset_of(state.preset).settings.empty()) return {std::move(state), Renewal::legend};
+  // The figure of the beginning takes the place of what another look draws.
+  const SessionContext& context = around.exporter.context;
+  Scene scene = around.first;
+  scene.picture.width = state.size.x;
+  scene.picture.height = state.size.y;
+  scene.look = state.look;
+  take_preset(scene);
+  state.molecule.surface.kind = scene.molecule.surface.kind;
+  state.molecule.color = scene.molecule.color;
+  state.figure = scene.figure;
+  state.look = scene.look;
+  if (scene.picture.zoom_to && context.aim) {
+    state.camera = context.aim(scene, context.read_shown(state.figure, state.frame));
+    state.overview = false;
+  }
+  return {std::move(state), Renewal::shapes, {}, true};
+}
+
 /// Changes what depends on a property that was set in the state. before: the state before that.
 void follow(const Property& property, PreviewState& state, const Surroundings& around) {
   const PreviewState& before = around.state;
@@ -142,7 +228,9 @@ Ordered value_json(const Property& property, const Scene& scene) {
     return list;
   }
   if (!texts.empty()) return json_of_texts(property, texts, "");
-  const bool has_one = property.initial.find_first_of(" @") == property.initial.npos && property.key != "surface.map";
+  // Without a scale bar there is none, though one without a length has a default.
+  const bool has_one = property.initial.find_first_of(" @") == property.initial.npos && property.key != "surface.map" &&
+                       !property.has(value_optional);
   return property.initial.empty() || !has_one ? Ordered()
                                               : json_of_texts(property, {std::string(property.initial)}, "");
 }
@@ -172,18 +260,26 @@ std::string help_in_words(std::string_view help) {
 }  // namespace
 
 Outcome set_property(const CommandReader& command, PreviewState state, const Surroundings& around) {
-  const std::string key = command.text("key");
+  const std::string word = command.word(), key = command.text("key");
   const Property& property = live_property(key);
   Ordered value(command.value("value"));
   constexpr std::string_view kSlid[] = {"number", "count", "length", "color", "direction"};
-  const bool is_slid = !property.has(repeatable) && std::ranges::find(kSlid, control_of(property)) != std::end(kSlid);
+  std::optional<ListEntry> entry;
   try {
-    const Texts texts = given_texts(property, std::move(value));
-    if (property.key == "look.preset") {
-      scene_values::replace_value(state, property, texts);
-      return with_preset(std::move(state), state.look.preset, around);
+    Texts texts = given_texts(property, std::move(value));
+    if (word == "add" || command.has("index")) {
+      if (!property.has(repeatable)) throw RequestError("is one value and no list; use set without an index");
+      if (property.key == "surface.color") state.molecule.color_named = true;  // the scheme is the first entry
+      Texts list = value_texts(state, property);
+      std::optional<int> index;
+      if (word != "add") index = command.integer("index", 0, static_cast<int>(list.size()) - 1);
+      if (!index && texts.empty()) throw RequestError("null is no value to add");
+      if (texts.size() > 1) throw RequestError("is a list; give one entry");
+      entry = put_entry(index, std::move(texts), property, list);
+      texts = std::move(list);
     }
     scene_values::replace_value(state, property, texts);
+    if (property.key == "look.preset") return with_preset(std::move(state), state.look.preset, around);
     if (property.section() == "image" || control_of(property) == "length") scene_values::complete_lengths(state);
     if (!texts.empty()) check_extent(property, state);
     if (!texts.empty()) check_among_others(property, state, around.molecule);
@@ -192,21 +288,35 @@ Outcome set_property(const CommandReader& command, PreviewState state, const Sur
       state.has_size = !texts.empty() || scene_values::has_lengths_of_sides(state);
     follow(property, state, around);
   } catch (const SelectionError& error) {
-    throw RequestError(fmt::format("set: {}: {}", key, error.sentence()));
+    throw RequestError(fmt::format("{}: {}: {}", word, key, error.sentence()));
   } catch (const RequestError& error) {
-    throw RequestError(fmt::format("set: {}: {}", key, error.what()));
+    throw RequestError(fmt::format("{}: {}: {}", word, key, error.what()));
   }
-  const bool frames_all = property.key == "surface.kind" || property.section() == "legend";
-  const Renewal renewal = renewal_of(property, state);
+  const bool is_changed = entry && word != "add" && !entry->is_removed;
   // The places of a slider that follow each other are one step; any other value is a step by itself.
+  const bool is_slid =
+      is_changed || (!property.has(repeatable) && std::ranges::find(kSlid, control_of(property)) != std::end(kSlid));
+  const bool frames_all = property.key == "surface.kind" || property.section() == "legend";
+  Renewal renewal = renewal_of(property, state);
+  if (property.key == kObjects && is_changed &&
+      has_same_shape(state.figure.objects[entry->index], around.state.figure.objects[entry->index]))
+    renewal = Renewal::colors;
   nlohmann::json reply = nlohmann::json::object();
   if (property.key == "surface.show") reply["atoms"] = around.molecule.count_shown(state);
+  if (word == "add") reply["index"] = entry->index;
+  if (property.key == "surface.clip" && entry && !entry->is_removed)
+    if (const auto idle =
+            around.molecule.ineffective_among(std::span(state.figure.cuts).subspan(entry->index, 1), state);
+        !idle.empty())
+      reply["note"] = idle.front();
+  std::string step = fmt::format("set {}", property.key);
+  if (entry) step += fmt::format(" {}", entry->index);
   return {.state = std::move(state),
           .renewal = renewal,
           .reply = std::move(reply),
           .frames_all = frames_all,
           .is_own_step = !is_slid,
-          .step = "set " + std::string(property.key)};
+          .step = std::move(step)};
 }
 
 nlohmann::json property_values(const PreviewState& state) {

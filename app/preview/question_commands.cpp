@@ -4,22 +4,18 @@
 #include <limits>
 #include <string>
 
-#include <fmt/format.h>
 #include <glm/common.hpp>
 
 #include "app/preview/command_json.h"
 #include "app/preview/commands.h"
-#include "app/preview/look_json.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/camera/camera_json.h"
 #include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
-#include "core/color/named_colors.h"
 #include "core/color/ordered_classes.h"
 #include "core/properties/properties.h"
 #include "core/scene/copied_atoms.h"
-#include "core/scene/scene_json.h"
 #include "core/structure/element_tables.h"
 
 namespace meniscus {
@@ -44,51 +40,6 @@ Json atom_json(const Atom& atom) {
           {"place", escaped(atom_place(atom))}};
 }
 
-/// Rules as --color has them: expressions of a user, not of a file.
-Json rule_json(const ColorRule& rule) { return escaped(color_rule_text(rule)); }
-
-Json or_null(const std::optional<int>& number) { return number ? Json(*number) : Json(nullptr); }
-
-Json color_json(const ColorScheme& scheme) {
-  Json color{{"scheme", scheme_word(scheme)}};
-  if (scheme.map) color["map"] = map_name(*scheme.map);
-  if (scheme.own_map) color["own_map"] = true;
-  if (scheme.range) color["range"] = fmt::format("{}:{}", (*scheme.range)[0], (*scheme.range)[1]);
-  if (scheme.missing) color["missing"] = hex_color(*scheme.missing);
-  for (const ColorRule& rule : scheme.rules) color["rules"].push_back(rule_json(rule));
-  return color;
-}
-
-/// What of the state belongs to its figure.
-void add_figure(const PreviewState& state, Json& reply) {
-  Json& representations = reply["representations"] = Json::array();
-  for (const RepresentationRequest& request : state.figure.representations.requests)
-    representations.push_back({{"as", shape_word(request.kind)}, {"selection", escaped(request.atoms.text())}});
-  Json& opacities = reply["opacities"] = Json::array();
-  for (const OpacityRule& rule : state.molecule.color.opacities) {
-    opacities.push_back({{"opacity", std::stod(fmt::format("{}", rule.opacity))}});
-    if (rule.atoms) opacities.back()["selection"] = escaped(rule.atoms->text());
-  }
-  Json& cuts = reply["cuts"] = Json::array();
-  for (const Cut& cut : state.figure.cuts) cuts.push_back(cut_text(cut));
-  const CapStyle& cap = state.figure.cap;
-  reply["cap"] = {{"color", cap.color ? hex_color(*cap.color) : "atom"}, {"hatching", cap.hatching}};
-  reply["film_opacity"] = state.figure.thickens;
-  Json& objects = reply["objects"] = Json::array();
-  for (const FigureObjectRequest& object : state.figure.objects)
-    objects.push_back(Json::parse(json_line(figure_object_json(object))));
-  reply["surface_hidden"] = state.figure.hides_surface;
-  reply["show"] = state.molecule.show ? Json(escaped(state.molecule.show->text())) : Json(nullptr);
-  reply["patches"] = {
-      {"selection", state.molecule.patches ? Json(escaped(state.molecule.patches->text())) : Json(nullptr)},
-      {"min_area", state.molecule.least_patch}};
-  const LegendStyle& style = state.legend.style;
-  reply["legend"] = {{"on", state.legend.within},
-                     {"title", style.title ? Json(escaped(*style.title)) : Json(nullptr)},
-                     {"letters", or_null(style.letters)},
-                     {"place", words_of(property_of("legend.place"))[static_cast<std::size_t>(style.place)]}};
-}
-
 /// Why the molecule cannot be coloured by a scheme; empty: it can.
 std::string lacking(const Structure& structure, const ColorScheme& color) {
   using By = ColorScheme::By;
@@ -111,6 +62,20 @@ std::string lacking(const Structure& structure, const ColorScheme& color) {
     return escaped(sentence.substr(0, sentence.find_first_of(";,")));
   }
   return {};
+}
+
+/// Returns what a pixel shows, or an atom by its place in the picture's atoms.
+std::optional<PickedPoint> point_of(const CommandReader& command, const Surroundings& around) {
+  const ShownMolecule& molecule = around.molecule;
+  if (!command.has("place")) {
+    const glm::ivec2 size = around.state.size;
+    return around.pictures.pick(around.state, molecule,
+                                {command.integer("x", 0, size.x - 1), command.integer("y", 0, size.y - 1)});
+  }
+  const std::vector<Atom> atoms = molecule.atoms_in_view();
+  const int place = command.integer("place", 0, static_cast<int>(atoms.size()) - 1);
+  const std::uint32_t object = static_cast<std::size_t>(place) < molecule.atoms().size() ? 0 : 1;
+  return PickedPoint{static_cast<std::uint32_t>(place), {}, atoms[static_cast<std::size_t>(place)].position, object, 0};
 }
 
 }  // namespace
@@ -147,21 +112,10 @@ Json get_state(const CommandReader&, const Surroundings& around) {
              {"playing", state.playing},
              {"fps", state.frames_per_second},
              {"camera", Json(camera_object(state.camera))},
-             {"surface", kind_word(state.molecule.surface.kind)},
-             {"probe_radius", state.molecule.surface.probe_radius},
-             {"color", color_json(state.molecule.color)},
-             {"patch_kinds", state.molecule.color.by == ColorScheme::By::kind},
-             {"preset", words_of(property_of("look.preset"))[static_cast<std::size_t>(state.preset)]},
-             {"look", look_json(state.full_look())},
              {"width", state.size.x},
              {"height", state.size.y},
-             {"samples", state.image.samples},
-             {"export",
-              {{"width", state.has_size ? Json(state.picture.width) : Json(nullptr)},
-               {"height", state.has_size ? Json(state.picture.height) : Json(nullptr)},
-               {"samples", state.has_size ? Json(state.image.samples) : Json(nullptr)},
-               {"transparent", !state.image.background}}},
-             {"views", Json::array()},
+             {"export_size", state.has_size ? Json{state.picture.width, state.picture.height} : Json(nullptr)},
+             {"own_map", state.molecule.color.own_map != nullptr},
              {"undo", around.history.undo_steps()},
              {"redo", around.history.redo_steps()},
              {"unsaved", !around.exporter.keeps(state)},
@@ -170,9 +124,7 @@ Json get_state(const CommandReader&, const Surroundings& around) {
     reply["strip"]["kept"].push_back(
         {{"number", kept.number}, {"frame", kept.frame}, {"hold", kept.hold}, {"transition", kept.transition}});
   reply["values"] = property_values(state);
-  add_figure(state, reply);
-  if (!molecule.legend_fault().empty()) reply["legend"]["fault"] = molecule.legend_fault();
-  for (const auto& [name, camera] : state.named_views) reply["views"].push_back(escaped(name));
+  reply["legend_fault"] = molecule.legend_fault();
   return reply;
 }
 
@@ -202,36 +154,12 @@ Json get_choices(const CommandReader&, const Surroundings& around) {
       schemes.back()["lacks"] = lack;
   }
   for (const ColorMapMetadata& map : color_maps()) maps.push_back(map.name);
-  Json keys = Json::array();
-  for (const KeyHelp& row : key_help()) keys.push_back({{"keys", row.keys}, {"what", row.what}});
-  Json actions = Json::object();
-  for (const FaceKey& key : face_keys()) actions[std::string(key.key)] = face_action_word(key.action);
   return {{"schemes", schemes},
           {"maps", maps},
-          {"keys", keys},
-          {"actions", actions},
           {"presets", words_of(property_of("look.preset"))},
           {"properties", property_choices()},
           {"representations", {"sticks", "balls", "spheres", "tube", "bases", "glycans"}}};
 }
-
-glm::ivec2 pixel_of(const CommandReader& command, const PreviewState& state) {
-  return {command.integer("x", 0, state.size.x - 1), command.integer("y", 0, state.size.y - 1)};
-}
-
-namespace {
-
-/// Returns what a pixel shows, or an atom by its place in the picture's atoms.
-std::optional<PickedPoint> point_of(const CommandReader& command, const Surroundings& around) {
-  const ShownMolecule& molecule = around.molecule;
-  if (!command.has("place")) return around.pictures.pick(around.state, molecule, pixel_of(command, around.state));
-  const std::vector<Atom> atoms = molecule.atoms_in_view();
-  const int place = command.integer("place", 0, static_cast<int>(atoms.size()) - 1);
-  const std::uint32_t object = static_cast<std::size_t>(place) < molecule.atoms().size() ? 0 : 1;
-  return PickedPoint{static_cast<std::uint32_t>(place), {}, atoms[static_cast<std::size_t>(place)].position, object, 0};
-}
-
-}  // namespace
 
 Json pick(const CommandReader& command, const Surroundings& around) {
   const PreviewState& state = around.state;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <new>
 
+#include <fmt/format.h>
+
 #include "app/preview/command_json.h"
 #include "app/preview/commands.h"
 #include "core/base/error.h"
@@ -49,7 +51,8 @@ Json PreviewSession::apply(const Json& command) {
   const auto failed = [&](const std::string& error) {
     const std::string word = command_word(command);
     std::string said = said_by(word, error);
-    if (word == "set" && !said.starts_with("set: ")) said = "set: " + command["key"].get<std::string>() + ": " + said;
+    if ((word == "set" || word == "add") && !said.starts_with(word + ": "))
+      said = fmt::format("{}: {}: {}", word, command["key"].get<std::string>(), said);
     return Json{{"ok", false}, {"error", escaped(said)}};
   };
   try {
@@ -76,15 +79,8 @@ Json PreviewSession::carry_out(const Json& json) {
   Json reply = Json::object();
   if (const auto* reducer = std::get_if<Reducer*>(&command.run)) {
     reply = become(command, [&](PreviewState state) { return (*reducer)(reader, std::move(state), around); });
-  } else if (const auto* service = std::get_if<Service*>(&command.run)) {
-    reply = (*service)(reader, around);
   } else {
-    const KeyMeaning meaning = std::get<Translator*>(command.run)(reader, around);
-    if (meaning.command) {
-      reply = carry_out(*meaning.command);  // which is recorded
-      reply["command"] = *meaning.command;
-    }
-    if (meaning.action) reply["action"] = face_action_word(*meaning.action);
+    reply = std::get<Service*>(command.run)(reader, around);
   }
   if (sink_ && command.is_recorded && !is_question(json)) sink_(recorded(json));
   reply["ok"] = true;
@@ -190,19 +186,13 @@ std::shared_ptr<const page::PackedFrame> LiveView::figure(const std::function<Ch
   return session_.figure([begin = Clock::now(), &waiting] { return is_unwanted(begin, waiting); });
 }
 
-std::optional<Quality> LiveView::drawn() const {
-  for (const Quality quality : {Quality::full, Quality::plain, Quality::draft, Quality::balls})
-    if (session_.is_drawn(quality)) return quality;
-  return {};
-}
-
 LiveView::Clock::duration LiveView::rest(Quality quality) const {
   if (quality <= Quality::draft) return Clock::duration::zero();
   return quality == Quality::plain ? kPause : rest_;
 }
 
 Quality LiveView::at_once() const {
-  if (!drawn() && session_.wants_balls()) return Quality::balls;
+  if (!session_.is_drawn() && session_.wants_balls()) return Quality::balls;
   if (!session_.state().playing || !draft_cost_) return Quality::draft;
   constexpr int kMostLikely = 3;  // drafts of a quarter of the pixels that a plain picture takes
   const std::chrono::duration<double> frame(0.8 / session_.state().rate());

@@ -56,6 +56,8 @@ class PreviewSession {
   /// Whether atoms alone should be shown first: see ViewCache.
   bool wants_balls() const { return pictures_.wants_balls(state_, molecule_); }
   bool is_drawn(Quality quality) const { return pictures_.is_drawn(state_, quality); }
+  /// True if there is a picture of the state, of whatever quality.
+  bool is_drawn() const { return pictures_.is_drawn(state_); }
   /// Returns the figure for pages that cast it: see FigureTables.
   std::shared_ptr<const page::PackedFrame> figure(const std::function<bool()>& stop = {});
   /// The revision of the state in which the figure became what it is. The camera alone changes no figure, unless a cut
@@ -102,8 +104,6 @@ class LiveView {
   /// The session lives longer.
   explicit LiveView(PreviewSession& session);
 
-  PreviewSession& session() const { return session_; }
-
   /// Carries a command out; its reply.
   nlohmann::json apply(const nlohmann::json& command);
 
@@ -131,8 +131,6 @@ class LiveView {
 
  private:
   void note_change();
-  /// Returns the quality of the best picture that there is of the view; nothing if there is none yet.
-  std::optional<Quality> drawn() const;
 
   PreviewSession& session_;
   std::uint64_t seen_revision_;

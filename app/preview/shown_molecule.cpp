@@ -22,7 +22,6 @@
 #include "core/scene/annotations.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/figure_key.h"
-#include "core/scene/hidden_atoms.h"
 #include "core/scene/molecule.h"
 #include "core/scene/surface_objects.h"
 #include "core/surface/compute_surface.h"

@@ -12,7 +12,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/preview/look_json.h"
 #include "core/base/error.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/surface/compute_surface.h"
@@ -33,8 +32,11 @@ std::future<std::vector<double>> begin_areas(const AtomsInView& atoms) {
 
 }  // namespace
 
-std::optional<double> ExposedAreas::of(const AtomsInView& atoms, std::size_t atom, bool wait) {
+std::optional<double> ExposedAreas::of(const AtomsInView& atoms, std::size_t atom, bool wait, bool wanted) {
   const Key key{atoms.frame, atoms.group, atoms.kind, atoms.probe_radius};
+  const bool begun = pending_.valid() && pending_key_ == key;
+  if (!wanted && !atoms.surface && !begun && !known_.contains(key)) return {};
+  wait = wait && wanted;
   if (pending_.valid() && (wait || pending_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)) {
     try {
       keep();
@@ -50,13 +52,6 @@ std::optional<double> ExposedAreas::of(const AtomsInView& atoms, std::size_t ato
   const auto found = known_.find(key);
   if (found == known_.end()) return {};
   return found->second[atom];
-}
-
-std::optional<double> ExposedAreas::if_cheap(const AtomsInView& atoms, std::size_t atom) {
-  const Key key{atoms.frame, atoms.group, atoms.kind, atoms.probe_radius};
-  const bool begun = pending_.valid() && pending_key_ == key;
-  if (!atoms.surface && !begun && !known_.contains(key)) return {};
-  return of(atoms, atom, false);
 }
 
 void ExposedAreas::keep() {
@@ -119,6 +114,13 @@ std::vector<std::uint8_t> draw_balls(std::span<const Ball> balls, const Coloring
   return rgba;
 }
 
+/// Returns a look without the effects that take time.
+Look without_effects(Look look) {
+  look.ambient_occlusion = look.shadows = look.silhouettes = look.patch_lines = 0.0f;
+  look.outer_lines = look.inner_lines = look.part_lines = {};
+  return look;
+}
+
 }  // namespace
 
 bool ViewCache::wants_balls(const PreviewState& state, const ShownMolecule& molecule) const {
@@ -172,14 +174,11 @@ std::optional<PickedPoint> ViewCache::pick(const PreviewState& state, const Show
 
 std::optional<double> ViewCache::exposed_area(const PreviewState& state, const ShownMolecule& molecule,
                                               std::uint32_t atom, bool wait, bool wanted) {
-  const auto area = [&](const AtomsInView& atoms, std::size_t place) {
-    return wanted ? areas_.of(atoms, place, wait) : areas_.if_cheap(atoms, place);
-  };
   const std::vector<Instances>& copies = molecule.structure().instances;
   if (copies.empty())
-    return area({state.frame, 0, state.molecule.surface.kind, state.molecule.surface.probe_radius, molecule.balls(),
-                 renderer_->surface()},
-                atom);
+    return areas_.of({state.frame, 0, state.molecule.surface.kind, state.molecule.surface.probe_radius,
+                      molecule.balls(), renderer_->surface()},
+                     atom, wait, wanted);
   // Copies of a group are as if it were alone.
   std::size_t group = 0;
   while (!std::ranges::binary_search(copies[group].atoms, atom)) ++group;
@@ -188,8 +187,9 @@ std::optional<double> ViewCache::exposed_area(const PreviewState& state, const S
   balls.reserve(atoms.size());
   for (const std::uint32_t a : atoms) balls.push_back(molecule.balls()[a]);
   const auto place = static_cast<std::size_t>(std::ranges::lower_bound(atoms, atom) - atoms.begin());
-  return area({state.frame, group, state.molecule.surface.kind, state.molecule.surface.probe_radius, balls, nullptr},
-              place);
+  return areas_.of(
+      {state.frame, group, state.molecule.surface.kind, state.molecule.surface.probe_radius, balls, nullptr}, place,
+      wait, wanted);
 }
 
 }  // namespace meniscus

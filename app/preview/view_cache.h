@@ -36,11 +36,9 @@ struct AtomsInView {
 class ExposedAreas {
  public:
   /// Area of the points that take the atom's colour, Å² (AtomAreas::surface). If it is not known yet it is computed:
-  /// with `wait` before this returns, else nothing comes back and a later call finds it.
-  /// Throws OpenSurfaceError, CapacityError.
-  std::optional<double> of(const AtomsInView& atoms, std::size_t atom, bool wait);
-  /// The same if it is known, or cheap because the surface is there; else nothing, and nothing is begun.
-  std::optional<double> if_cheap(const AtomsInView& atoms, std::size_t atom);
+  /// with `wait` before this returns, else nothing comes back and a later call finds it. If `wanted` is false, an area
+  /// is only computed if that is cheap because the surface is there. Throws OpenSurfaceError, CapacityError.
+  std::optional<double> of(const AtomsInView& atoms, std::size_t atom, bool wait, bool wanted);
   /// Whether some are being computed, so that asking again will tell more.
   bool computing() const { return pending_.valid(); }
 
@@ -79,8 +77,10 @@ class ViewCache {
             const std::function<bool()>& stop = {});
   /// Is the last picture what draw() would draw?
   bool is_drawn(const PreviewState& state, Quality quality) const {
-    return drawn_.revision == state.revision && drawn_.quality == quality;
+    return is_drawn(state) && drawn_.quality == quality;
   }
+  /// True if the last picture shows the state, in whatever quality.
+  bool is_drawn(const PreviewState& state) const { return drawn_.revision == state.revision; }
 
   /// Whether the first surface takes so long that there should be something to see before.
   bool wants_balls(const PreviewState& state, const ShownMolecule& molecule) const;

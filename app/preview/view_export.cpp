@@ -2,7 +2,6 @@
 // Exports a view on a thread of its own, which reports its progress and can be cancelled.
 #include "app/preview/view_export.h"
 
-#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -16,7 +15,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
-#include "core/camera/camera_json.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/queries/copies.h"
 #include "core/queries/surface_object.h"
@@ -24,7 +22,6 @@
 #include "core/render/legend.h"
 #include "core/render/picture_file.h"
 #include "core/scene/annotations.h"
-#include "core/scene/copied_atoms.h"
 #include "core/scene/figure.h"
 #include "core/scene/molecule.h"
 #include "core/scene/surface_computer.h"
@@ -192,6 +189,7 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
   const Strips strips = strips_for(strip_contents(view.annotations), view.annotations.letters, settings.size);
   settings.size.y -= strips.top + strips.bottom;
   settings.samples = view.samples;
+  settings.adaptive = true;
   settings.look = look_of(figure.look, view.size, background, figure.hues(), figure.molecule.patches.has_value());
   settings.progress = [&watch](double share) { watch("picture", share); };
   SurfaceRequest on_cpu;
@@ -262,19 +260,6 @@ void export_blender(const ExportedView& view, const ExportTarget& target, const 
                 blender::Shot{view.figure.camera, view.size.x, view.size.y, view.figure.look.shadows.value_or(0.0f),
                               look_of(view.figure.look, view.size, std::nullopt, Hues::free).shadow_softness},
                 provenance);
-}
-
-void export_camera(const Camera& camera, const ExportTarget& target) {
-  OutputFile file(target.path, target.existing);
-  file.write(camera_json(camera));
-  file.commit();
-}
-
-void export_camera_path(const std::vector<CameraKey>& keys, const ExportTarget& target) {
-  if (keys.empty()) throw RequestError("export: the camera has no keys yet; set some, each at a frame");
-  OutputFile file(target.path, target.existing);
-  file.write(camera_path_json(keys));
-  file.commit();
 }
 
 std::filesystem::path export_path(const std::filesystem::path& folder, const std::string& name) {

@@ -23,7 +23,7 @@
 #include "core/color/coloring.h"
 #include "core/render/annotation.h"
 #include "core/scene/figure.h"
-#include "core/scene/picture_device.h"
+#include "core/scene/renderers.h"
 #include "core/scene/scene.h"
 #include "core/structure/structure.h"
 
@@ -100,12 +100,6 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target, 
 
 /// As `meniscus export blender`.
 void export_blender(const ExportedView& view, const ExportTarget& target, const ExportWatch& watch);
-
-/// As `meniscus render --save-camera`.
-void export_camera(const Camera& camera, const ExportTarget& target);
-
-/// Key frames for `meniscus render --camera-path`. Throws RequestError where there are none.
-void export_camera_path(const std::vector<CameraKey>& keys, const ExportTarget& target);
 
 /// The path in `folder` of a file with this plain name: letters, digits, '.', '_' and '-', the first no '.' or '-', at
 /// most 100 of them. Throws RequestError.

@@ -1,27 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Starts child processes, with care for signals, descriptors and orphans.
+// Starts child processes, with care for signals, descriptors and orphans, and opens addresses in the user's browser.
 #include "app/process/child_process.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <mutex>
-#include <string_view>
 #include <thread>
-#include <utility>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <fmt/format.h>
 
 #include "app/process/program_main.h"
 #include "app/process/system_process.h"
@@ -258,5 +252,37 @@ StopBarrier::StopBarrier() {
 }
 
 StopBarrier::~StopBarrier() { registry().mutex.unlock(); }
+
+namespace {
+
+std::string variable(const char* name) {
+  const char* const value = std::getenv(name);
+  return value ? value : "";
+}
+
+#if defined(__APPLE__)
+constexpr const char* kOpener = "open";
+bool has_display() { return true; }
+#else
+constexpr const char* kOpener = "xdg-open";
+bool has_display() { return !variable("DISPLAY").empty() || !variable("WAYLAND_DISPLAY").empty(); }
+#endif
+
+}  // namespace
+
+void open_in_browser(const std::string& address, std::function<void(const std::string& reason)> failed) {
+  // Editors on another machine name a program that needs no display here. A list of names, and names with arguments,
+  // are for xdg-open.
+  std::string opener = variable("BROWSER");
+  if (opener.empty() || opener.find_first_of(" :%") != std::string::npos) {
+    if (!has_display()) return failed("there is no display");
+    opener = kOpener;
+  }
+  std::thread([opener, address, failed = std::move(failed)] {
+    const int code = run_apart({opener, address});
+    if (code == kNotStarted) return failed(opener + " cannot be started");
+    if (code != 0) failed(fmt::format("{} ended with code {}", opener, code));
+  }).detach();
+}
 
 }  // namespace meniscus

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A child process: started without a shell, read line by line, and ended when this program ends.
+// A child process: started without a shell, read line by line, and ended when this program ends; and the browser, which
+// goes on.
 #pragma once
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -70,5 +72,10 @@ class StopBarrier {
   StopBarrier(const StopBarrier&) = delete;
   StopBarrier& operator=(const StopBarrier&) = delete;
 };
+
+/// Has the address opened by the program that BROWSER names, or else by the one that the desktop has for it, without a
+/// shell. The browser goes on when this program ends. If none can be opened, `failed` is called with the reason, such
+/// as "there is no display": on this thread or, later, on another one.
+void open_in_browser(const std::string& address, std::function<void(const std::string& reason)> failed);
 
 }  // namespace meniscus

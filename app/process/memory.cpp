@@ -6,10 +6,8 @@
 #include <atomic>
 #include <climits>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <new>
-#include <string>
 
 #include "app/process/system_process.h"
 

@@ -3,21 +3,11 @@
 #include "app/process/program_main.h"
 
 #include <atomic>
-#include <cerrno>
 #include <cstring>
-#include <exception>
-#include <filesystem>
 #include <iostream>
 #include <new>
-#include <optional>
 #include <sstream>
-#include <string>
-#include <string_view>
 #include <system_error>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "app/process/memory.h"
 #include "app/process/system_process.h"

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Implements system_process.h for Linux and macOS.
-#include <array>
 #include <atomic>
-#include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <exception>
 #include <thread>
 
 #include <fcntl.h>

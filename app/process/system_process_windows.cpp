@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Implements system_process.h for Windows.
-#include <array>
 #include <atomic>
 #include <csignal>
 #include <cstdio>

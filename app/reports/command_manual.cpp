@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 

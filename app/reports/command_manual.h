@@ -2,9 +2,6 @@
 // Manual pages and completion scripts of commands.
 #pragma once
 
-#include <string>
-#include <string_view>
-
 #include "app/options/command_tree.h"
 
 namespace meniscus {

@@ -2,12 +2,7 @@
 // Writes rows of atoms, residues, frames and cavities, into a file or at once on standard output.
 #include "app/reports/csv_tables.h"
 
-#include <algorithm>
-#include <cmath>
 #include <iostream>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "app/process/program_main.h"
 #include "core/base/error.h"

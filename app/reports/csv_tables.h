@@ -2,11 +2,6 @@
 // Comma-separated values: tables of atoms and residues, series over frames, and a table that grows with a run.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "core/base/output_file.h"
 #include "core/queries/cavity_tracks.h"
 #include "core/queries/surface_object.h"

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The notes that a command prints on standard error.
+// The notes that a command prints on standard error, and what a molecule file and a trajectory contain.
 #pragma once
-
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "app/options/scene_options.h"
 #include "core/base/progress.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/view_aim.h"
+#include "core/structure/structure.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 
@@ -55,5 +51,12 @@ void log_times(const SceneCommand& command, const std::string& device, std::span
 
 /// Warns if the given camera certainly sees nothing of the structure.
 void warn_if_unseen(const SceneCommand& command, const std::optional<Camera>& given, const Structure& structure);
+
+/// Prints the assemblies of a structure on standard output.
+void print_assemblies(const Structure& structure);
+
+/// Prints atoms, frames, times, the box of the first frame, and where the file is cut short; warnings go to standard
+/// error.
+void print_trajectory(Trajectory& trajectory);
 
 }  // namespace meniscus

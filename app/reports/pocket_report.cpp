@@ -2,13 +2,9 @@
 // Writes pockets as tables and JSON, looks for hints to give, and colours the atoms around pockets.
 #include "app/reports/pocket_report.h"
 
-#include <algorithm>
 #include <iterator>
-#include <map>
 #include <set>
-#include <utility>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 

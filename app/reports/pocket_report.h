@@ -2,10 +2,6 @@
 // The output of `meniscus pockets`: tables, JSON, rows of pockets and of atoms, hints on what to try next, and a scene.
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "app/reports/csv_tables.h"
 #include "core/queries/cavity_tracks.h"
 #include "core/scene/molecule_pockets.h"

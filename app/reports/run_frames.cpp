@@ -2,19 +2,9 @@
 // Makes frames on several threads, finishes them in order, and reports progress.
 #include "app/reports/run_frames.h"
 
-#include <algorithm>
-#include <chrono>
-#include <exception>
 #include <iostream>
-#include <map>
-#include <memory>
-#include <optional>
-#include <utility>
 
-#include <fmt/format.h>
 #include <fmt/ostream.h>
-#include <nlohmann/json.hpp>
-#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 #include <unistd.h>

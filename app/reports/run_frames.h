@@ -2,15 +2,6 @@
 // Makes the frames of a run on several threads, and reports how far it is.
 #pragma once
 
-#include <chrono>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "app/options/scene_options.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of a surface and of its patches as text and JSON.
+// Numbers of a surface and of its patches as text and JSON, and series over the frames of a run as curves in an SVG.
 #pragma once
-
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -63,5 +57,21 @@ std::string report_json_line(const SurfaceReport& report, const FrameNote& note)
 /// Returns a row of the table of a run; the next function returns its header.
 std::string report_row(const SurfaceReport& report, const FrameNote& note);
 std::string report_row_header(const MoleculeRequest& options);
+
+/// A curve in a panel of its own.
+struct PlotPanel {
+  std::string title;           ///< a word of this program with its unit, never text of a file
+  std::vector<double> values;  ///< one per SeriesPlot::x
+};
+
+struct SeriesPlot {
+  std::string x_title;
+  std::vector<double> x;  ///< in any order, at least one
+  std::vector<PlotPanel> panels;
+};
+
+/// Returns the plot as SVG 1.1 that consists only of lines and text; it ends with a line feed. Ticks are at 1, 2 or 5
+/// times a power of ten; curves fill their panels.
+std::string plot_svg(const SeriesPlot& plot);
 
 }  // namespace meniscus

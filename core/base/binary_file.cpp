@@ -2,14 +2,7 @@
 // Reads blocks and lines of a file, and detects changes of the file.
 #include "core/base/binary_file.h"
 
-#include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <optional>
-#include <span>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/system_file.h"

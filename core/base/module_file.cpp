@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds modules next to the program or in the build folder, and loads them.
+// Finds modules next to the program, in its installation or by the loader, and loads them. The library alone has none.
 #include "core/base/module_file.h"
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+#ifdef MENISCUS_APP
 
 #include <filesystem>
 #include <string>
@@ -9,9 +15,6 @@
 #include <dlfcn.h>
 #include <sys/mman.h>
 
-#include <fmt/format.h>
-
-#include "core/base/error.h"
 #include "core/base/system_file.h"
 
 namespace meniscus {
@@ -27,30 +30,42 @@ void require_address_space(const ModuleFile& module) {
   ::munmap(room, module.room);
 }
 
-fs::path path_of(const ModuleFile& module) {
+std::string path_of(const ModuleFile& module) {
   std::error_code none;
   const fs::path program = system_file::program_path().parent_path();
-  for (const fs::path& path :
-       {program / module.name, program / "../lib/meniscus" / module.name, fs::path(module.built)})
-    if (fs::exists(path, none)) return path;
-  throw RequestError(
-      fmt::format("{} need {} next to the program, but it is missing; it is in the packages for Debian and in "
-                  "builds from source (meniscus help install)",
-                  module.purpose, module.name));
+  for (const fs::path& path : {program / module.name, program / "../lib/meniscus" / module.name})
+    if (fs::exists(path, none)) return path.string();
+  return module.name;
 }
 
 }  // namespace
 
 void* load_from_module(const ModuleFile& module, const char* function) {
-  const fs::path path = path_of(module);
+  const std::string path = path_of(module);
   require_address_space(module);
   void* const handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const address = handle ? ::dlsym(handle, function) : nullptr;
   if (address) return address;
+  if (!handle && path == module.name)
+    throw RequestError(
+        fmt::format("{} need {} next to the program, but it is missing; it is in the packages for Debian and in "
+                    "builds from source (meniscus help install)",
+                    module.purpose, module.name));
   const char* const why = ::dlerror();
   throw CapacityError(
       fmt::format("{} need {}, which cannot be loaded: {}", module.purpose, module.name, why ? why : path.c_str()));
 }
+
+#else
+
+namespace meniscus {
+
+void* load_from_module(const ModuleFile& module, const char*) {
+  throw Error(
+      fmt::format("{} are for the program meniscus: the library alone does not have {}", module.purpose, module.name));
+}
+
+#endif
 
 void refuse_module(const ModuleFile& module) {
   throw Error(fmt::format("{} belongs to another build; install it together with the program", module.name));

@@ -9,8 +9,9 @@ namespace meniscus {
 
 /// The file of a module, and how error messages describe it.
 struct ModuleFile {
-  const char* name;  ///< name of the file, which is in the folder of the program or in lib/meniscus of its installation
-  const char* built;    ///< path of the file in the build folder, for programs elsewhere in that folder
+  /// Name of the file, which is in the folder of the program, in lib/meniscus of its installation or, for other
+  /// programs of a build folder, in their run path.
+  const char* name;
   const char* purpose;  ///< what needs the module, in the plural: "pictures"
   /// Bytes of address space that its libraries take. Some of these libraries end the program if they start without
   /// memory, so that there must be room for all of them before the first is loaded.

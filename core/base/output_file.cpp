@@ -4,18 +4,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <memory>
 #include <mutex>
-#include <optional>
 #include <set>
 #include <thread>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/system_file.h"

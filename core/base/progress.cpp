@@ -2,9 +2,6 @@
 // Counts progress at a limited rate of reports, and shows it as a bar or as plain lines.
 #include "core/base/progress.h"
 
-#include <algorithm>
-#include <utility>
-
 #include <fmt/format.h>
 
 namespace meniscus {

@@ -8,7 +8,6 @@
 #endif
 
 #include <array>
-#include <cerrno>
 #include <cstdio>
 #include <ctime>
 

@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <vector>
-
-#include <fmt/format.h>
 
 namespace meniscus {
 

@@ -2,22 +2,18 @@
 // Reads and checks text files, splits them into lines, fields and cells, and parses the numbers in them.
 #include "core/base/text_file.h"
 
-#include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstddef>
-#include <cstring>
 #include <limits>
-#include <span>
-#include <string_view>
-#include <utility>
+#include <memory>
+#include <new>
 
-#include <fmt/format.h>
+#ifdef MENISCUS_WITH_ZLIB
+#include <zlib.h>
+#endif
 
 #include "core/base/binary_file.h"
 #include "core/base/error.h"
-#include "core/base/gzip.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
 
@@ -244,5 +240,50 @@ double parse_radius(const TextFile& file, std::size_t line, std::string_view fie
   }
   return radius;
 }
+
+#ifdef MENISCUS_WITH_ZLIB
+
+/// zlib checks length and CRC of each member (RFC 1952). Zeros after the last member are accepted, because tapes add
+/// them.
+std::string unpack_gzip(const std::string& path, const std::string& packed, std::size_t largest) {
+  z_stream stream{};
+  if (inflateInit2(&stream, 15 + 16) != Z_OK) throw std::bad_alloc();
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, inflateEnd);
+  std::string text;
+  std::string chunk(std::size_t{1} << 18, '\0');
+  std::size_t next = 0;
+  int state = Z_OK;
+  while (true) {
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + next));
+    stream.avail_in = static_cast<uInt>(std::min<std::size_t>(packed.size() - next, std::size_t{1} << 30));
+    const uInt given = stream.avail_in;
+    stream.next_out = reinterpret_cast<Bytef*>(chunk.data());
+    stream.avail_out = static_cast<uInt>(chunk.size());
+    state = inflate(&stream, Z_NO_FLUSH);
+    next += given - stream.avail_in;
+    text.append(chunk, 0, chunk.size() - stream.avail_out);
+    if (text.size() > largest) refuse_too_large(path, largest);
+    if (state == Z_STREAM_END) {
+      next = std::min(packed.find_first_not_of('\0', next), packed.size());
+      if (next == packed.size()) return text;
+      if (packed.compare(next, 2, "\x1f\x8b") != 0)
+        throw InputError(path, 0, "has foreign bytes after its gzip data; unpack it by hand");
+      inflateReset(&stream);
+    } else if (state == Z_BUF_ERROR || (state == Z_OK && next == packed.size() && stream.avail_out > 0)) {
+      throw InputError(path, 0, "is cut short: its gzip data ends too early; fetch it again");
+    } else if (state != Z_OK) {
+      throw InputError(
+          path, 0, fmt::format("is damaged: gzip says '{}'; fetch it again", stream.msg ? stream.msg : "wrong data"));
+    }
+  }
+}
+
+#else
+
+std::string unpack_gzip(const std::string& path, const std::string&, std::size_t) {
+  throw InputError(path, 0, "is packed with gzip, and this build was made without zlib; unpack it first");
+}
+
+#endif
 
 }  // namespace meniscus

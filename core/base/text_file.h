@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text files: reading one whole with bounds on its cost, splitting it into lines, fields and cells, and parsing numbers
-// strictly.
+// Text files: reading one whole, also from gzip data, with bounds on its cost, splitting it into lines, fields and
+// cells, and parsing numbers strictly.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <vector>
+#include <array>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
 
 namespace meniscus {
 
@@ -106,5 +105,37 @@ inline constexpr double kLargestRadius = 1000.0;
 
 /// Parses a field as parse_number does, and rounds to single precision. False also beyond the range of that.
 bool parse_single(std::string_view field, float& number);
+
+/// Unpacks all members of gzip data and returns their bytes. path: the file, for messages. Throws InputError if the
+/// data is damaged, cut short or followed by other bytes, or if this build has no zlib. Throws CapacityError for more
+/// than `largest` bytes.
+std::string unpack_gzip(const std::string& path, const std::string& packed, std::size_t largest);
+
+/// Throws CapacityError for a file of more than `largest` bytes.
+[[noreturn]] inline void refuse_too_large(const std::string& path, std::size_t largest) {
+  throw CapacityError(
+      fmt::format("{}: holds more than {} bytes, more than this program reads", path, with_thousands(largest)));
+}
+
+/// Throws InputError if the bytes begin like a file of another packer. The message has the command that unpacks it.
+inline void refuse_packed(const std::string& path, std::string_view bytes) {
+  struct Packer {
+    std::string_view magic;
+    const char *name, *unpack;
+    std::size_t at = 0;
+  };
+  constexpr std::array<Packer, 7> kPackers{{{"BZh", "bzip2", "bzip2 -dk"},
+                                            {"\3757zXZ", "xz", "xz -dk"},
+                                            {"\x28\xb5\x2f\xfd", "zstd", "zstd -d"},
+                                            {"PK\x03\x04", "zip", "unzip"},
+                                            {"\x1f\x9d", "compress", "gzip -dk"},
+                                            {"\x04\x22\x4d\x18", "lz4", "lz4 -dk"},
+                                            {"ustar", "tar", "tar -xf", 257}}};
+  for (const auto& [magic, name, unpack, at] : kPackers)
+    if (bytes.size() >= at && bytes.substr(at).starts_with(magic))
+      throw InputError(
+          path, 0,
+          fmt::format("is packed with {}; only gzip is read, unpack it first: {} {}", name, unpack, shell_word(path)));
+}
 
 }  // namespace meniscus

@@ -9,13 +9,8 @@
 #include <initializer_list>
 #include <iterator>
 #include <numbers>
-#include <optional>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 

@@ -2,9 +2,7 @@
 // Cameras and camera paths in files: as JSON, and as PyMOL and ChimeraX write them.
 #pragma once
 
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 

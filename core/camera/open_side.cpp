@@ -3,23 +3,13 @@
 // shadows of balls.
 #include "core/camera/open_side.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
-#include <cstdint>
 #include <limits>
 #include <map>
-#include <numbers>
-#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
-#include <vector>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 
 #include "core/math/spiral.h"
 

@@ -2,9 +2,7 @@
 // Finds sides that look into a molecule or through it, and the depth of a cut that exposes atoms.
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <span>
 
 #include "core/camera/camera.h"
 #include "core/math/ball.h"

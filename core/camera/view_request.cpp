@@ -2,14 +2,9 @@
 // Finds the axes of pictures, of inertia, symmetry or the file, and places the camera that a request describes.
 #include "core/camera/view_request.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <numbers>
 #include <tuple>
-#include <utility>
 
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"

@@ -2,16 +2,6 @@
 // A request for a view: a side by name, turns, a zoom, or a camera.
 #pragma once
 
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/mat3x3.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
 #include "core/camera/camera.h"
 #include "core/structure/selection/selection.h"
 

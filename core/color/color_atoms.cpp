@@ -2,21 +2,10 @@
 // Finds the numbers by which a structure is coloured, and colours its atoms one by one.
 #include "core/color/color_schemes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <map>
-#include <numeric>
 #include <set>
-#include <string>
-#include <string_view>
 #include <tuple>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

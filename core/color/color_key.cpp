@@ -2,15 +2,8 @@
 // Makes the key of what a picture shows from its schemes.
 #include "core/color/color_key.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <set>
-#include <span>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/system_file.h"
 #include "core/base/text.h"

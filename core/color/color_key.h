@@ -2,14 +2,6 @@
 // The meaning of the colours in a picture, for legends and exporters: scales of numbers and lists of classes.
 #pragma once
 
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
 #include "core/color/ordered_classes.h"

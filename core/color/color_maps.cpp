@@ -2,8 +2,6 @@
 // Contains the built-in maps, and looks up the colour of a number on a map or on a scale.
 #include "core/color/color_maps.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 

@@ -3,17 +3,8 @@
 // colour points of a surface by such a scale.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/volume/volume_grid.h"
 

@@ -2,18 +2,10 @@
 // Reads colour schemes and rules as users write them.
 #include "core/color/color_schemes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <map>
-#include <numeric>
 #include <set>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

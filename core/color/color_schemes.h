@@ -3,19 +3,6 @@
 // the colours of atoms by them.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <map>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/color/color_maps.h"
 #include "core/color/named_colors.h"
 #include "core/structure/atom_numbers.h"

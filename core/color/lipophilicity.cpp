@@ -2,17 +2,9 @@
 // Looks up the lipophilicity of atoms, and sums their potential on a grid.
 #include "core/color/lipophilicity.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <span>
-#include <string>
 #include <tuple>
-#include <vector>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"

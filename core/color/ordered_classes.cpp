@@ -2,8 +2,6 @@
 // Sorts atoms into the classes of secondary structure, of confidence, of sugars and of beads.
 #include "core/color/ordered_classes.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/base/error.h"

@@ -3,14 +3,6 @@
 // beads.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/color/color_schemes.h"
 
 namespace meniscus {

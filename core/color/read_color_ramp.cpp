@@ -2,10 +2,6 @@
 // Reads colour maps from text and JSON.
 #include "core/color/color_maps.h"
 
-#include <algorithm>
-#include <optional>
-
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"

@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cassert>
 #include <cstring>
-#include <utility>
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>

@@ -2,9 +2,6 @@
 // GPU memory: buffers that kernels read and write or fetch as texels, and reads of words from several buffers at once.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
 #include <type_traits>
 #include <vector>
 

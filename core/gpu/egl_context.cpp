@@ -6,10 +6,8 @@
 #include <array>
 #include <atomic>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <optional>
 #include <system_error>
 
 #include <epoxy/egl.h>

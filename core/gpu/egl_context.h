@@ -2,12 +2,7 @@
 // A GL 4.5 core context without any window, and the files of kernels that its driver has compiled.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "core/gpu/context_description.h"
 #include "core/gpu/device_choice.h"

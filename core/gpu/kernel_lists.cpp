@@ -2,9 +2,7 @@
 // Counts, grows and sums the lists that kernels write.
 #include "core/gpu/kernel_lists.h"
 
-#include <algorithm>
 #include <cassert>
-#include <string>
 
 #include "core/gpu/context_description.h"
 #include "core/gpu/kernel_records.h"

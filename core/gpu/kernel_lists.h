@@ -2,13 +2,7 @@
 // Lists that kernels append to, the loop that lets them grow, and prefix sums over such lists.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <initializer_list>
-#include <optional>
-#include <span>
-#include <vector>
 
 #include "core/gpu/buffer.h"
 #include "core/gpu/program.h"

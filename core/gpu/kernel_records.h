@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The data that host and kernels exchange, as C++: parameters, records, and constants that both share.
 //
-// Each stage of gpu_shaders/ declares them once, in its parameters.glsl. A kernel has them as `layout(std140, binding =
+// A parameters.glsl of gpu_shaders/ declares each of them once. A kernel has them as `layout(std140, binding =
 // ...) uniform Parameters { ... params; }`, and Program::set() passes one as a whole. So a wrong name does not compile,
 // and a forgotten block is an error. (With single uniforms neither was noticed; and zink, which makes variants of
 // kernels for their values, started variants for earlier values: Mesa 22.3.) The order alone puts the members where
@@ -19,28 +19,15 @@ namespace meniscus::kernel {
 using uint = std::uint32_t;
 using glm::dvec3;
 using glm::ivec2;
+using glm::uvec4;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
 #include "gpu_shaders/look/parameters.glsl"
-#include "gpu_shaders/paper_selection/parameters.glsl"
-#include "gpu_shaders/parallel/parameters.glsl"
-#include "gpu_shaders/primitives/parameters.glsl"
 #include "gpu_shaders/ray_cast/parameters.glsl"
-#include "gpu_shaders/reduced_surface/parameters.glsl"
-#include "gpu_shaders/singularities/parameters.glsl"
-#include "gpu_shaders/test_support/parameters.glsl"
-#include "gpu_shaders/visibility/parameters.glsl"
-
-using uint = std::uint32_t;
-using glm::dvec3;
-using glm::uvec4;
-using glm::vec4;
-
 #include "gpu_shaders/shared/constants.glsl"
-#include "gpu_shaders/shared/probe_record.glsl"
-#include "gpu_shaders/singularities/records.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 static_assert(sizeof(ProbeRecord) == 64 && sizeof(SideRecord) == 64 && sizeof(CuspArcRecord) == 48,
               "std430 has these sizes");

@@ -2,7 +2,6 @@
 // Compiles, caches and starts compute kernels, and names their stages for the clock and for GL debuggers.
 #include "core/gpu/program.h"
 
-#include <algorithm>
 #include <cstring>
 
 #include <epoxy/gl.h>

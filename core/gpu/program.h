@@ -2,15 +2,8 @@
 // Compute kernels: compiled from the embedded shaders, cached, started with any number of groups, and timed in stages.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <vector>
 
 #include "core/base/progress.h"
 #include "core/gpu/buffer.h"
@@ -38,7 +31,7 @@ class Program {
   }
 
   /// Starts `group_count` groups. Counts above the driver's limit along x are folded into a rectangle, so kernels must
-  /// use linear_group_index() of gpu_shaders/shared/linear_index.glsl and ignore indices past the end. A full barrier
+  /// use linear_group_index() of gpu_shaders/shared/dispatch.glsl and ignore indices past the end. A full barrier
   /// for storage follows. `longest_row` is for tests: 0 means the driver's limit. Throws GpuError if a block was never
   /// set.
   void dispatch(std::size_t group_count, std::uint32_t longest_row = 0) const;

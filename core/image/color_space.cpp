@@ -3,7 +3,6 @@
 #include "core/image/color_space.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <initializer_list>

@@ -2,10 +2,7 @@
 // Loads the module with OpenImageIO, and finds the time that files bear.
 #include "core/image/image_codec.h"
 
-#include <array>
 #include <charconv>
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <string_view>
 
@@ -16,8 +13,8 @@ namespace meniscus {
 namespace {
 
 const ImageCodec& load() {
-  constexpr ModuleFile kModule{MENISCUS_IMAGE_MODULE_NAME, MENISCUS_IMAGE_MODULE,
-                               "reading pictures, and writing formats other than PNG,", std::size_t{640} << 20};
+  constexpr ModuleFile kModule{"meniscus_openimageio.so", "reading pictures, and writing formats other than PNG,",
+                               std::size_t{640} << 20};
   using Give = const ImageCodec*(const char* version, std::size_t image_size);
   void* const give = load_from_module(kModule, "meniscus_image_codec");
   if (const ImageCodec* const codec = reinterpret_cast<Give*>(give)(MENISCUS_VERSION, sizeof(ImageToEncode)))

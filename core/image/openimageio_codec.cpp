@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string_view>
-#include <utility>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>

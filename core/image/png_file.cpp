@@ -3,16 +3,10 @@
 #include "core/image/png_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <fstream>
 #include <limits>
-#include <memory>
-#include <string_view>
-#include <utility>
 
 #include <libdeflate.h>
 #include <tbb/blocked_range.h>

@@ -2,14 +2,8 @@
 // Builds base meshes of each kind, and contracts contact faces of the coarsest mesh to points.
 #include "core/mesh/base_mesh.h"
 
-#include <algorithm>
-#include <array>
 #include <numeric>
-#include <optional>
-#include <span>
-#include <utility>
 
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"

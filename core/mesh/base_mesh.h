@@ -2,9 +2,6 @@
 // Builds the closed meshes that even remeshing starts from.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "core/mesh/surface_walk.h"
 #include "core/mesh/triangle_mesh.h"
 

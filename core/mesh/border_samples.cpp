@@ -2,12 +2,8 @@
 // Samples the borders of a surface as finely as a mesh needs, and where colours change along them.
 #include "core/mesh/border_samples.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <numbers>
 
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/mesh/mesh_colors.h"

@@ -2,11 +2,7 @@
 // Sample points on the borders of a surface, taken once and shared by the two faces of each border.
 #pragma once
 
-#include <cstdint>
 #include <utility>
-#include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/mesh/triangle_mesh.h"
 #include "core/surface/primitives.h"

@@ -3,16 +3,9 @@
 // triangulated in a plane.
 #include "core/mesh/base_mesh.h"
 
-#include <algorithm>
-#include <array>
-#include <map>
 #include <numeric>
-#include <optional>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gives triangles their atom and cuts them where the nearest contact changes, so that colours end along edges.
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <optional>
 #include <set>
-
-#include <glm/geometric.hpp>
 
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/face_mesh.h"

@@ -2,12 +2,7 @@
 // Compares a surface with its mesh by areas and volumes, and measures distances from points to triangles.
 #include "core/mesh/compare_mesh.h"
 
-#include <cmath>
-#include <vector>
-
 #include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "core/surface/walks.h"
 

@@ -3,13 +3,7 @@
 // triangles.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
 #include <string>
-#include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/math/box.h"
 #include "core/mesh/triangle_mesh.h"

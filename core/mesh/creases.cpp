@@ -2,11 +2,7 @@
 // Finds borders at which faces meet at an angle, which of them a mesh should follow, and which edges of a mesh do.
 #include "core/mesh/creases.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
-
-#include <glm/geometric.hpp>
 
 #include "core/mesh/remesh_tuning.h"
 #include "core/surface/walks.h"

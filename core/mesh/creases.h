@@ -3,13 +3,6 @@
 // edges that run along them.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <functional>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/base/constants.h"
 #include "core/mesh/half_edges.h"
 #include "core/mesh/surface_walk.h"

@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cuts triangles, fills the section between them, and divides it among atoms.
-#include "core/mesh/cut_solid.h"
+#include "core/mesh/section_mesh.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <optional>
-#include <span>
 #include <tuple>
 #include <unordered_map>
-#include <utility>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 
 #include "core/base/error.h"
 #include "core/mesh/planar_triangulation.h"

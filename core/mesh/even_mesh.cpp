@@ -2,26 +2,19 @@
 // Makes even meshes: remeshes a base mesh in rounds, then shortens edges wherever the result is not as promised.
 #include "core/mesh/even_mesh.h"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
 #include <set>
-#include <span>
-#include <utility>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
 #include "core/mesh/base_mesh.h"
 #include "core/mesh/creases.h"
-#include "core/mesh/even_sizes.h"
-#include "core/mesh/remesh_tuning.h"
+#include "core/mesh/mesh_change.h"
 #include "core/mesh/mesh_crossings.h"
 #include "core/mesh/mesh_mender.h"
 #include "core/mesh/mesh_nearness.h"
-#include "core/mesh/remesher.h"
+#include "core/mesh/remesh_tuning.h"
 
 namespace meniscus {
 

@@ -3,7 +3,7 @@
 // per atom.
 #pragma once
 
-#include "core/mesh/even_sizes.h"
+#include "core/mesh/remesh_tuning.h"
 
 namespace meniscus {
 

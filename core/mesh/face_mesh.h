@@ -3,14 +3,7 @@
 // and triangles.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <vector>
-
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 #include "core/mesh/border_samples.h"
 #include "core/surface/primitives.h"

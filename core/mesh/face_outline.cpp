@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Outlines faces on spheres and tori in the plane where they are meshed.
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <numbers>
-#include <span>
-
-#include <glm/geometric.hpp>
 
 #include "core/mesh/face_mesh.h"
 #include "core/mesh/mesh_colors.h"

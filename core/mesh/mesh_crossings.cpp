@@ -2,11 +2,6 @@
 // Finds triangles that pass through one another in a finished mesh, and refuses changes that would make some.
 #include "core/mesh/mesh_crossings.h"
 
-#include <algorithm>
-#include <utility>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>

@@ -2,18 +2,9 @@
 // Finds triangles of a mesh that pass through one another, and guards a changing mesh against them.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <span>
 #include <utility>
-#include <vector>
-
-#include <glm/common.hpp>
-#include <glm/vec3.hpp>
 
 #include "core/base/constants.h"
 #include "core/math/box.h"

@@ -2,16 +2,9 @@
 // Tries all small changes at a bad triangle of a mesh and makes the best one, as long as there is one that helps.
 #include "core/mesh/mesh_mender.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <numbers>
-#include <optional>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/mesh/remesh_tuning.h"

@@ -2,15 +2,6 @@
 // Improves a mesh on a surface by single changes where passes over it left triangles that are bad or not allowed.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
-
 #include "core/mesh/mesh_change.h"
 
 namespace meniscus {

@@ -2,17 +2,10 @@
 // Measures how far an even mesh is from its surface at places in its triangles, and the surface from it at points.
 #include "core/mesh/mesh_nearness.h"
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <limits>
-
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/mesh/compare_mesh.h"
 #include "core/mesh/creases.h"
-#include "core/mesh/even_sizes.h"
 #include "core/mesh/remesh_tuning.h"
 #include "core/mesh/tessellate.h"
 #include "core/surface/walks.h"

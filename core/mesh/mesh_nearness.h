@@ -2,17 +2,11 @@
 // Checks that an even mesh is within the tolerance of its surface, and the surface within that of the mesh.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <mutex>
-#include <optional>
-#include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/mesh/base_mesh.h"
-#include "core/mesh/even_sizes.h"
 #include "core/mesh/mesh_mender.h"
+#include "core/mesh/remesh_tuning.h"
 #include "core/queries/distance.h"
 
 namespace meniscus {

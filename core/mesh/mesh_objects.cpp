@@ -2,16 +2,7 @@
 // Makes meshes of surfaces, shapes and pockets, and estimates how many triangles a surface gets.
 #include "core/mesh/mesh_objects.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
 #include <numbers>
-#include <utility>
-#include <vector>
-
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/camera/camera.h"

@@ -2,14 +2,7 @@
 // Triangle meshes of surfaces, shapes and pockets for exporters, and the fineness that they are made with.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
-
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 #include "core/mesh/triangle_mesh.h"
 #include "core/pockets/pockets.h"

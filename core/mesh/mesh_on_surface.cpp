@@ -2,11 +2,6 @@
 // Keeps positions, links, creases and qualities in step while vertices and triangles come, go and move.
 #include "core/mesh/mesh_on_surface.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/mesh/creases.h"

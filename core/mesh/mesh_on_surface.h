@@ -3,17 +3,6 @@
 // triangles.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <utility>
-#include <vector>
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-
 #include "core/base/constants.h"
 #include "core/mesh/half_edges.h"
 #include "core/mesh/mesh_crossings.h"

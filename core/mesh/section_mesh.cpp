@@ -2,15 +2,8 @@
 // Cuts a closed mesh by one plane after another, divides what is left into surface and caps, and joins both again.
 #include "core/mesh/section_mesh.h"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <tuple>
-#include <utility>
 
-#include <glm/geometric.hpp>
-
-#include "core/mesh/cut_solid.h"
 #include "core/mesh/tessellate.h"
 #include "core/queries/copies.h"
 #include "core/queries/surface_object.h"

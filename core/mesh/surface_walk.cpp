@@ -2,11 +2,8 @@
 // Projects a point to the surface: walks from face to face while the point is beyond a wall of a face's cell.
 #include "core/mesh/surface_walk.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/mesh/mesh_colors.h"

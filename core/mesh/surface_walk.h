@@ -2,12 +2,8 @@
 // Projects points near a surface onto it by walking from face to face, without a search.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <utility>
-#include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/surface/primitives.h"
 

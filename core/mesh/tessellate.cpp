@@ -2,23 +2,14 @@
 // Triangulates faces in rounds, joins them to a closed mesh in five steps, and checks areas and volumes by such meshes.
 #include "core/mesh/tessellate.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <numeric>
-#include <optional>
 #include <set>
 #include <tuple>
 #include <unordered_map>
-#include <utility>
 
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"

@@ -2,9 +2,7 @@
 // Triangulates the faces of a surface between shared samples of their borders and joins them to one closed mesh.
 #pragma once
 
-#include <cstdint>
 #include <map>
-#include <vector>
 
 #include "core/mesh/border_samples.h"
 #include "core/mesh/face_mesh.h"

@@ -3,11 +3,8 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/color/coloring.h"
 
-#include <algorithm>
 #include <numeric>
 #include <utility>
-
-#include <glm/geometric.hpp>
 
 namespace meniscus {
 namespace {

@@ -2,12 +2,6 @@
 // A closed triangle mesh of the solvent-excluded surface, with the patch and the atom of each triangle.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/surface/primitives.h"
 
 namespace meniscus {

@@ -2,14 +2,9 @@
 // Computes how points of a surface move with its atoms: differentiates the conditions that hold a probe.
 #include "core/mesh/velocity.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
 #include <numbers>
-#include <utility>
 
-#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 

@@ -2,12 +2,9 @@
 // Removes short edges from a mesh by collapses under the link condition, and flat triangles by flips.
 #include "core/mesh/weld.h"
 
-#include <algorithm>
 #include <numeric>
 #include <optional>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/gtc/type_precision.hpp>
 
 #include "core/base/constants.h"

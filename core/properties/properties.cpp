@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "core/base/text.h"
 

@@ -2,15 +2,9 @@
 // Matches cavities by the probes at rest in them.
 #include "core/queries/cavity_tracks.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <iterator>
-#include <limits>
 #include <numeric>
 #include <tuple>
-
-#include <glm/geometric.hpp>
 
 namespace meniscus {
 namespace {

@@ -2,12 +2,7 @@
 // Follows cavities from one surface to the next and tells which cavity is which.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/surface/primitives.h"
 

@@ -2,17 +2,10 @@
 // Joins surfaces and their copies into one, and searches for copies that come too close to each other.
 #include "core/queries/copies.h"
 
-#include <algorithm>
-#include <array>
 #include <cassert>
 #include <iterator>
-#include <limits>
 #include <tuple>
-#include <utility>
-#include <vector>
 
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 

@@ -2,14 +2,7 @@
 // Joins surfaces and their copies into one surface, and finds copies that come too close to each other.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <span>
-#include <vector>
-
-#include <glm/geometric.hpp>
 
 #include "core/math/ball.h"
 #include "core/math/rigid_motion.h"

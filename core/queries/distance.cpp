@@ -2,17 +2,9 @@
 // Finds the nearest point of a surface among feet of perpendiculars, and the blocks of voxels near the surface.
 #include "core/queries/distance.h"
 
-#include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
-#include <cstdint>
-#include <limits>
 #include <numbers>
-#include <utility>
-#include <vector>
 
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A surface and shapes as objects of a picture or an export, with their colours.
+// A surface and shapes as objects of a picture or an export, with their colours, and the comparison of two surfaces of
+// the same atoms.
 #pragma once
-
-#include <cstdint>
-#include <string>
-#include <vector>
 
 #include "core/color/coloring.h"
 #include "core/math/rigid_motion.h"
@@ -30,5 +27,12 @@ struct ColoredShapes {
 
   bool empty() const { return shapes.empty(); }
 };
+
+struct Surface;
+
+/// Returns each difference in one sentence: patches that only one surface has; different contacts, cuts, borders, faces
+/// or components; positions more than 1e-9 Å apart; areas and volumes that differ by more than 1e-9 of their size. The
+/// result is empty if the surfaces are equal.
+std::vector<std::string> differences(const Surface& a, const Surface& b);
 
 }  // namespace meniscus

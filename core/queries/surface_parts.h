@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts of a surface: closed components as a surface of their own, and the contiguous areas of chosen atoms.
+// Parts and points of a surface: closed components as a surface of their own, the contiguous areas of chosen atoms, and
+// the curvature at a point.
 #pragma once
-
-#include <cstdint>
-#include <vector>
 
 #include "core/surface/primitives.h"
 
@@ -48,5 +46,27 @@ std::vector<AtomPatch> atom_patches(const Surface& surface, const std::vector<bo
 /// only the atom of each point: an atom may have parts of several patches, and a smaller patch is taken, too, as a
 /// whole, if one of its atoms is. The conditions of atom_patches() apply.
 std::vector<bool> atoms_of_patches(const Surface& surface, std::vector<bool> chosen, double least);
+
+/// The curvature by the principal curvatures k1, k2 with the normal towards the solvent, positive where the solid
+/// bulges.
+struct Curvature {
+  double mean = 0.0;      ///< (k1 + k2) / 2, 1/Å
+  double gaussian = 0.0;  ///< k1 k2, 1/Å²
+};
+
+/// The distance (Å) from the axis of a spindle torus below which curvatures are those at this distance: the second one
+/// grows without bound towards the tip.
+inline constexpr double kCurvatureCore = 0.001;
+
+/// Returns the curvature at a point (Å) of a face. On an atom of radius r both principal curvatures are 1/r, on a fixed
+/// probe of radius p -1/p. On a torus of major radius R, at the angle t of its tube from the axis, they are -1/p and
+/// cos t / (R - p cos t) (do Carmo, "Differential geometry of curves and surfaces", 1976, section 3.3, example 5).
+Curvature curvature(const Surface& surface, std::uint32_t face, const glm::dvec3& point);
+
+/// True if some place of the probe is nearer to the point (Å) than the probe's radius, or is the point itself. The
+/// nearest such place lies on one SAS sphere, on two, or on three, and all of these are tried. A point within 1e-6 Å of
+/// the surface may count as not in the solvent. So may a point in reach of more than 200 balls, as large probes have
+/// them, if its nearest place is a fixed probe.
+bool in_solvent(std::span<const Ball> atoms, double probe_radius, const glm::dvec3& point);
 
 }  // namespace meniscus

@@ -2,16 +2,9 @@
 // Places texts and lines in a picture, and blends them into its pixels according to coverage.
 #include "core/render/annotation.h"
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <numbers>
-#include <utility>
-
-#include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -3,15 +3,6 @@
 // frame.
 #pragma once
 
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
 #include "core/render/lettering.h"
 #include "core/render/picture.h"
 

@@ -2,12 +2,7 @@
 // Draws pictures on the GPU block by block, and returns them as pixels in memory.
 #include "core/render/gl_renderer.h"
 
-#include <algorithm>
-#include <array>
 #include <cassert>
-#include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include <fmt/format.h>
 

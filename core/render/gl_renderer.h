@@ -3,15 +3,6 @@
 // view.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <glm/vec2.hpp>
-
 #include "core/base/progress.h"
 #include "core/camera/camera.h"
 #include "core/gpu/buffer.h"

@@ -2,8 +2,6 @@
 // The ray caster's data in GPU memory, made by the host or by kernels.
 #pragma once
 
-#include <cstdint>
-
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 

@@ -2,23 +2,10 @@
 // Converts pictures to the pixels of each format and to the channels of EXR files, and writes them row by row.
 #include "core/render/image_output.h"
 
-#include <algorithm>
-#include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
-#include <ctime>
 #include <initializer_list>
-#include <span>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <glm/mat3x3.hpp>
 #include <sys/mman.h>
 #include <sys/resource.h>

@@ -3,16 +3,7 @@
 // does not exist.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
 
 #include "core/base/output_file.h"
 #include "core/image/color_space.h"

@@ -2,15 +2,9 @@
 // Chooses among places around each anchor, and moves labels that overlap others until none do.
 #include "core/render/label_layout.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 namespace meniscus {
 namespace {

@@ -3,11 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
-#include <span>
-#include <vector>
-
-#include <glm/vec2.hpp>
 
 #include "core/render/lettering.h"
 

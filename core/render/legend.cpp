@@ -2,15 +2,8 @@
 // Lays out a legend in its strip of the picture, and draws it.
 #include "core/render/legend.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <cstdlib>
-#include <limits>
-
-#include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "core/base/constants.h"
 #include "core/base/error.h"

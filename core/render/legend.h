@@ -2,14 +2,6 @@
 // A legend next to the molecule: a bar with numbers, or named swatches, that explain its colours.
 #pragma once
 
-#include <algorithm>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
 #include "core/color/color_key.h"
 #include "core/render/lettering.h"
 #include "core/render/picture.h"

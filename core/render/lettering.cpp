@@ -7,17 +7,15 @@
 #include FT_FONT_FORMATS_H
 #include FT_OUTLINE_H
 
-#include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <initializer_list>
-#include <map>
 
 #include "core/base/error.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
+#include "core/base/text_file.h"
+#include "core/render/built_in_fonts.h"
 
 namespace meniscus {
 namespace {
@@ -35,12 +33,21 @@ std::string plain_name(std::string_view text) {
   return name;
 }
 
+constexpr std::string_view kBuiltIn = "built-in:";  // begins the paths of built-in fonts
+
+/// Returns the bytes of a built-in font; nothing if `file` is another path.
+std::string_view built_in_bytes(std::string_view file) {
+  for (const BuiltInFont& font : built_in_fonts())
+    if (file.starts_with(kBuiltIn) && file.ends_with(font.name)) return font.bytes;
+  return {};
+}
+
 bool is_font_file(const std::filesystem::path& path) {
   const std::string extension = plain_name(text_of_path(path.extension()));
   return extension == "ttf" || extension == "otf";
 }
 
-/// Returns the names and paths of all installed fonts, sorted.
+/// Returns the names and paths of all installed and built-in fonts, sorted.
 const std::map<std::string, std::string>& installed_fonts() {
   namespace fs = std::filesystem;
   static const std::map<std::string, std::string> installed = [] {
@@ -53,6 +60,8 @@ const std::map<std::string, std::string>& installed_fonts() {
           std::string& known = fonts[plain_name(text_of_path(at->path().stem()))];
           if (known.empty() || path < known) known = path;
         }
+    for (const BuiltInFont& font : built_in_fonts())
+      fonts[plain_name(font.name.substr(0, font.name.rfind('.')))] = std::string(kBuiltIn).append(font.name);
     return fonts;
   }();
   return installed;
@@ -172,8 +181,13 @@ class Font::Faces {
 
   /// True if the file of the face is a font, which is opened at the first call.
   bool is_open(Face& face) {
-    if (!face.is_tried && FT_New_Face(library_, face.file.c_str(), 0, &face.face) == 0 &&
-        FT_Set_Pixel_Sizes(face.face, 0, static_cast<FT_UInt>(height_)) == 0)
+    const std::string_view built_in = built_in_bytes(face.file);
+    const auto open = [&] {
+      return built_in.empty() ? FT_New_Face(library_, face.file.c_str(), 0, &face.face)
+                              : FT_New_Memory_Face(library_, reinterpret_cast<const FT_Byte*>(built_in.data()),
+                                                   static_cast<FT_Long>(built_in.size()), 0, &face.face);
+    };
+    if (!face.is_tried && open() == 0 && FT_Set_Pixel_Sizes(face.face, 0, static_cast<FT_UInt>(height_)) == 0)
       face.program = program_of(face.face, face.file);
     face.is_tried = true;
     return face.program != nullptr;
@@ -190,6 +204,11 @@ class Font::Faces {
   FT_Library library_ = nullptr;
   std::vector<Face> faces_;
 };
+
+std::string font_bytes(const std::string& file) {
+  const std::string_view built_in = built_in_bytes(file);
+  return built_in.empty() ? read_file_bytes(file) : std::string(built_in);
+}
 
 Font::Font(int height, Weight weight, const FontChoice& choice)
     : faces_(std::make_unique<Faces>(height, weight, choice)), height_(height) {

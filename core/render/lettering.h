@@ -3,22 +3,17 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <compare>
-#include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 #include "core/image/color_space.h"
 

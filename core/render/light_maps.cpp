@@ -2,16 +2,10 @@
 // Draws the maps of light: balls, as seen from many directions.
 #include "core/render/light_maps.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <cstddef>
-#include <limits>
 #include <numbers>
 #include <tuple>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/color/coloring.h"

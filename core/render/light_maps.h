@@ -2,14 +2,6 @@
 // Maps of what is drawn as the sky and the lamp see it, from which pictures get their shade and soft shadows.
 #pragma once
 
-#include <cstddef>
-#include <span>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
 #include "core/gpu/kernel_records.h"
 #include "core/render/look.h"
 #include "core/render/picture.h"

@@ -2,8 +2,6 @@
 // Defines the presets of the look, and overrides single values of them.
 #include "core/render/look.h"
 
-#include <algorithm>
-
 #include "core/base/text.h"
 #include "core/color/color_schemes.h"
 

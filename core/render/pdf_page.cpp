@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes PDF pages.
-#include <array>
 #include <cctype>
-#include <cmath>
-#include <map>
 
-#include <fmt/format.h>
 #include <zlib.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/text_file.h"
 #include "core/base/version.h"
-#include "core/render/page_encoder.h"
+#include "core/render/built_in_fonts.h"
+#include "core/render/vector_page.h"
 
 namespace meniscus {
 namespace {
@@ -172,7 +168,7 @@ class PdfEncoder : public PageEncoder {
                   in_quotes(program.file)));
     std::string name = program.postscript_name;
     std::erase_if(name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-'; });
-    const std::string bytes = read_file_bytes(program.file);
+    const std::string bytes = font_bytes(program.file);
     const int file = object(stream(
         program.is_cff ? "<< /Subtype /OpenType" : fmt::format("<< /Length1 {}", bytes.size()), compressed(bytes)));
     const auto& [left, bottom, right, top] = program.box;

@@ -5,11 +5,6 @@
 #include "core/shapes/shapes.h"
 #include "core/surface/primitives.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include <glm/geometric.hpp>
-
 namespace meniscus {
 
 glm::dvec3 hatching_direction(const glm::dvec3& normal) {

@@ -3,14 +3,7 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
-#include <vector>
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include "core/base/progress.h"
@@ -71,11 +64,13 @@ struct SeenPoint {
 struct RenderSettings {
   glm::ivec2 size{1024, 768};  ///< pixels
   int samples = 1;             ///< rays per pixel, the first through its centre
-  bool aovs = false;           ///< render(): fill the AOV arrays, too; for drawables with a surface()
-  bool mattes = false;         ///< render(): fill Framebuffer::seen by name_seen; made on the CPU
-  bool motion = false;         ///< render(), with aovs: fill Framebuffer::motion by `move`
-  int block_edge = 2048;       ///< render(): larger pictures are cast in blocks of at most this edge, pixels
-  Look look;                   ///< draw() shows its background; render() leaves it transparent
+  /// True: the CPU casts further samples only where the first ones are uneven (core/render/cpu/unevenness.h).
+  bool adaptive = false;
+  bool aovs = false;      ///< render(): fill the AOV arrays, too; for drawables with a surface()
+  bool mattes = false;    ///< render(): fill Framebuffer::seen by name_seen; made on the CPU
+  bool motion = false;    ///< render(), with aovs: fill Framebuffer::motion by `move`
+  int block_edge = 2048;  ///< render(): larger pictures are cast in blocks of at most this edge, pixels
+  Look look;              ///< draw() shows its background; render() leaves it transparent
   StageTiming timing = StageTiming::rough;
   /// render() on the CPU calls it regularly on the calling thread with the finished share, from 0 to 1. If it throws,
   /// the picture is not finished.

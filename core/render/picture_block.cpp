@@ -3,14 +3,8 @@
 // picture.
 #include "core/render/picture_block.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
-#include <utility>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/image/color_space.h"

@@ -3,18 +3,6 @@
 // picture.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
 #include "core/base/constants.h"
 #include "core/gpu/kernel_records.h"
 #include "core/render/gpu_pack.h"

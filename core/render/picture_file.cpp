@@ -2,12 +2,6 @@
 // Writes a picture to its file in slices of rows, with its annotations and its legend.
 #include "core/render/picture_file.h"
 
-#include <algorithm>
-#include <utility>
-#include <vector>
-
-#include <glm/common.hpp>
-
 #include "core/camera/camera.h"
 
 namespace meniscus {

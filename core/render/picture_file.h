@@ -2,10 +2,6 @@
 // Writes a picture with annotations and legend to its file, some rows at a time.
 #pragma once
 
-#include <filesystem>
-#include <memory>
-#include <optional>
-
 #include "core/render/annotation.h"
 #include "core/render/picture.h"
 #include "core/render/image_output.h"

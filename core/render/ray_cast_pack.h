@@ -3,15 +3,6 @@
 // a pivot.
 #pragma once
 
-#include <cstdint>
-#include <limits>
-#include <span>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
 #include "core/camera/camera.h"
 #include "core/render/gpu_pack.h"
 #include "core/surface/primitives.h"

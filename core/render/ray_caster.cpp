@@ -2,9 +2,6 @@
 // Runs the kernels that list primitives by tile, cast rays, finish samples and make a texture of the picture.
 #include "core/render/ray_caster.h"
 
-#include <string>
-#include <vector>
-
 #include <epoxy/gl.h>
 
 #include "core/base/error.h"

@@ -2,14 +2,6 @@
 // Casts blocks of a picture on the GPU, one ray per sample, and finishes their samples: shade, depth cue, outlines.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
 #include "core/base/progress.h"
 #include "core/gpu/buffer.h"
 #include "core/gpu/kernel_lists.h"

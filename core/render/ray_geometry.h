@@ -2,13 +2,11 @@
 // The ray caster's geometry functions, compiled for C++ in double precision: the same formulas as on the GPU.
 #pragma once
 
-#include <cmath>
-
 #include "core/math/double_geometry.h"
 
 namespace meniscus::geometry {
 
-// The types of gpu_shaders/shared/lane.glsl, for one ray at a time.
+// The types of gpu_shaders/reduced_surface/precision.glsl, for one ray at a time.
 using truth = bool;
 using integer = int;
 template <typename T>

@@ -2,11 +2,7 @@
 // Reads labels and scale bars, and turns them into texts of a picture.
 #include "core/scene/annotations.h"
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
-
-#include <fmt/format.h>
 
 #include "core/base/constants.h"
 #include "core/base/error.h"

@@ -2,13 +2,6 @@
 // The annotations of a scene: its legend, a panel letter, a scale bar, labels, the time.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "core/render/annotation.h"
 #include "core/render/legend.h"
 #include "core/structure/selection/selection.h"

@@ -2,10 +2,7 @@
 // Sums areas and gradients by the atoms of a file.
 #include "core/scene/area_columns.h"
 
-#include <algorithm>
-#include <cstdint>
 #include <numeric>
-#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

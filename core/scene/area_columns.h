@@ -2,10 +2,6 @@
 // Areas of atoms and their derivatives, as columns of tables.
 #pragma once
 
-#include <span>
-#include <string>
-#include <vector>
-
 #include "core/queries/surface_object.h"
 #include "core/scene/surface_computer.h"
 #include "core/structure/structure.h"

@@ -2,10 +2,6 @@
 // Lists groups, copies and atoms in one order.
 #include "core/scene/copied_atoms.h"
 
-#include <algorithm>
-
-#include <glm/geometric.hpp>
-
 namespace meniscus {
 namespace {
 

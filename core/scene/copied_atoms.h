@@ -2,11 +2,6 @@
 // Atoms that occur at several places (Instances), as a list of all of them or of those that matter for a camera.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "core/color/coloring.h"
 #include "core/math/ball.h"
 #include "core/structure/structure.h"

@@ -2,14 +2,7 @@
 // Parses cutting planes, and measures depths along the view and where atoms are.
 #include "core/scene/cut.h"
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <limits>
-#include <optional>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

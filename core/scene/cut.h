@@ -3,14 +3,6 @@
 // atoms that should be seen.
 #pragma once
 
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/camera/camera.h"
 #include "core/math/ball.h"
 #include "core/queries/surface_object.h"

@@ -2,14 +2,6 @@
 // Makes the objects of a picture from a figure, and moves their points.
 #include "core/scene/figure.h"
 
-#include <algorithm>
-#include <optional>
-#include <span>
-#include <utility>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
-
 #include "core/base/constants.h"
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -2,15 +2,6 @@
 // A figure: a molecule with everything that is drawn with it, and its motion to the next frame.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
 #include "core/camera/camera.h"
 #include "core/mesh/velocity.h"
 #include "core/render/picture.h"

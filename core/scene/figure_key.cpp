@@ -2,10 +2,6 @@
 // Marks the atoms that surfaces and shapes draw, and finds the meaning of their colours.
 #include "core/scene/figure_key.h"
 
-#include <algorithm>
-#include <span>
-#include <utility>
-
 #include "core/color/lipophilicity.h"
 #include "core/scene/run_framing.h"
 

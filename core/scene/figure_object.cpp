@@ -2,16 +2,10 @@
 // Takes the atoms of each object by their marks, and computes its surface as if they were alone.
 #include "core/scene/figure_object.h"
 
-#include <utility>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
-
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_schemes.h"
 #include "core/queries/copies.h"
-#include "core/scene/hidden_atoms.h"
 #include "core/scene/surface_computer.h"
 #include "core/scene/surface_objects.h"
 #include "core/structure/hydrogen_bonds.h"

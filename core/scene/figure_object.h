@@ -3,12 +3,6 @@
 // backbone.
 #pragma once
 
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "core/color/color_schemes.h"
 #include "core/math/ball.h"
 #include "core/queries/surface_object.h"

@@ -2,27 +2,19 @@
 // Turns a request into prepared frames.
 #include "core/scene/frame_run.h"
 
-#include <algorithm>
-#include <cmath>
 #include <charconv>
 #include <iterator>
-#include <unordered_map>
 #include <unordered_set>
-#include <utility>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/scene/context_areas.h"
 #include "core/scene/molecule.h"
 #include "core/structure/assembly.h"
 #include "core/structure/bonds.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/structure/selection/selection.h"
-#include "core/trajectory/atom_order.h"
 #include "core/trajectory/frame_list.h"
+#include "core/trajectory/prepared_frames.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {

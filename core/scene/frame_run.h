@@ -2,15 +2,6 @@
 // A run of frames of one molecule. Atoms are selected once, or again in each frame if a selection depends on positions.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <unordered_map>
-#include <vector>
-
 #include "core/scene/molecule.h"
 #include "core/scene/representations.h"
 #include "core/structure/selection/selection.h"

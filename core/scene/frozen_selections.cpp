@@ -2,8 +2,6 @@
 // Collects all selections, and evaluates them in the first frame.
 #include "core/scene/frozen_selections.h"
 
-#include <algorithm>
-
 #include "core/base/error.h"
 #include "core/base/text.h"
 

@@ -3,8 +3,6 @@
 // run.
 #pragma once
 
-#include <vector>
-
 #include "core/scene/scene.h"
 
 namespace meniscus {

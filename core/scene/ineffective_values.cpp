@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds values without effect by a table of what each of them needs.
-#include "core/scene/ineffective_values.h"
+#include "core/scene/scene_values.h"
 
-#include <algorithm>
-#include <filesystem>
-
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
-#include "core/scene/scene_values.h"
 
 namespace meniscus {
 namespace {

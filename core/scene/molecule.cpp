@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a molecule, and computes its surfaces and colours as requested.
+// Makes molecules from files, measures what volume maps cover, and computes areas that surroundings bury.
 #include "core/scene/molecule.h"
-
-#include <algorithm>
-#include <memory>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -15,16 +9,15 @@
 #include "core/color/lipophilicity.h"
 #include "core/color/ordered_classes.h"
 #include "core/math/box.h"
+#include "core/math/spiral.h"
 #include "core/queries/copies.h"
 #include "core/queries/surface_parts.h"
 #include "core/scene/area_columns.h"
-#include "core/scene/hidden_atoms.h"
-#include "core/scene/map_coverage.h"
 #include "core/scene/surface_objects.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/residues.h"
 #include "core/trajectory/formats/trajectory_formats.h"
-#include "core/volume/read_volume.h"
+#include "core/volume/volume_grid.h"
 
 namespace meniscus {
 namespace {
@@ -224,6 +217,191 @@ Molecule MoleculeBuilder::build(Structure structure) {
   molecule.device = computer_.device();
   molecule.stages = computer_.stages();
   return molecule;
+}
+
+namespace {
+
+/// The number of sampled points of a patch, and the number of them beyond the map.
+struct Tally {
+  std::size_t points = 0, beyond = 0;
+};
+
+/// The measurement of one copy of an object.
+class Coverage {
+ public:
+  Coverage(const VolumePaint& map, const SurfaceObject& object, const RigidMotion& motion)
+      : map_(map), object_(object), surface_(object.surface), motion_(motion) {}
+
+  /// True if the whole surface lies in the map, because a closing of balls lies in their convex hull, and a map's grid
+  /// is convex.
+  bool holds_all() const {
+    Box box;
+    for (const Ball& ball : surface_.atoms) {
+      const double reach = ball.radius + std::abs(map_.offset);
+      const glm::dvec3 center = motion_(ball.center);
+      box.include(center - reach);
+      box.include(center + reach);
+    }
+    for (int corner = 0; corner < 8; ++corner)
+      if (!holds({corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                  corner & 4 ? box.high.z : box.low.z}))
+        return false;
+    return true;
+  }
+
+  /// The area with the map's colours, and the part of it where the map has no values, Å².
+  struct Areas {
+    double shown = 0.0, beyond = 0.0;
+  };
+  Areas areas() const {
+    Areas sum;
+    const auto add = [&](const Tally& tally, double area) {
+      if (tally.points == 0) return;
+      sum.shown += area;
+      sum.beyond += area * static_cast<double>(tally.beyond) / static_cast<double>(tally.points);
+    };
+    for (const ConvexPatch& patch : surface_.convex)
+      if (shows(patch.atom)) add(on_sphere(patch), area_of(patch));
+    for (const ToroidalPatch& patch : surface_.toroidal)
+      if (shows(patch.atom[0]) || shows(patch.atom[1])) add(on_borders(patch), area_of(patch));
+    for (const ConcavePatch& patch : surface_.concave) {
+      const auto first = surface_.contacts.begin() + patch.first_contact;
+      if (std::any_of(first, first + patch.contact_count, [&](std::uint32_t a) { return shows(a); }))
+        add(on_borders(patch), area_of(patch));
+    }
+    return sum;
+  }
+
+ private:
+  bool shows(std::uint32_t a) const { return object_.coloring.by_volume(a) && object_.coloring.shows(a); }
+  bool holds(const glm::dvec3& point) const { return !std::isnan(map_.grid.sample(point)); }
+
+  void count(const glm::dvec3& point, const glm::dvec3& normal, Tally& tally) const {
+    ++tally.points;
+    tally.beyond += std::isnan(map_.value(motion_(point), motion_.rotation * normal));
+  }
+
+  double area_of(const auto& patch) const {
+    double area = 0.0;
+    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
+      area += surface_.faces[f].area;
+    return area;
+  }
+
+  /// Counts points on the sphere of a patch; for a patch too small to contain any, points on its borders.
+  Tally on_sphere(const ConvexPatch& patch) const {
+    constexpr std::size_t kPoints = 100;
+    const Ball& ball = surface_.atoms[patch.atom];
+    const std::span planes(surface_.planes.data() + patch.first_plane, patch.plane_count);
+    Tally tally;
+    for (std::size_t n = 0; n < kPoints; ++n) {
+      const glm::dvec3 normal = spiral_direction(n, kPoints), point = ball.center + ball.radius * normal;
+      if (std::ranges::all_of(planes, [&](const Plane& p) { return glm::dot(p.normal, point) <= p.offset; }))
+        count(point, normal, tally);
+    }
+    return tally.points > 0 ? tally : on_borders(patch);
+  }
+
+  Tally on_borders(const auto& patch) const {
+    constexpr double kTurn = std::numbers::pi / 8.0;  // radians between points of a border
+    Tally tally;
+    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
+      for (std::uint32_t l = 0; l < surface_.faces[f].loop_count; ++l) {
+        const Loop& loop = surface_.loops[surface_.faces[f].first_loop + l];
+        for (std::uint32_t h = 0; h < loop.half_border_count; ++h) {
+          const Border& border = surface_.borders[surface_.half_borders[loop.first_half_border + h] / 2];
+          const int points = 1 + static_cast<int>(border.sweep / kTurn);
+          for (int n = 0; n < points; ++n) {
+            const double turn = border.sweep * (n + 0.5) / points;
+            const glm::dvec3 point =
+                border.center + border.radius * (std::cos(turn) * border.start +
+                                                 std::sin(turn) * glm::cross(border.axis, border.start));
+            count(point, normal_of(patch, point), tally);
+          }
+        }
+      }
+    return tally;
+  }
+
+  glm::dvec3 normal_of(const ConvexPatch& patch, const glm::dvec3& point) const {
+    return glm::normalize(point - surface_.atoms[patch.atom].center);
+  }
+  glm::dvec3 normal_of(const ConcavePatch& patch, const glm::dvec3& point) const {
+    return glm::normalize(patch.center - point);
+  }
+  glm::dvec3 normal_of(const ToroidalPatch& patch, const glm::dvec3& point) const {
+    const glm::dvec3 from = point - patch.center;
+    const glm::dvec3 probe =
+        patch.center + patch.radius * glm::normalize(from - patch.axis * glm::dot(patch.axis, from));
+    return glm::normalize(probe - point);
+  }
+
+  const VolumePaint& map_;
+  const SurfaceObject& object_;
+  const Surface& surface_;
+  const RigidMotion& motion_;
+};
+
+}  // namespace
+
+double share_beyond(const VolumePaint& map, std::span<const SurfaceObject> objects) {
+  const auto holds = [&](const SurfaceObject& object) {
+    return std::ranges::all_of(object.copies,
+                               [&](const RigidMotion& copy) { return Coverage(map, object, copy).holds_all(); });
+  };
+  if (std::ranges::all_of(objects, holds)) return 0.0;
+  double shown = 0.0, beyond = 0.0;
+  for (const SurfaceObject& object : objects)
+    for (const RigidMotion& copy : object.copies) {
+      const Coverage::Areas areas = Coverage(map, object, copy).areas();
+      shown += areas.shown;
+      beyond += areas.beyond;
+    }
+  return shown > 0.0 ? beyond / shown : 0.0;
+}
+
+namespace {
+
+void check(const MoleculeRequest& request) {
+  if (!request.reading.selection)
+    throw RequestError(message("@context@ needs @select@: the atoms whose area is measured in the presence of others"));
+  if (request.file == "-")
+    throw RequestError(message("@context@ reads the file twice; standard input can be read only once"));
+  if (!request.reading.assembly.empty()) throw RequestError(message("@context@ and @assembly@ cannot be combined"));
+}
+
+}  // namespace
+
+MoleculeRequest with_context(const MoleculeRequest& request, const Selection& context) {
+  check(request);
+  MoleculeRequest together = request;
+  together.reading.selection = either(*request.reading.selection, context);
+  return together;
+}
+
+ContextAreas context_areas(const MoleculeRequest& request, const Structure& structure, const Molecule& molecule,
+                           const std::vector<AreaColumn>& alone, SurfaceComputer& computer) {
+  const std::vector<SurfaceObject> objects =
+      surface_objects(structure, {.groups = {}, .components = false, .cavities = request.division.cavities}, computer);
+  const std::vector<AreaColumn> all = area_columns(structure, objects, request.surface.kind);
+
+  std::unordered_map<std::uint32_t, std::size_t> row;  // row by place in the file
+  for (std::size_t a = 0; a < structure.atoms.size(); ++a) row[structure.atoms[a].index] = a;
+  ContextAreas result;
+  result.atoms = structure.atoms.size() - molecule.structure.atoms.size();
+  for (std::size_t c = 0; c < alone.size(); ++c) {
+    AreaColumn in_context{alone[c].name + "_in_context", {}, 0.0};
+    AreaColumn buried{alone[c].name + "_buried", {}, 0.0};
+    for (std::size_t a = 0; a < molecule.structure.atoms.size(); ++a) {
+      in_context.values.push_back(all[c].values[row.at(molecule.structure.atoms[a].index)]);
+      buried.values.push_back(alone[c].values[a] - in_context.values.back());
+      in_context.total += in_context.values.back();
+      buried.total += buried.values.back();
+    }
+    result.columns.push_back(std::move(in_context));
+    result.columns.push_back(std::move(buried));
+  }
+  return result;
 }
 
 }  // namespace meniscus

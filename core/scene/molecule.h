@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A molecule with its surfaces and colours, made from a file.
+// A molecule with its surface and colours, the share of the surface that a volume map covers, and areas in the
+// presence of other atoms.
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "core/base/progress.h"
+#include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
 #include "core/queries/surface_object.h"
+#include "core/scene/area_columns.h"
 #include "core/scene/open_book.h"
 #include "core/scene/surface_computer.h"
 #include "core/scene/surface_objects.h"
@@ -107,5 +105,26 @@ class MoleculeBuilder {
   SurfaceComputer computer_;
   double most_beyond_map_ = 0.0;
 };
+
+/// Returns the share in [0, 1] of the area with a volume map's colours that lies where the map has no values, measured
+/// at points of all patches. It is exactly 0 if the atoms lie deep enough in the map, and 0 if nothing shows its
+/// colours.
+double share_beyond(const VolumePaint& map, std::span<const SurfaceObject> objects);
+
+/// The atoms in the surroundings of a molecule, and their effect on its areas.
+struct ContextAreas {
+  std::size_t atoms = 0;            ///< number of atoms of the context alone
+  std::vector<AreaColumn> columns;  ///< two per given column: "<name>_in_context", "<name>_buried" (the difference)
+};
+
+/// Returns the request extended by the atoms of the context. Throws RequestError without --select (then the file has no
+/// other atoms), for standard input, which can be read only once, and for assemblies.
+MoleculeRequest with_context(const MoleculeRequest& request, const Selection& context);
+
+/// Computes the surface of all atoms of `together` as one, and takes the areas of the molecule's atoms from it. alone:
+/// the columns of the molecule without its context. computer: must compute the surfaces of request.surface. Throws
+/// OpenSurfaceError, CapacityError or GpuError if a surface cannot be computed, and Error if no part of it is left.
+ContextAreas context_areas(const MoleculeRequest& request, const Structure& together, const Molecule& molecule,
+                           const std::vector<AreaColumn>& alone, SurfaceComputer& computer);
 
 }  // namespace meniscus

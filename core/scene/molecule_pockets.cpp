@@ -2,8 +2,6 @@
 // Separates ligands from a structure, and maps the numbers of its atoms back.
 #include "core/scene/molecule_pockets.h"
 
-#include <utility>
-
 #include <fmt/format.h>
 
 #include "core/base/error.h"

@@ -2,11 +2,6 @@
 // The pockets of a molecule, and the pockets that contain the ligands which were taken out.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "core/pockets/pockets.h"
 #include "core/scene/surface_computer.h"
 #include "core/structure/structure.h"

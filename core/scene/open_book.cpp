@@ -2,13 +2,6 @@
 // Finds the plane of an interface from its buried atoms, and turns both sides about it.
 #include "core/scene/open_book.h"
 
-#include <algorithm>
-#include <array>
-#include <limits>
-#include <string>
-
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"

@@ -2,15 +2,6 @@
 // The interface of two groups of atoms, opened like a book: both sides face the viewer, next to each other.
 #pragma once
 
-#include <array>
-#include <optional>
-#include <span>
-#include <string_view>
-#include <vector>
-
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
-
 #include "core/scene/surface_computer.h"
 #include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"

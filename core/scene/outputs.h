@@ -2,11 +2,6 @@
 // The settings of a scene's outputs: pictures, films, meshes, scenes for other renderers.
 #pragma once
 
-#include <optional>
-#include <string>
-
-#include <glm/vec3.hpp>
-
 #include "core/image/color_space.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/render/image_output.h"

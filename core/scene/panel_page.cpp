@@ -2,14 +2,7 @@
 // Finds what panels share, places them on their page, and draws one row of panels after another.
 #include "core/scene/panel_page.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <iterator>
-#include <memory>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -2,16 +2,6 @@
 // Several figures side by side as one picture: panels of one size, lettered, with one legend where they share it.
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
-#include <functional>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <glm/vec2.hpp>
-
 #include "core/camera/camera.h"
 #include "core/render/image_output.h"
 #include "core/render/legend.h"

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Binds the values of the look, the camera, the picture, its annotations and its files.
-#include <array>
 #include <charconv>
-#include <cmath>
-#include <optional>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/base/text.h"

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sets the values of presets where a scene has none of its own.
-#include <array>
-#include <string>
-#include <vector>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"

@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The two kinds of renderer: one draws finished surfaces into still pictures, the other finds and draws the parts that
-// each view of a preview needs.
+// each view of a preview needs. Also the choice of the device of pictures.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <glm/vec2.hpp>
-
 #include "core/base/progress.h"
+#include "core/gpu/egl_context.h"
 #include "core/math/ball.h"
 #include "core/render/cpu/cpu_renderer.h"
 #include "core/render/picture.h"
 #include "core/render/picture_block.h"
+#include "core/scene/surface_computer.h"
 
 namespace meniscus {
 
-class EglContext;
 struct FigureExtras;
 struct FigureRequest;
 
@@ -118,5 +109,24 @@ std::unique_ptr<PreviewRenderer> make_cpu_copies_renderer(std::vector<Instances>
 /// (closest_contact); then its pictures are equal to the pictures of make_cpu_copies_renderer().
 std::unique_ptr<PreviewRenderer> make_placed_atoms_renderer(std::vector<Instances> copies,
                                                             std::unique_ptr<PreviewRenderer> renderer);
+
+/// The device of pictures of computed surfaces: the CPU, or GL in a context of its own.
+class PictureDevice {
+ public:
+  /// The automatic choice is a hardware GPU if there is one, else the CPU, which is faster than software GL. Throws
+  /// GpuError if the user chose GL and it is not available.
+  explicit PictureDevice(const SurfaceRequest& request);
+
+  StillRenderer& renderer() { return *renderer_; }
+  /// Returns the context, which is current on this thread; nullptr if pictures are made on the CPU.
+  const EglContext* context() const { return context_ ? &*context_ : nullptr; }
+
+ private:
+  void find_gl(DeviceChoice choice);
+
+  ThreadLimit thread_limit_;
+  std::optional<EglContext> context_;
+  std::unique_ptr<StillRenderer> renderer_;
+};
 
 }  // namespace meniscus

@@ -2,18 +2,10 @@
 // Makes shapes of marked atoms, and colours them by the scheme of the surface.
 #include "core/scene/representations.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
-
-#include <fmt/format.h>
-
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_schemes.h"
 #include "core/shapes/cartoon.h"
-#include "core/shapes/sugar_symbols.h"
 
 namespace meniscus {
 namespace {

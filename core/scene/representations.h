@@ -3,10 +3,6 @@
 // colours.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "core/color/color_schemes.h"
 #include "core/queries/surface_object.h"
 #include "core/structure/formats/read_structure.h"

@@ -2,13 +2,7 @@
 // Measures all frames of a run, so that each of them can be made by itself.
 #include "core/scene/run_framing.h"
 
-#include <algorithm>
-#include <exception>
 #include <numbers>
-
-#include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

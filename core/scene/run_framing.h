@@ -2,15 +2,6 @@
 // The frames of a run as they are shown: their atoms, their cameras, and the range of their colours.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/camera/camera.h"
 #include "core/camera/view_request.h"
 #include "core/color/color_schemes.h"

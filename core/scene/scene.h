@@ -2,9 +2,6 @@
 // A scene: everything that a user chose for a figure, a film or an export, as one value.
 #pragma once
 
-#include <map>
-#include <string>
-
 #include "core/camera/view_request.h"
 #include "core/render/look.h"
 #include "core/scene/annotations.h"

@@ -2,17 +2,11 @@
 // Reads and writes scenes, objects and values as JSON by the table of properties.
 #include "core/scene/scene_json.h"
 
-#include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <set>
-#include <string>
 #include <system_error>
-#include <utility>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/base/system_file.h"

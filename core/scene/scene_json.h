@@ -2,11 +2,6 @@
 // Scenes, their objects and their values as JSON, both ways.
 #pragma once
 
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include <nlohmann/json.hpp>
 
 #include "core/properties/properties.h"

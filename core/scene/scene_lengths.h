@@ -2,14 +2,6 @@
 // Lengths in pictures: in pixels, or in millimetres, inches and points on paper.
 #pragma once
 
-#include <cmath>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <type_traits>
-
-#include <glm/vec2.hpp>
-
 #include "core/scene/scene_value.h"
 
 namespace meniscus::scene_values {

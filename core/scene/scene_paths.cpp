@@ -2,11 +2,6 @@
 // Lets scenes name only files that their user knows of.
 #include "core/scene/scene_paths.h"
 
-#include <algorithm>
-#include <filesystem>
-
-#include <fmt/format.h>
-
 #include "core/base/error.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"

@@ -2,9 +2,6 @@
 // The files that a scene may name, since it may come from anyone, and the files that its text can name.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "core/properties/properties.h"
 #include "core/scene/scene.h"
 

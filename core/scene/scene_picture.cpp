@@ -2,15 +2,8 @@
 // Lays out the picture of a scene, and finds atoms that cannot be seen in it.
 #include "core/scene/scene_picture.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <unordered_set>
-#include <utility>
-
-#include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -183,6 +176,7 @@ RenderSettings render_settings(const Scene& scene, const PictureLayout& layout) 
   RenderSettings settings;
   settings.size = layout.size.size();
   settings.samples = scene.image.samples;
+  settings.adaptive = true;
   settings.aovs = scene.image.aovs;
   settings.mattes = scene.image.cryptomatte;
   settings.look =

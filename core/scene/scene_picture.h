@@ -2,10 +2,6 @@
 // Turns a scene into the settings and the layout of its picture, and finds atoms that the picture hides.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "core/color/color_key.h"
 #include "core/render/annotation.h"
 #include "core/render/legend.h"

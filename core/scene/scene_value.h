@@ -3,16 +3,8 @@
 // and how it is written.
 #pragma once
 
-#include <algorithm>
 #include <concepts>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 #include <type_traits>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/properties/properties.h"

@@ -5,15 +5,10 @@
 // Richards 1971).
 #include "core/scene/surface_computer.h"
 
-#include <algorithm>
-#include <cstddef>
-
-#include <fmt/format.h>
-
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/gpu/egl_context.h"
-#include "core/queries/compare_surfaces.h"
+#include "core/queries/surface_object.h"
 #include "core/surface/blocks.h"
 #include "core/surface/compute_surface.h"
 

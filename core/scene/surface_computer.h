@@ -2,14 +2,7 @@
 // Computes the surface of balls on the device that a request chooses.
 #pragma once
 
-#include <cstddef>
 #include <exception>
-#include <functional>
-#include <memory>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <tbb/global_control.h>
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surfaces of a molecule: one, or one for each chain, model, class, residue or component.
+// Surfaces drawn in addition to that of the molecule, and atoms whose surface is hidden.
 #pragma once
-
-#include <optional>
-#include <vector>
 
 #include "core/queries/surface_object.h"
 #include "core/scene/surface_computer.h"
+#include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
@@ -50,5 +48,12 @@ struct RadiiChange {
   double exact_within = 0.0;  ///< Å
 };
 RadiiChange change_of_radii(const std::vector<SurfaceObject>& objects);
+
+/// Returns, per atom of the structure, true if it is not selected. The expression may refer to atoms that are drawn in
+/// addition to the surface. Throws InputError if nothing would be visible.
+std::vector<bool> hidden_atoms(const Selection& shown, const Structure& structure);
+
+/// Hides the points of these atoms in every object. hidden: per atom of the structure.
+void hide(const std::vector<bool>& hidden, std::vector<SurfaceObject>& objects);
 
 }  // namespace meniscus

@@ -2,13 +2,8 @@
 // Chooses the balls that a camera is aimed at.
 #include "core/scene/view_aim.h"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <numbers>
-#include <string_view>
 #include <tuple>
-#include <unordered_map>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -16,8 +11,8 @@
 #include "core/queries/copies.h"
 #include "core/render/annotation.h"
 #include "core/scene/copied_atoms.h"
-#include "core/scene/hidden_atoms.h"
 #include "core/scene/representations.h"
+#include "core/scene/surface_objects.h"
 #include "core/structure/superposition.h"
 
 namespace meniscus {

@@ -2,13 +2,6 @@
 // Aims the camera of a picture at its atoms.
 #pragma once
 
-#include <optional>
-#include <span>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
 #include "core/camera/view_request.h"
 #include "core/queries/surface_object.h"
 #include "core/scene/figure.h"

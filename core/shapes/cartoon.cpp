@@ -3,14 +3,10 @@
 #include "core/shapes/cartoon.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <numeric>
-#include <optional>
 #include <string_view>
-#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

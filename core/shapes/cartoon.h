@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cartoon of proteins and nucleic acids: ribbons, arrows and tubes along the backbone, and bases as filled rings.
+// The cartoon of proteins and nucleic acids: ribbons, arrows and tubes along the backbone, bases as filled rings, and
+// sugars as the solid symbols of the SNFG.
 #pragma once
-
-#include <cstdint>
-#include <span>
-#include <vector>
 
 #include "core/shapes/shapes.h"
 
@@ -47,5 +44,14 @@ Shapes bases(const Structure& structure, const std::vector<bool>& selected, doub
 /// Returns backbone() and, for the nucleotides of polymers among the selected atoms, bases(). Radii are in Å.
 Shapes cartoon(const Structure& structure, const std::vector<bool>& selected, double tube_radius = kTubeRadius,
                double base_radius = kStickRadius);
+
+/// Half the height (Å) of a symbol, which is about as large as the ring.
+inline constexpr double kSymbolRadius = 2.0;
+
+/// Returns a symbol (core/structure/sugars.h) for each sugar with all ring atoms selected. It is in the middle of the
+/// ring, upright along the line from the far side of the ring to its anomeric carbon, and has round edges. Sticks
+/// (`radius` in Å) lead to the symbols that it is linked to, and to CA of a linked amino acid. Symbols have the colour
+/// of the anomeric carbon, their white halves that of the first atom outside of the ring; By::snfg colours both.
+Shapes sugar_symbols(const Structure& structure, const std::vector<bool>& selected, double radius = kStickRadius);
 
 }  // namespace meniscus

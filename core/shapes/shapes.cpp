@@ -3,11 +3,7 @@
 #include "core/shapes/shapes.h"
 #include "core/math/ball.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
-
-#include <glm/geometric.hpp>
 
 namespace meniscus {
 namespace {

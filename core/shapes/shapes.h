@@ -3,13 +3,6 @@
 // colour.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/structure/structure.h"
 
 namespace meniscus {

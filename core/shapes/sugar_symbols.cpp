@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Makes solids of plates, cylinders and spheres around the rings of sugars, and links them.
-#include "core/shapes/sugar_symbols.h"
+#include "core/shapes/cartoon.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <optional>
-#include <span>
-#include <utility>
 
 #include <glm/geometric.hpp>
 
-#include "core/shapes/cartoon.h"
 #include "core/structure/sugars.h"
 
 namespace meniscus {

@@ -5,11 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <map>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"

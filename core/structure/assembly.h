@@ -2,12 +2,6 @@
 // Biological assemblies: the copies of each chain of an entry, and how a structure is built from them.
 #pragma once
 
-#include <array>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "core/base/text_file.h"
 
 namespace meniscus {

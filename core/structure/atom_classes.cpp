@@ -5,11 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
-#include <optional>
 #include <set>
-#include <string>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <gemmi/elem.hpp>

@@ -3,12 +3,7 @@
 // for all formats.
 #pragma once
 
-#include <cstdint>
-#include <limits>
-#include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/structure/structure.h"
 

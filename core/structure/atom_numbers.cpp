@@ -6,10 +6,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <span>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

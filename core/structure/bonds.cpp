@@ -2,22 +2,11 @@
 // Collects the bonds of a molecule from its file, from templates of residues, and by distance.
 #include "core/structure/bonds.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <map>
 #include <numeric>
-#include <optional>
 #include <set>
-#include <string>
-#include <string_view>
 #include <unordered_map>
-#include <utility>
 
 #include <gemmi/elem.hpp>
-#include <glm/geometric.hpp>
 
 #include "core/math/ball.h"
 #include "core/structure/martini.h"

@@ -2,13 +2,6 @@
 // Bonds of a molecule: listed by its file, from templates of standard residues, or guessed by distance.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/structure/periodic_cell.h"
 #include "core/structure/structure.h"
 

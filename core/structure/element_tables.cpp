@@ -8,7 +8,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <string>
 
 namespace meniscus {
 namespace {

@@ -2,13 +2,8 @@
 // Finds donors and acceptors by their covalent bonds, and tests pairs of them.
 #include "core/structure/hydrogen_bonds.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <set>
-#include <utility>
-
-#include <glm/geometric.hpp>
 
 #include "core/math/ball.h"
 #include "core/structure/bonds.h"

@@ -2,10 +2,6 @@
 // Finds the hydrogen bonds and the closest atoms of two sets.
 #pragma once
 
-#include <optional>
-#include <span>
-#include <vector>
-
 #include "core/structure/structure.h"
 
 namespace meniscus {

@@ -3,10 +3,8 @@
 #include "core/structure/martini.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <set>
 
 #include <glm/geometric.hpp>

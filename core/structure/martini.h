@@ -2,12 +2,7 @@
 // Beads of the coarse-grained force field Martini, versions 2 and 3: their types, radii, classes and bonds, by names.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/structure/structure.h"
 

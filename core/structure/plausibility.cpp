@@ -3,16 +3,7 @@
 #include "core/structure/plausibility.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <utility>
-
-#include <fmt/format.h>
-#include <glm/vec3.hpp>
 
 #include "core/base/text.h"
 #include "core/math/vector_loops.h"

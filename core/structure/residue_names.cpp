@@ -4,14 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <map>
 #include <set>
-#include <string_view>
-#include <utility>
 
 #include <gemmi/resinfo.hpp>
 
-#include "core/structure/residue_letters.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of residues and atoms: their class, their canonical spelling, the bonds of their heavy atoms, and which
-// residues are lipids.
+// Names of residues and atoms: their class, their canonical spelling, their letters, the bonds of their heavy atoms,
+// and which residues are lipids.
 #pragma once
 
 #include <cstddef>
@@ -47,5 +47,9 @@ struct Atom;
 /// CHARMM, AMBER Lipid21 (where heads and tails are residues), GROMOS and Martini. Most of these have two letters for
 /// the tails and two for the head, as in POPC. Polymers, water, ions and detergents are not lipids.
 bool is_lipid(std::span<const Atom> residue);
+
+/// Returns the letter of an amino acid or nucleotide, such as 'M' for MET and for the modified MSE. Returns 'X' for a
+/// residue that has none.
+char residue_letter(const std::string& residue_name);
 
 }  // namespace meniscus

@@ -2,15 +2,6 @@
 // Finds hydrogen bonds by energy, turns and bridges by these bonds, and helices and ladders by turns and bridges.
 #include "core/structure/secondary_structure.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <optional>
-
-#include <glm/geometric.hpp>
-
 #include "core/math/ball.h"
 #include "core/structure/structure.h"
 

@@ -2,15 +2,9 @@
 // Describes what happened to the atoms of a file, and groups atoms.
 #include "core/structure/structure.h"
 
-#include <algorithm>
 #include <functional>
-#include <map>
 #include <set>
-#include <string_view>
 #include <tuple>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/text.h"
 #include "core/math/ball.h"

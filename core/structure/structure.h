@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -13,8 +12,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/math/rigid_motion.h"
 

@@ -3,8 +3,6 @@
 #include "core/structure/sugars.h"
 
 #include <algorithm>
-#include <array>
-#include <string>
 
 #include <glm/geometric.hpp>
 

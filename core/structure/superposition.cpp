@@ -5,11 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <set>
-#include <string>
-#include <utility>
 
 #include <gemmi/qcp.hpp>
 #include <gemmi/resinfo.hpp>

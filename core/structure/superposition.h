@@ -2,12 +2,9 @@
 // Least-squares superposition of the same atoms at two positions, or of two molecules by their sequences.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/math/rigid_motion.h"
 

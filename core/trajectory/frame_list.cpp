@@ -5,10 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
-#include <string_view>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -6,10 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
-#include <string>
-#include <utility>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 

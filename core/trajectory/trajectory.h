@@ -2,16 +2,7 @@
 // Trajectories: one file, or several joined, from which frames are read in any order; and the periodic boxes of frames.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
 
 #include "core/structure/structure.h"
 

@@ -2,14 +2,7 @@
 // Runs the stages of one view in order, each a kernel or two, with the buffers that they pass on.
 #include "core/visible_surface/view_pipeline.h"
 
-#include <algorithm>
-#include <array>
 #include <cassert>
-#include <string>
-#include <utility>
-
-#include <glm/common.hpp>
-#include <glm/vec4.hpp>
 
 #include "core/base/error.h"
 #include "core/gpu/program.h"

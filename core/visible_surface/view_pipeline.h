@@ -3,11 +3,6 @@
 // to primitives.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "core/gpu/buffer.h"
 #include "core/gpu/kernel_lists.h"
 #include "core/gpu/kernel_records.h"
@@ -119,7 +114,7 @@ class ViewPipeline final : public Drawable {
   bool arcs_open_ = false,
        primitives_open_ = false;  // true while the host still has to read counts of the current frame
   Buffer atom_arc_first_, atom_arc_rank_, atom_arcs_, marked_arcs_;
-  Buffer convex_clips_;  // uint per atom (convex_clips.glsl)
+  Buffer convex_clips_;  // uint per atom: kByPartners ... of shared/parameters.glsl
   TexelBuffer arc_texels_{TexelFormat::uint4}, atom_arc_first_texels_{TexelFormat::uint1},
       atom_arc_texels_{TexelFormat::uint4}, marked_arc_texels_{TexelFormat::uint4};
   std::uint32_t arc_count_ = 0;  // an upper limit

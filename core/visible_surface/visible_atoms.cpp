@@ -2,17 +2,12 @@
 // Runs the kernels that select what one view can show: by theorem 2, and as the paper does.
 #include "core/visible_surface/visible_atoms.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <string>
-#include <utility>
 
-#include <glm/geometric.hpp>
 #include <tbb/parallel_reduce.h>
 
 #include "core/gpu/kernel_records.h"
-#include "core/queries/surface_point.h"
+#include "core/queries/surface_parts.h"
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
 #include "core/reduced_surface/reduced_surface.h"
 

@@ -6,10 +6,6 @@
 // out.
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <span>
-
 #include "core/gpu/buffer.h"
 #include "core/gpu/kernel_lists.h"
 #include "core/gpu/kernel_records.h"

@@ -4,19 +4,13 @@
 // Cheng et al., J. Struct. Biol. 192, 146, 2015, and CCP4's maplib).
 //
 // gemmi reads them, too, but in the other byte order only floats, and it trusts the header's sizes.
-#include "core/volume/read_volume.h"
+#include "core/volume/volume_grid.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <numbers>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -2,14 +2,8 @@
 // Checks the size of volume grids, and samples them between their points.
 #include "core/volume/volume_grid.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <limits>
-#include <utility>
 
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scalar field on a regular grid in space, such as an electrostatic potential.
+// A scalar field on a regular grid in space, such as an electrostatic potential, and its files.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
 
+#include "core/base/text_file.h"
 #include "core/math/box.h"
 
 namespace meniscus {
@@ -54,5 +48,22 @@ class VolumeGrid {
 /// Throws InputError if an axis has fewer than two points, and CapacityError for more than kMostVolumeValues points.
 /// `path` and `line` are for messages.
 void check_volume_size(const std::string& path, std::size_t line, const std::array<std::int64_t, 3>& size);
+
+/// Reads an OpenDX (as APBS writes it), Gaussian cube or CCP4/MRC file, recognised by its content; gzipped files, too.
+/// Throws InputError with file, line and value, and CapacityError.
+VolumeGrid read_volume(const std::string& path);
+
+/// Reads OpenDX: a grid of regular positions and connections with its values as text. Coordinates are in Å.
+VolumeGrid read_dx(const TextFile& file);
+
+/// Reads a Gaussian cube with one value per point. Lengths are in Bohr, or in Å if the numbers of points are negative.
+VolumeGrid read_cube(const TextFile& file);
+
+/// True if these are the bytes of a CCP4 or MRC 2014 map, recognised by its stamp.
+bool is_ccp4(std::string_view bytes);
+
+/// Reads CCP4/MRC of modes 0, 1, 2 and 6, in both byte orders and with any order of axes. The origin is ORIGIN if that
+/// is not zero (MRC 2014), else NSTART (CCP4).
+VolumeGrid read_ccp4(const std::string& path, std::string_view bytes);
 
 }  // namespace meniscus

@@ -21,8 +21,7 @@ BLEND, CATALOG = "meniscus_assets.blend", "blender_assets.cats.txt"
 #: The identifiers of catalogues, which do not change when a catalogue is renamed.
 NAMES = {
     "materials": uuid.uuid5(uuid.NAMESPACE_URL, "meniscus/materials"),
-    "colours": uuid.uuid5(uuid.NAMESPACE_URL, "meniscus/colours")
-}
+    "colours": uuid.uuid5(uuid.NAMESPACE_URL, "meniscus/colours")}
 
 
 def mark(item, catalog, text, *tags):

@@ -19,8 +19,7 @@ MANIFEST = "blender_manifest.toml"
 #: Blender's names of platforms, and patterns of the tags of their wheels.
 PLATFORMS = {
     "linux-x64": ("*linux*_x86_64",), "linux-arm64": ("*linux*_aarch64",), "windows-x64": ("win_amd64",),
-    "macos-arm64": ("macosx_*_arm64", "macosx_*_universal2"), "macos-x64": ("macosx_*_x86_64", "macosx_*_universal2")
-}
+    "macos-arm64": ("macosx_*_arm64", "macosx_*_universal2"), "macos-x64": ("macosx_*_x86_64", "macosx_*_universal2")}
 LICENSE = 'license = ["SPDX:GPL-3.0-or-later"]'
 LICENSES = 'license = ["SPDX:GPL-3.0-or-later", "SPDX:BSD-3-Clause"]'
 

@@ -16,8 +16,8 @@
 #include "core/queries/surface_object.h"
 #include "core/render/picture.h"
 #include "exporters/blender/mns_file.h"
-#include "exporters/mesh_files/mesh_file.h"
 #include "exporters/mesh_files/mesh_formats.h"
+#include "exporters/mesh_files/writers.h"
 
 namespace meniscus::blender {
 

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes GLB files: a JSON chunk describes the arrays of the binary chunk. Each object has a mesh, a set of arrays, and
 // a node for each of its places.
+#include "core/base/error.h"
+#include "exporters/mesh_files/writers.h"
+
+#ifdef MENISCUS_WITH_JSON
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -10,10 +15,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.h"
 #include "core/base/version.h"
 #include "core/image/color_space.h"
-#include "exporters/mesh_files/writers.h"
 
 namespace meniscus {
 namespace {
@@ -178,3 +181,15 @@ class Builder {
 void write_glb(OutputFile& file, const MeshFile& mesh) { Builder(mesh).write(file); }
 
 }  // namespace meniscus
+
+#else
+
+namespace meniscus {
+
+void write_glb(OutputFile&, const MeshFile&) {
+  throw RequestError("this build writes no GLB files: it was made without nlohmann_json; choose another format");
+}
+
+}  // namespace meniscus
+
+#endif

@@ -6,15 +6,7 @@
 // is taken.
 #include "exporters/mesh_files/mesh_file_maker.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <optional>
-#include <span>
-#include <utility>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "core/base/constants.h"
 #include "core/base/error.h"

@@ -3,19 +3,12 @@
 // solid.
 #pragma once
 
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/mesh/mesh_objects.h"
 #include "core/mesh/weld.h"
 #include "core/queries/surface_object.h"
-#include "exporters/mesh_files/mesh_file.h"
 #include "exporters/mesh_files/mesh_formats.h"
 #include "exporters/mesh_files/vertex_numbers.h"
+#include "exporters/mesh_files/writers.h"
 
 namespace meniscus {
 

@@ -2,10 +2,7 @@
 // Lists the formats of mesh files, finds one by its name or ending, and writes a file in it.
 #include "exporters/mesh_files/mesh_formats.h"
 
-#include <algorithm>
-#include <array>
 #include <cctype>
-#include <utility>
 
 #include "core/base/system_file.h"
 #include "exporters/mesh_files/writers.h"

@@ -2,12 +2,8 @@
 // The table of the formats of mesh files, with the name, the features and the writer of each.
 #pragma once
 
-#include <span>
-#include <string>
-#include <string_view>
-
 #include "core/base/output_file.h"
-#include "exporters/mesh_files/mesh_file.h"
+#include "exporters/mesh_files/writers.h"
 
 namespace meniscus {
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes USD as text: a mesh for each object, its instances, and a material with looks as variants. A run has samples
 // of everything at each frame.
-#include <algorithm>
-#include <array>
 #include <cctype>
 #include <limits>
 #include <set>
-#include <utility>
 
 #include <fmt/compile.h>
 #include <glm/common.hpp>

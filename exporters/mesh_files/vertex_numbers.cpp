@@ -2,19 +2,11 @@
 // Fills the columns of numbers that vertices of a mesh file may have.
 #include "exporters/mesh_files/vertex_numbers.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
-#include <fmt/format.h>
-
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/mesh/mesh_attributes.h"
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/triangle_mesh.h"
-#include "core/queries/surface_point.h"
+#include "core/queries/surface_parts.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/structure.h"
 #include "core/surface/measure.h"

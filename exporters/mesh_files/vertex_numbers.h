@@ -2,16 +2,11 @@
 // The numbers that vertices of a mesh may have in files: properties of the surface, of the atom, of the residue.
 #pragma once
 
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "core/color/coloring.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/surface/primitives.h"
-#include "exporters/mesh_files/mesh_file.h"
 #include "exporters/mesh_files/mesh_formats.h"
+#include "exporters/mesh_files/writers.h"
 
 namespace meniscus {
 

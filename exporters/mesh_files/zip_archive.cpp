@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Makes zip archives, and the two mesh formats that are zip archives: 3MF and USDZ.
+#include "core/base/error.h"
+#include "exporters/mesh_files/writers.h"
+
+#ifdef MENISCUS_WITH_DEFLATE
+
 #include "exporters/mesh_files/zip_archive.h"
 
 #include <algorithm>
@@ -17,9 +22,7 @@
 #include <fmt/format.h>
 #include <libdeflate.h>
 
-#include "core/base/error.h"
 #include "core/base/version.h"
-#include "exporters/mesh_files/writers.h"
 
 namespace meniscus {
 namespace {
@@ -229,3 +232,24 @@ void write_usdz_run(OutputFile& file, std::span<const MeshFile> frames, const Ru
 }
 
 }  // namespace meniscus
+
+#else
+
+namespace meniscus {
+
+namespace {
+
+[[noreturn]] void refuse(std::string_view format) {
+  throw RequestError(
+      fmt::format("this build writes no {} files: it was made without libdeflate; choose another format", format));
+}
+
+}  // namespace
+
+void write_3mf(OutputFile&, const MeshFile&) { refuse("3MF"); }
+void write_usdz(OutputFile&, const MeshFile&) { refuse("USDZ"); }
+void write_usdz_run(OutputFile&, std::span<const MeshFile>, const RunTimes&) { refuse("USDZ"); }
+
+}  // namespace meniscus
+
+#endif

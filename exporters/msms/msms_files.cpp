@@ -2,16 +2,8 @@
 // Numbers vertices, triangles and faces like MSMS 2.6, and writes them column by column.
 #include "exporters/msms/msms_files.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <span>
-
 #include <fmt/compile.h>
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "core/base/constants.h"
 #include "core/base/version.h"

@@ -2,14 +2,7 @@
 // Meshes of components as MSMS numbers them, and the text of its .vert, .face and .area files.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <memory>
-#include <span>
 #include <string>
-#include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/surface/measure.h"
 #include "core/surface/reduced_components.h"

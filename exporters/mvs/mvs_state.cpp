@@ -2,8 +2,6 @@
 // Writes scenes as trees of MolViewSpec's nodes, and puts them into an archive.
 #include "exporters/mvs/mvs_state.h"
 
-#include <array>
-#include <cmath>
 #include <map>
 #include <numbers>
 

@@ -2,12 +2,6 @@
 // Views in MolViewSpec, which Mol* and other viewers draw: meshes with colours, spheres, cylinders, a camera.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <string>
-#include <vector>
-
 #include <nlohmann/json.hpp>
 
 #include "exporters/path_tracers/path_tracer_scene.h"

@@ -4,19 +4,13 @@
 #include "exporters/path_tracers/path_tracer_scene.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <numbers>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "core/base/version.h"
-#include "exporters/path_tracers/lights.h"
 
 namespace meniscus::path_tracers {
 namespace {

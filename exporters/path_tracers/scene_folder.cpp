@@ -2,26 +2,14 @@
 // Makes the items of a scene from surfaces and shapes, and writes the scene and its meshes, all or none.
 #include "exporters/path_tracers/scene_folder.h"
 
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <optional>
-#include <string>
 #include <tuple>
 #include <unordered_map>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/image/color_space.h"
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/mesh_objects.h"
 #include "exporters/mesh_files/writers.h"
-#include "exporters/path_tracers/lights.h"
 #include "exporters/path_tracers/path_tracer_scene.h"
 
 namespace meniscus::path_tracers {

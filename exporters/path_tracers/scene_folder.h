@@ -2,15 +2,6 @@
 // Turns surfaces and shapes into a scene in a folder: its text, and a PLY file for each mesh or for each colour.
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/base/output_file.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/queries/surface_object.h"

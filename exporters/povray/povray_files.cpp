@@ -3,19 +3,12 @@
 // own scene.
 #include "exporters/povray/povray_files.h"
 
-#include <algorithm>
-#include <cmath>
 #include <set>
-#include <vector>
-
-#include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include "core/base/text.h"
 #include "core/base/version.h"
-#include "exporters/povray/scene_colors.h"
-#include "exporters/povray/scene_report.h"
 #include "exporters/povray/scene_text.h"
+#include "exporters/povray/surface_pieces.h"
 
 namespace meniscus::povray {
 namespace {

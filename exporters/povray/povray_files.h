@@ -3,21 +3,11 @@
 // user's own scene.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/camera/camera.h"
 #include "core/color/color_maps.h"
 #include "core/math/box.h"
 #include "exporters/povray/povray_options.h"
-#include "exporters/povray/scene_colors.h"
+#include "exporters/povray/scene_text.h"
 
 namespace meniscus::povray {
 

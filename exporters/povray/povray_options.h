@@ -2,14 +2,6 @@
 // The options of a scene, and the report of what was written.
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/base/output_file.h"
 #include "core/color/color_key.h"
 #include "core/queries/surface_object.h"

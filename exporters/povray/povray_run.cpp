@@ -3,13 +3,8 @@
 // pictures.
 #include "exporters/povray/povray_run.h"
 
-#include <algorithm>
-#include <array>
 #include <iterator>
-#include <string_view>
-#include <utility>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
@@ -18,9 +13,8 @@
 #include "core/base/text.h"
 #include "core/color/color_key_json.h"
 #include "exporters/povray/povray_files.h"
-#include "exporters/povray/scene_colors.h"
-#include "exporters/povray/scene_report.h"
 #include "exporters/povray/scene_text.h"
+#include "exporters/povray/surface_pieces.h"
 
 namespace meniscus::povray {
 

@@ -3,23 +3,13 @@
 // film of its pictures.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/camera/camera.h"
 #include "core/color/color_maps.h"
 #include "core/math/box.h"
 #include "exporters/povray/povray_files.h"
 #include "exporters/povray/povray_options.h"
 #include "exporters/povray/povray_scene.h"
-#include "exporters/povray/scene_colors.h"
+#include "exporters/povray/scene_text.h"
 
 namespace meniscus::povray {
 

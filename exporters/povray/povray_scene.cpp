@@ -2,18 +2,12 @@
 // Checks what goes into a scene, gathers its colours in one order, and writes its folder.
 #include "exporters/povray/povray_scene.h"
 
-#include <array>
-#include <string>
-#include <string_view>
-
-#include <fmt/format.h>
-
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "exporters/povray/povray_files.h"
-#include "exporters/povray/scene_colors.h"
-#include "exporters/povray/scene_report.h"
 #include "exporters/povray/scene_shapes.h"
+#include "exporters/povray/scene_text.h"
+#include "exporters/povray/surface_pieces.h"
 
 namespace meniscus::povray {
 

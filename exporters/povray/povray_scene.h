@@ -2,25 +2,15 @@
 // A folder with a POV-Ray 3.7 scene of surfaces: the analytic patches themselves, never triangles.
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
-#include <functional>
 #include <list>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/base/output_file.h"
 #include "core/camera/camera.h"
 #include "core/queries/surface_object.h"
 #include "exporters/povray/povray_files.h"
 #include "exporters/povray/povray_options.h"
-#include "exporters/povray/scene_colors.h"
 #include "exporters/povray/scene_shapes.h"
+#include "exporters/povray/scene_text.h"
 #include "exporters/povray/surface_pieces.h"
 
 namespace meniscus::povray {

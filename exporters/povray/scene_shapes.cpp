@@ -2,17 +2,6 @@
 // Cuts the objects of a scene by planes, and writes caps and shapes grouped by colour.
 #include "exporters/povray/scene_shapes.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <map>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include "core/base/text.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/queries/copies.h"

@@ -2,18 +2,12 @@
 // Caps of cut surfaces as flat meshes, and spheres, cylinders and meshes drawn in addition to surfaces.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/base/output_file.h"
 #include "core/camera/camera.h"
 #include "core/mesh/section_mesh.h"
 #include "core/queries/surface_object.h"
 #include "exporters/povray/povray_options.h"
-#include "exporters/povray/scene_colors.h"
+#include "exporters/povray/scene_text.h"
 
 namespace meniscus::povray {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text in POV-Ray's scene language: constant templates, and a writer for numbers and vectors.
+// Text in POV-Ray's scene language: templates, numbers, vectors, and the colours of a scene: distinct colours with
+// their pieces of patches, comments that name them, and volume maps.
 #pragma once
 
-#include <span>
-#include <string>
-#include <string_view>
-
-#include <glm/vec3.hpp>
+#include <tuple>
 
 #include "core/base/text.h"
+#include "core/color/color_key.h"
+#include "core/color/color_maps.h"
+#include "core/color/coloring.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -60,5 +60,88 @@ class SceneText {
   SceneText& fixed(double value, int decimals);
   std::string text_;
 };
+
+/// The shown part of one patch that has one colour.
+struct ColoredPiece {
+  PatchKind kind = PatchKind::convex;
+  std::uint32_t color = 0;  ///< index into ColorTable::colors()
+  std::uint32_t part = 0;   ///< the piece belongs to the atoms with this number in Palette::atom_part
+  std::uint32_t patch = 0;  ///< index into the patch table of its kind
+  bool by_map = false;      ///< SceneColor::by_map of its colour
+};
+
+/// A colour of a scene together with its opacity and its finish. Two colours are the same if all members are.
+struct SceneColor {
+  glm::vec3 color{0.0f};     ///< sRGB
+  float opacity = 1.0f;      ///< in [0, 1]
+  bool by_map = false;       ///< true if points have the colours of the scene's volume map wherever it has values
+  bool film = false;         ///< true if it is denser at grazing angles; has an effect for opacities below 1 only
+  std::uint32_t finish = 0;  ///< 0: the finish of the scene; n: the n-th material of objects, from 1
+};
+
+/// The distinct colours of a scene.
+class ColorTable {
+ public:
+  /// Returns the number of a colour, from 0 in order of first use, and adds the colour if it is new.
+  std::uint32_t number(SceneColor color);
+  /// Returns each colour once, in the order of the numbers.
+  const std::vector<SceneColor>& colors() const { return colors_; }
+  /// True if the opacity of some colour is less than 1.
+  bool is_translucent() const;
+
+ private:
+  std::map<std::tuple<float, float, float, float, bool, bool, std::uint32_t>, std::uint32_t> number_;
+  std::vector<SceneColor> colors_;
+};
+
+/// The properties that all colours of one object of a scene share.
+struct ObjectStyle {
+  bool film = false;         ///< SceneColor::film
+  std::uint32_t finish = 0;  ///< SceneColor::finish
+};
+
+/// Returns the colour of the points of an atom. `color` replaces the atom's colour, and a volume map then does not
+/// apply.
+SceneColor scene_color(const Coloring& coloring, std::uint32_t atom, const ObjectStyle& style,
+                       const std::optional<glm::vec3>& color = {});
+
+/// All pieces of one surface in the order in which they are written: by kind, then colour, then patch.
+struct Palette {
+  /// The part of each atom; kNone if it is hidden. Patches are cut between atoms of different parts.
+  std::vector<std::uint32_t> atom_part;
+  std::vector<ColoredPiece> pieces;
+};
+
+/// Returns the pieces of a surface and adds their colours to `table`. Patches without a face, toroidal and concave
+/// patches for a probe of radius 0, and parts of hidden atoms have no piece. Throws Error if the coloring does not have
+/// one colour per atom.
+Palette make_palette(const Surface& surface, const Coloring& coloring, ColorTable& table,
+                     const ObjectStyle& style = {});
+
+/// Returns the name if it is harmless, and an empty text otherwise. A harmless name has at most 40 bytes and consists
+/// of ASCII letters and digits, blanks between them, and the characters _ ' * + - . , ( ), which occur in names of
+/// atoms and classes. No other name is ever written into a scene.
+std::string_view harmless_name(std::string_view name);
+
+/// Returns the names of a colour in the key as a comment, such as "  // chain A, C", with at most five names. The
+/// result is empty if the colour has no harmless name.
+std::string color_comment(const ColorKey& key, const SceneColor& color);
+
+/// Returns a line with the kind of a piece and its atoms: "// toroidal A ARG 34 CA; A ARG 34 CB". atoms: indices into
+/// `names`. A name that is not harmless becomes "?".
+std::string piece_comment(PatchKind kind, std::span<const std::uint32_t> atoms, std::span<const std::string> names);
+
+/// The end of the map file's name, after the name of the scene.
+inline constexpr std::string_view kMapFileEnding = "_map.df3";
+
+/// Writes the values as a density file (df3) of POV-Ray: integers of 32 bits that span the range from the least value
+/// to the greatest. Fewer bits would not do, because potentials inside molecules are far greater than the range of
+/// colours. Throws RequestError for more than 65,535 points along an axis, the most that the format can count.
+void write_density(const VolumeGrid& grid, const std::function<void(std::string_view)>& write);
+
+/// Appends the colours of the map and the function Meniscus_Map(x,y,z), which returns 0 outside of the map and a place
+/// in the colours inside it. file: the name of the file that write_density() wrote. origin: the origin of the scene's
+/// coordinates, in Å.
+void append_map(SceneText& out, const VolumePaint& paint, std::string_view file, const glm::dvec3& origin);
 
 }  // namespace meniscus::povray

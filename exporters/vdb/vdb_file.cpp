@@ -2,14 +2,8 @@
 // Writes the tree of a level set: a root, nodes of 32 x 32 x 32 nodes, nodes of 16 x 16 x 16 blocks, blocks of voxels.
 #include "exporters/vdb/vdb_file.h"
 
-#include <array>
-#include <bit>
 #include <bitset>
-#include <cmath>
-#include <cstdint>
 #include <map>
-#include <span>
-#include <string_view>
 
 #include <glm/common.hpp>
 

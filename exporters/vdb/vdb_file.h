@@ -2,8 +2,6 @@
 // Writes level sets as OpenVDB files.
 #pragma once
 
-#include <string>
-
 #include "core/base/output_file.h"
 #include "core/queries/distance.h"
 

@@ -2,12 +2,11 @@
 // Tests if a point of a sphere or a torus belongs to the surface, and finds the atom whose colour the point has.
 //
 // Written in the common subset of GLSL and C++ with GLM. The includer defines real, real2, real3, GEOMETRY,
-// GEOMETRY_OUT and GEOMETRY_INOUT. The types of shared/lane.glsl may be packets in C++. `slack` (Å, >= 0) widens a
-// patch past its borders, so that neighbouring patches overlap and no ray passes between them. The surface is smooth
-// across contact circles and edges, so the height of the overlap is only slack^2 / radius.
+// GEOMETRY_OUT and GEOMETRY_INOUT. The types of reduced_surface/precision.glsl may be packets in C++. `slack` (Å, >= 0)
+// widens a patch past its borders, so that neighbouring patches overlap and no ray passes between them. The surface is
+// smooth across contact circles and edges, so the height of the overlap is only slack^2 / radius.
 #ifndef MENISCUS_GEOMETRY_PATCH_MEMBERSHIP_GLSL
 #define MENISCUS_GEOMETRY_PATCH_MEMBERSHIP_GLSL
-#include "gpu_shaders/shared/lane.glsl"
 
 // True if x is inside a plane. x: point relative to the origin of the plane; slack: Å.
 GEOMETRY truth in_half_space(real3 x, real3 normal, real offset, real slack) {

@@ -4,7 +4,6 @@
 #define MENISCUS_LOOK_BLOCK_TEXELS_GLSL
 #include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
-#include "gpu_shaders/shared/lane.glsl"
 #include "gpu_shaders/ray_cast/parameters.glsl"
 
 layout(binding = 0) uniform usamplerBuffer hit_texels;  // two texels each: struct Hit of ray_cast/records.glsl

@@ -22,13 +22,10 @@ float shade_depth_or_nothing(ivec2 pixel) {
 
 vec3 shade_seen_at(ivec2 pixel, float depth) { return seen_at(place_of(pixel), depth, pixel_size_at(depth)); }
 
-#include "gpu_shaders/ray_cast/sheen.glsl"
-#include "gpu_shaders/ray_cast/studio_light.glsl"
-#include "gpu_shaders/look/finish.glsl"
-
 int mark_at(ivec2 pixel) { return int(texelFetch(mark_texels, index_of(pixel)).x); }
 
-#include "gpu_shaders/look/finished_sample.glsl"
+#include "gpu_shaders/ray_cast/studio_light.glsl"
+#include "gpu_shaders/look/finish.glsl"
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A hash table with linear probing that finds the RS face of a triple of atoms.
-// To be included after probe_record.glsl and triple.glsl.
+// To be included after triple.glsl.
 #include "gpu_shaders/shared/constants.glsl"
-#include "gpu_shaders/paper_selection/parameters.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 layout(std430, binding = 2) buffer FaceTable { uint face_table[]; };  // face + 1, or 0 if the place is empty
 layout(std430, binding = 3) readonly buffer Probes { ProbeRecord probes[]; };

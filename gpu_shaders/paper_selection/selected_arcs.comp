@@ -8,10 +8,10 @@
 #version 450 core
 layout(local_size_x = 64) in;
 #define DOUBLE_PRECISION
-#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
-#include "gpu_shaders/shared/probe_record.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 #include "gpu_shaders/geometry/triple.glsl"
 #include "gpu_shaders/paper_selection/face_table.glsl"
 

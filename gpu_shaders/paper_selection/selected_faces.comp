@@ -4,9 +4,8 @@
 // counters. One invocation per probe. Overflow: none, the copies have room for all faces.
 #version 450 core
 layout(local_size_x = 64) in;
-#include "gpu_shaders/shared/linear_index.glsl"
-#include "gpu_shaders/shared/probe_record.glsl"
-#include "gpu_shaders/paper_selection/parameters.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 layout(std430, binding = 0) readonly buffer Selected { uint selected[]; };
 layout(std430, binding = 1) readonly buffer ProbeBalls { vec4 probe_balls[]; };

@@ -6,10 +6,9 @@
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.3.
 #version 450 core
 layout(local_size_x = 32) in;
-#include "gpu_shaders/shared/linear_index.glsl"
-#include "gpu_shaders/shared/probe_record.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 #include "gpu_shaders/paper_selection/pixel_ray.glsl"
-#include "gpu_shaders/paper_selection/parameters.glsl"
 
 layout(std430, binding = 0) readonly buffer Balls { vec4 balls[]; };  // relative to the middle of the atoms
 layout(std430, binding = 1) buffer PixelDepths { uint pixel_depths[]; };

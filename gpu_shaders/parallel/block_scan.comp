@@ -9,8 +9,8 @@
 // Based on: Hillis & Steele 1986, within a group; Blelloch 1990, between groups.
 #version 450 core
 layout(local_size_x = 256) in;
-#include "gpu_shaders/shared/linear_index.glsl"
-#include "gpu_shaders/parallel/parameters.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 layout(std430, binding = 0) buffer Words { uint words[]; };
 layout(std430, binding = 1) buffer Totals { uint totals[]; };

@@ -4,14 +4,14 @@
 // core/render/ray_cast_scene.cpp on the host.
 #include "gpu_shaders/geometry/patch_bounds.glsl"
 #include "gpu_shaders/ray_cast/records.glsl"
-#include "gpu_shaders/primitives/parameters.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 layout(std430, binding = 2) writeonly buffer Primitives { Primitive primitives[]; };
 layout(std430, binding = 3) writeonly buffer Rows { vec4 rows[]; };
 layout(std430, binding = 4) buffer Counters {
   uint primitive_count;
   uint row_count;
-  uint cut_short;    // loop_guard.glsl
+  uint cut_short;    // loops_cut_short()
   uint probe_count;  // read only
 };
 layout(std140, binding = kPrimitiveBinding) uniform PrimitiveBlock { PrimitiveParameters scene; };

@@ -3,8 +3,8 @@
 // Reads: arcs. Writes: atom_arc_first (counts, then scanned), rank, atom_arcs. One invocation per arc. Overflow: none.
 #version 450 core
 layout(local_size_x = 64) in;
-#include "gpu_shaders/shared/linear_index.glsl"
-#include "gpu_shaders/primitives/parameters.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 layout(binding = 0) uniform usamplerBuffer arcs;  // i, j, begin_by, end_by
 layout(std430, binding = 0) buffer AtomArcFirst { uint atom_arc_first[]; };

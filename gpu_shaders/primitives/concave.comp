@@ -6,13 +6,12 @@
 #version 450 core
 layout(local_size_x = 64) in;
 #define DOUBLE_PRECISION
-#include "gpu_shaders/shared/linear_index.glsl"
-#include "gpu_shaders/shared/loop_guard.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/geometry/circle.glsl"
 #include "gpu_shaders/geometry/fixed_probe.glsl"
 #include "gpu_shaders/geometry/polygon_reach.glsl"
-#include "gpu_shaders/shared/probe_record.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 #include "gpu_shaders/primitives/append_primitive.glsl"
 
 layout(std430, binding = 0) readonly buffer Atoms { dvec4 atoms[]; };  // centre, decision weight

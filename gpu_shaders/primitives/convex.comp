@@ -7,14 +7,13 @@
 #version 450 core
 layout(local_size_x = 64) in;
 #define DOUBLE_PRECISION
-#include "gpu_shaders/shared/linear_index.glsl"
-#include "gpu_shaders/shared/loop_guard.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/geometry/circle.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
 #include "gpu_shaders/primitives/append_primitive.glsl"
-#include "gpu_shaders/primitives/convex_clips.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 layout(std430, binding = 0) readonly buffer Atoms { dvec4 atoms[]; };   // centre, decision weight
 layout(std430, binding = 1) readonly buffer Radii { double radii[]; };  // van der Waals

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the entry of an invocation in the lists of arcs around atoms. There is one invocation per arc and side.
-#include "gpu_shaders/shared/linear_index.glsl"
-#include "gpu_shaders/primitives/parameters.glsl"
-#include "gpu_shaders/primitives/convex_clips.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 layout(binding = 0) uniform usamplerBuffer atom_arc_first;
 layout(binding = 1) uniform usamplerBuffer atom_arcs;  // partner, begin_by, end_by, and a mark after partners.comp

@@ -5,7 +5,7 @@
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/constants.glsl"
-#include "gpu_shaders/shared/loop_guard.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/primitives/listed_arc.glsl"
 
 layout(std430, binding = 0) writeonly buffer MarkedArcs { uvec4 marked_arcs[]; };  // partner, begin_by, end_by, mark

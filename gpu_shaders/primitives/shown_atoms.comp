@@ -3,10 +3,9 @@
 // Reads: kept atoms, radii, depths. Writes: clips (zeros before). One invocation per kept atom. Overflow: none.
 #version 450 core
 layout(local_size_x = 64) in;
-#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
-#include "gpu_shaders/primitives/parameters.glsl"
-#include "gpu_shaders/primitives/convex_clips.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 #include "gpu_shaders/visibility/begins_in_front.glsl"
 
 layout(std430, binding = 0) readonly buffer Atoms { dvec4 atoms[]; };   // centre, decision weight

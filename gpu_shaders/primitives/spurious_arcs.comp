@@ -7,7 +7,7 @@
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/constants.glsl"
-#include "gpu_shaders/shared/loop_guard.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/reduced_surface/exposed_arcs.glsl"
 #include "gpu_shaders/primitives/listed_arc.glsl"

@@ -6,7 +6,7 @@
 #version 450 core
 layout(local_size_x = 64) in;
 #define DOUBLE_PRECISION
-#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/reduced_surface/arc_ends.glsl"
 #include "gpu_shaders/geometry/rolling_arc.glsl"

@@ -3,7 +3,7 @@
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/constants.glsl"
-#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/ray_cast/records.glsl"
 #include "gpu_shaders/ray_cast/parameters.glsl"
 

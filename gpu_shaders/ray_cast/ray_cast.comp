@@ -4,14 +4,13 @@
 // tile_lists.comp lists the primitives that may be visible in each tile, by slices of their nearest distance. Rays stop
 // at the first slice that begins behind their hits. The first sample goes through the pixel's centre and writes the
 // exact point. SOME_HIDDEN is defined if points of hidden atoms are not hits. Invocations whose loops a driver cuts
-// short (long lists, loop_guard.glsl) write only that they are unfinished. With RESUMED, these traverse their lists
+// short (long lists, dispatch.glsl) write only that they are unfinished. With RESUMED, these traverse their lists
 // again, in one pass for each `part_length` entries.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "gpu_shaders/shared/constants.glsl"
-#include "gpu_shaders/shared/linear_index.glsl"
-#include "gpu_shaders/shared/loop_guard.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/geometry/ray_shapes.glsl"
@@ -75,10 +74,8 @@ const bool some_hidden = false;
 #endif
 truth shows(uint atom) { return atom_color[atom].a > 0.0; }
 
-#include "gpu_shaders/ray_cast/touched_atom.glsl"
 #include "gpu_shaders/ray_cast/patch_hits.glsl"
 #include "gpu_shaders/ray_cast/intersect.glsl"
-#include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/ray_cast/studio_light.glsl"
 #include "gpu_shaders/ray_cast/shade.glsl"
 

@@ -2,7 +2,7 @@
 // Computes the normal and the atom of a hit, and applies studio light to its colour.
 //
 // Written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where points may be packets with a common
-// primitive. The includer provides everything that touched_atom.glsl needs, sheen.glsl, `view` and `params`.
+// primitive. The includer provides patch_hits.glsl and studio_light.glsl.
 
 struct SurfacePoint {
   real3 normal;  // towards the solvent

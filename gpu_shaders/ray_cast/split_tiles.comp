@@ -3,7 +3,7 @@
 // kernel cannot return early.
 #version 450 core
 layout(local_size_x = 64) in;
-#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/ray_cast/depth_slices.glsl"
 
 layout(binding = 0) uniform usamplerBuffer slot_ends;

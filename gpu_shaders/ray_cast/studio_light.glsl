@@ -2,8 +2,8 @@
 // Computes studio light on a surface with normal n. All directions are in the camera's axes (x right, y up, z towards
 // the camera).
 //
-// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu). The includer provides sheen.glsl, and `params`
-// with the numbers of the lamps, of RayCastParameters or FinishParameters.
+// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu). The includer provides `params` with the
+// numbers of the lamps, of RayCastParameters or FinishParameters.
 
 // The part of the key light that reaches a point.
 struct KeyLight {
@@ -33,6 +33,12 @@ GEOMETRY real3 matt_light(real3 n, real3 to_camera, KeyLight key) {
   // A share of the ambient light comes from the lamp, so there is less of it in the lamp's shadow.
   if (params.ambient > 0.0) light = mix(light, real3(1.0 - params.key_share * (1.0 - key.open)), real(params.ambient));
   return light;
+}
+
+// Returns the Blinn-Phong highlight of a surface with normal n.
+GEOMETRY real sheen(real3 n, real3 to_camera, vec3 key_direction, float strength, float specular, float shininess) {
+  real3 half_way = normalize(key_direction + to_camera);
+  return strength * (specular * pow(max(dot(n, half_way), 0.0), shininess));
 }
 
 // Returns a colour in studio light with a highlight.

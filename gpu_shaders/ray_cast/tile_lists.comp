@@ -7,7 +7,7 @@
 //         the host makes the frame again.
 #version 450 core
 layout(local_size_x = 64) in;
-#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/ray_cast/depth_slices.glsl"
 #include "gpu_shaders/ray_cast/records.glsl"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The uniform grid over atom centres, for all kernels that search for neighbours.
-#include "gpu_shaders/reduced_surface/parameters.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 layout(std140, binding = kCellGridBinding) uniform CellGridBlock { CellGrid grid; };
 

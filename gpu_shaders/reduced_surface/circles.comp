@@ -6,13 +6,12 @@
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.3 (potential RS faces), by circles instead of triples.
 #version 450 core
 layout(local_size_x = 64) in;
-#include "gpu_shaders/shared/linear_index.glsl"
-#include "gpu_shaders/shared/loop_guard.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/reduced_surface/exposed_arcs.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
-#include "gpu_shaders/reduced_surface/parameters.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 // The entry of atom i, and the place of j in its neighbour list.
 layout(std430, binding = 0) readonly buffer Circles { uvec2 circles[]; };

@@ -7,13 +7,12 @@
 #version 450 core
 layout(local_size_x = 64) in;
 #define DOUBLE_PRECISION
-#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/reduced_surface/arc_ends.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
-#include "gpu_shaders/shared/probe_record.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 #include "gpu_shaders/visibility/begins_in_front.glsl"
-#include "gpu_shaders/reduced_surface/parameters.glsl"
 
 layout(std430, binding = 2) writeonly buffer Probes { ProbeRecord probes[]; };
 layout(std430, binding = 3) writeonly buffer ProbeBalls { vec4 probe_balls[]; };  // relative to the atoms' middle, p

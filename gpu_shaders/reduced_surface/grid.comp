@@ -4,7 +4,7 @@
 // every array has its final size.
 #version 450 core
 layout(local_size_x = 64) in;
-#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/reduced_surface/cell_grid.glsl"
 
 layout(std430, binding = 0) readonly buffer Atoms { vec4 atoms[]; };  // relative to the molecule's middle, SAS radius

@@ -7,8 +7,7 @@
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.3 (neighbourhood grid).
 #version 450 core
 layout(local_size_x = 64) in;
-#include "gpu_shaders/shared/linear_index.glsl"
-#include "gpu_shaders/shared/loop_guard.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/reduced_surface/cell_grid.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
 

@@ -4,9 +4,9 @@
 // scans stop at the capacity; the host makes the frame again.
 #version 450 core
 layout(local_size_x = 64) in;
-#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
-#include "gpu_shaders/reduced_surface/parameters.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 layout(std430, binding = 0) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 1) readonly buffer NeighborLabels { uint neighbor_labels[]; };

@@ -15,3 +15,14 @@ const float kUnitRoundoff = 5.9604645e-8;
 #define GEOMETRY
 #define GEOMETRY_OUT(type) out type
 #define GEOMETRY_INOUT(type) inout type
+
+// Types and functions for values that differ from ray to ray. In a kernel they are single values. Where C++ compiles
+// the same source, they may be packets of values, defined in core/render/ray_geometry.h and core/render/cpu/packet.h; a
+// pixel_row is then a row of adjacent pixels. Values that are the same for all rays have GLSL's own types.
+#define truth bool
+#define integer int
+#define integer2 ivec2
+#define pixel_row ivec2
+#define natural uint
+#define select(condition, yes, no) ((condition) ? (yes) : (no))
+#define some(condition) (condition)

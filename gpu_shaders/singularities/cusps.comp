@@ -6,13 +6,11 @@
 // circles.
 #version 450 core
 layout(local_size_x = 64) in;
-#include "gpu_shaders/shared/linear_index.glsl"
-#include "gpu_shaders/shared/loop_guard.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/shared/constants.glsl"
-#include "gpu_shaders/singularities/records.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/reduced_surface/exposed_arcs.glsl"
-#include "gpu_shaders/singularities/parameters.glsl"
 
 layout(std430, binding = 0) readonly buffer Circles { uvec2 circles[]; };  // probe s, place of probe t in its list
 layout(std430, binding = 1) readonly buffer NeighborFirst { uint neighbor_first[]; };

@@ -6,11 +6,10 @@
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.4 (singularity handling), with every probe within two radii.
 #version 450 core
 layout(local_size_x = 64) in;
-#include "gpu_shaders/shared/linear_index.glsl"
-#include "gpu_shaders/singularities/records.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/geometry/polygon_reach.glsl"
-#include "gpu_shaders/singularities/parameters.glsl"
 
 layout(std430, binding = 0) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 1) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };

@@ -3,10 +3,10 @@
 #version 450 core
 layout(local_size_x = 64) in;
 #define DOUBLE_PRECISION
-#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/reduced_surface/exposed_arcs.glsl"
-#include "gpu_shaders/test_support/parameters.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 struct Answer {
   uvec4 counted;  // number of arcs, 1 if the circle is whole, 1 if it is in doubt, unused

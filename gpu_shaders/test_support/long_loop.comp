@@ -2,8 +2,8 @@
 // Test kernel: counts in two nested loops, and reports if they were cut short.
 #version 450 core
 layout(local_size_x = 1) in;
-#include "gpu_shaders/shared/loop_guard.glsl"
-#include "gpu_shaders/test_support/parameters.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 layout(std430, binding = 0) writeonly buffer Found { uint counted; uint cut_short; };
 layout(std140, binding = 0) uniform Parameters { LoopParameters params; };

@@ -2,13 +2,13 @@
 // Test kernel: the ray caster's geometry functions in single precision, with one query per invocation.
 #version 450 core
 layout(local_size_x = 64) in;
-#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/geometry/ray_shapes.glsl"
 #include "gpu_shaders/geometry/torus_hits.glsl"
 #include "gpu_shaders/geometry/patch_membership.glsl"
-#include "gpu_shaders/test_support/parameters.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 struct Query {
   vec4 origin_major;

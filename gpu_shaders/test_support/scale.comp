@@ -5,8 +5,8 @@
 #define FACTOR 1
 #endif
 layout(local_size_x = 64) in;
-#include "gpu_shaders/shared/linear_index.glsl"
-#include "gpu_shaders/test_support/parameters.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 layout(std430, binding = 0) buffer Words { uint words[]; };
 layout(std430, binding = 1) buffer Counters { uint surplus; };

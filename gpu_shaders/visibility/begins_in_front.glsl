@@ -5,7 +5,7 @@
 layout(binding = 4) uniform usamplerBuffer tile_depths;   // floats
 layout(binding = 5) uniform usamplerBuffer block_depths;  // floats
 
-// The greatest number of blocks that are tested one by one, because drivers limit loops (loop_guard.glsl).
+// The greatest number of blocks that are tested one by one, because drivers limit loops (dispatch.glsl).
 const int kMostSteps = 8192;
 
 // True if a ray of the picture may enter the ball in front of the vdW spheres. It returns false only if no ray does:

@@ -4,7 +4,7 @@
 // Reads: balls, balls_low, tile_depths, block_depths. Writes: before, kept. One invocation per atom. Overflow: none.
 #version 450 core
 layout(local_size_x = 64) in;
-#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/visibility/begins_in_front.glsl"
 
 layout(std430, binding = 0) readonly buffer Balls { vec4 balls[]; };         // relative to the atoms' middle, SAS radius

@@ -6,7 +6,7 @@
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.2 (visible atoms), with blocks of rays instead of single ones.
 #version 450 core
 layout(local_size_x = 32) in;
-#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/visibility/view.glsl"
 
 layout(std430, binding = 0) readonly buffer Balls { vec4 balls[]; };  // relative to the middle of the atoms, SAS radius

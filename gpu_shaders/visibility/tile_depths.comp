@@ -3,7 +3,7 @@
 // Reads: block_depths. Writes: tile_depths. One invocation per tile. Overflow: none.
 #version 450 core
 layout(local_size_x = 64) in;
-#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/dispatch.glsl"
 #include "gpu_shaders/visibility/view.glsl"
 
 layout(std430, binding = 0) readonly buffer BlockDepths { uint block_depths[]; };

@@ -6,7 +6,7 @@
 // from the eye (orthographic: from the plane through it). Pixels are counted from the middle of the picture.
 #include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/shared/tangent_slopes.glsl"
-#include "gpu_shaders/visibility/parameters.glsl"
+#include "gpu_shaders/shared/parameters.glsl"
 
 layout(std140, binding = kViewBinding) uniform ViewBlock { View view; };
 

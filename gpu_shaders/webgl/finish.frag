@@ -24,10 +24,8 @@ vec3 shade_seen_at(ivec2 pixel, float depth) { return seen_at(place_of(pixel), d
 
 int mark_at(ivec2 pixel) { return int(texelFetch(what_texels, pixel, 0).z); }
 
-#include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/ray_cast/studio_light.glsl"
 #include "gpu_shaders/look/finish.glsl"
-#include "gpu_shaders/look/finished_sample.glsl"
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);

@@ -30,9 +30,7 @@ const bool some_hidden = false;
 truth shows(uint atom) { return color_of(atom).a > 0.0; }
 
 #include "gpu_shaders/ray_cast/pixel_rays.glsl"
-#include "gpu_shaders/ray_cast/touched_atom.glsl"
 #include "gpu_shaders/ray_cast/patch_hits.glsl"
-#include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/ray_cast/studio_light.glsl"
 #include "gpu_shaders/ray_cast/shade.glsl"
 #include "gpu_shaders/ray_cast/shape_hits.glsl"

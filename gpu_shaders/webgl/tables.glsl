@@ -7,7 +7,6 @@ precision highp float;
 precision highp int;
 precision highp usampler2D;
 #include "gpu_shaders/reduced_surface/precision.glsl"
-#include "gpu_shaders/shared/lane.glsl"
 #include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/ray_cast/parameters.glsl"
 #include "gpu_shaders/ray_cast/records.glsl"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""preview_pictures.py PROGRAM FOLDER: writes FOLDER/preview_page.png, the page of the preview in a headless Chromium with the
-scene docs/gallery/cut.json, whose molecule is in FOLDER."""
+"""preview_pictures.py PROGRAM FOLDER [WIDTHxHEIGHT]: writes FOLDER/preview_page.png, the page of the preview in a headless
+Chromium with the scene docs/gallery/cut.json, whose molecule is in FOLDER. The window has 1280x800 pixels by default."""
 
 import asyncio
 import pathlib
@@ -13,16 +13,15 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/preview"))
 from browser import Browser, Preview  # noqa: E402
 
-BROWSER = (1280, 800)
 PATIENCE = 150  # seconds
 
 
-async def shoot_page(program, scene, target):
+async def shoot_page(program, scene, target, size):
     with tempfile.TemporaryDirectory() as folder, Preview(program, "--scene", scene, "--output-dir", folder) as preview:
-        async with Browser(shutil.which("chromium"), BROWSER) as page:
+        async with Browser(shutil.which("chromium"), size) as page:
             await page.send("Page.navigate", url=preview.url)
             await page.at_rest(PATIENCE)
-            await asyncio.sleep(3)  # for the list of contents
+            await page.until("document.querySelectorAll('#entries li').length > 0", PATIENCE)
             await page.at_rest(PATIENCE)
             await page.screenshot(target)
 
@@ -30,7 +29,8 @@ async def shoot_page(program, scene, target):
 def main():
     program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     shutil.copy(ROOT / "docs/gallery/cut.json", folder)
-    asyncio.run(shoot_page(program, str(folder / "cut.json"), folder / "preview_page.png"))
+    size = tuple(map(int, (sys.argv[3] if len(sys.argv) > 3 else "1280x800").split("x")))
+    asyncio.run(shoot_page(program, str(folder / "cut.json"), folder / "preview_page.png", size))
 
 
 if __name__ == "__main__":

@@ -54,7 +54,7 @@ def listed(before, items, after, indent):
 
 
 def module_text():
-    text, functions, classes = HEAD, "", {}  # classes: the Python type of each enumeration and struct
+    text, functions, classes = HEAD, [], {}  # classes: the Python type of each enumeration and struct
     for found in declarations():
         if found["enum"]:
             classes[found["enum"]] = "c_int32"
@@ -66,13 +66,14 @@ def module_text():
             fields = [f'("{field}", {ctype(declared, classes)}{f" * {size}" if size else ""})'
                       for declared, names in re.findall(r"((?:const )?\w+(?:\* ?const)?\*?) ([^;]+);", found["fields"])
                       for field, size in re.findall(r"(\w+)(?:\[(\d+)\])?", names)]
-            text += f"\n\nclass {name}(Struct):\n" + listed("    _fields_ = [", fields, "]", 16) + "\n\n"
+            text += f"\nclass {name}(Struct):\n" + listed("    _fields_ = [", fields, "]", 16) + "\n"
         elif found["function"]:
             types = [ctype(re.sub(r"\w+$", "", argument), classes)
                      for argument in found["arguments"].split(",") if argument != "void"]
-            functions += listed(f'    "{found["function"]}": ({ctype(found["result"], classes)}, [', types, "]),", 8)
+            functions.append(f'"{found["function"]}": ({ctype(found["result"], classes)}, [{", ".join(types)}])')
     text += "\n\n#: The types of the result and of the arguments of each function.\n"
-    return re.sub(r"\n{4,}", "\n\n\n", f"{text}FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {{\n{functions}}}\n")
+    text += "FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {\n" + listed("    ", functions, "}", 4)
+    return re.sub(r"\n{3,}", "\n\n", text)
 
 
 if __name__ == "__main__":

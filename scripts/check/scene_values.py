@@ -17,7 +17,7 @@ import meniscus
 from meniscus import _header as header
 
 HEAD = '''# SPDX-License-Identifier: BSD-3-Clause
-"""The types of the values of scenes, written by scripts/check/scene_values.py from the properties of the library."""
+"""The types of the values of scenes (see meniscus.properties()), written by scripts/check/scene_values.py."""
 from __future__ import annotations
 
 import os
@@ -26,6 +26,8 @@ from typing import Literal, Optional, TypedDict, Union
 
 Path = Union[str, "os.PathLike[str]"]
 Text = Union[str, float]
+Paths = Union[Path, Sequence[Path]]
+Texts = Union[Text, Sequence[Text]]
 #: A text, or its numbers: the width and the height of a picture, or a direction.
 Numbers = Union[Text, Sequence[float]]
 '''
@@ -86,31 +88,21 @@ def type_of(known):
         one = "Literal[" + ", ".join(f'"{word}"' for word in known.words) + "]"
     else:
         one = "Numbers" if known.value in ("X,Y,Z", "WxH") else TYPES[known.type]
-    return f"Union[{one}, Sequence[{one}]]" if known.repeatable else one
-
-
-def lines_of(known):
-    """Returns the lines of a property: its help as a comment, and its type."""
-    default = f" [{known.initial}]" if known.initial else ""
-    value = f"{known.value}: " if known.value else ""
-    help_lines = textwrap.wrap(f"{value}{known.help}{default}", 112, initial_indent="    #: ", subsequent_indent="    #: ")
-    return [*help_lines, *textwrap.wrap(f"{known.name}: {type_of(known)}", 112, initial_indent="    ",
-                                        subsequent_indent="        ", break_long_words=False)]
+    return one + "s" * known.repeatable
 
 
 def file_text():
     """Returns the text of _scene_values.py."""
     known = meniscus.properties()
     text = HEAD
-    for name, base, said, chosen in (
-            ("SurfaceValues", "TypedDict", "The properties of a picture of a surface: its look and its size.", [p for p in known if p.of_surface]),
-            ("SceneValues", "SurfaceValues", "The properties of a scene.", [p for p in known if not p.of_surface])):
-        text += f'\n\nclass {name}({base}, total=False):\n    """{said}"""\n'
-        text += "\n".join(line for p in chosen for line in lines_of(p)) + "\n"
-    attributes = "; ".join(f"{p.name}: Optional[{type_of(p)}]".replace(" ", "~") for p in known if p.name not in vars(meniscus.Scene))
-    return (f'{text}\n\nclass SceneAttributes:\n    """The attributes of a Scene; None for the default."""\n' + "\n".join(
-        line.rstrip(";") for line in textwrap.wrap(attributes, 120, initial_indent="    ", subsequent_indent="    ",
-                                                   break_long_words=False)).replace("~", " ") + "\n")
+    for head, form, chosen in (
+            ('SurfaceValues(TypedDict, total=False):\n    """The properties of a picture of a surface: its look and its size."""', "{}", [p for p in known if p.of_surface]),
+            ('SceneValues(SurfaceValues, total=False):\n    """The properties of a scene."""', "{}", [p for p in known if not p.of_surface]),
+            ('SceneAttributes:\n    """The attributes of a Scene; None for the default."""', "Optional[{}]", [p for p in known if p.name not in vars(meniscus.Scene)])):
+        fields = "; ".join(f"{p.name}: {form.format(type_of(p))}".replace(" ", "~") for p in chosen)
+        lines = textwrap.wrap(fields, 120, initial_indent="    ", subsequent_indent="    ", break_long_words=False)
+        text += f"\n\nclass {head}\n" + "\n".join(line.rstrip(";") for line in lines).replace("~", " ") + "\n"
+    return text
 
 
 if __name__ == "__main__":

@@ -85,6 +85,10 @@ set(scenes_FOUND OFF)
 if(MENISCUS_WITH_GEMMI AND MENISCUS_WITH_JSON AND Freetype_FOUND)
   set(scenes_FOUND ON)
 endif()
+# Liberation Sans becomes part of the library, so that letters need no font at run time and are the same on all systems.
+find_path(MENISCUS_FONTS LiberationSans-Regular.ttf NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH DOC "Folder of Liberation Sans"
+          PATHS /usr/share/fonts/truetype/liberation2 /usr/share/fonts/truetype/liberation /usr/share/fonts/liberation
+                /usr/share/fonts/liberation-sans-fonts)
 meniscus_part(SCENES "${scenes_FOUND}" WORDS "scenes and their pictures" NEEDS "FreeType (with gemmi and nlohmann_json)")
 set(pages_FOUND OFF)
 if(MENISCUS_WITH_SCENES AND MENISCUS_WITH_ZLIB AND MENISCUS_WITH_DEFLATE)
@@ -105,7 +109,6 @@ if(MENISCUS_APP)
     endif()
   endforeach()
   find_package(CLI11 REQUIRED)
-  find_package(OpenSSL REQUIRED COMPONENTS Crypto)
   find_package(OpenImageIO QUIET)
   meniscus_find_by_pkg_config(HDF5 hdf5)
   meniscus_part(IMAGES "${OpenImageIO_FOUND}" WORDS "pictures in other formats than PNG" NEEDS "OpenImageIO")

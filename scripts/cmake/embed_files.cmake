@@ -1,15 +1,23 @@
-# Writes one C++ file that holds the text of every file below a folder, sorted by path: of all but documents (*.md), or of
-# documents alone.
+# Writes one C++ file that holds the text of the files below a folder whose paths match a pattern, or do not, sorted by
+# path. Fonts (*.ttf) are written byte by byte.
 # Run as: cmake -DFOLDER=<folder> -DROOT=<folder that paths are relative to> -DOUTPUT=<file.cpp> -DHEADER=<declares both>
-#         -DTYPE=<struct of path and text> -DFUNCTION=<returns them all> -DFILTER=<EXCLUDE or INCLUDE> -P embed_files.cmake
+#         -DTYPE=<struct of path and text> -DFUNCTION=<returns them all> -DFILTER=<EXCLUDE or INCLUDE> -DPATTERN=<of paths>
+#         -P embed_files.cmake
 file(GLOB_RECURSE paths RELATIVE ${ROOT} ${FOLDER}/*)
-list(FILTER paths ${FILTER} REGEX "[.]md$")
+list(FILTER paths ${FILTER} REGEX "${PATTERN}")
 list(SORT paths)
 
 set(entries "")
 foreach(path IN LISTS paths)
-  file(READ ${ROOT}/${path} text)
-  string(APPEND entries "    {\"${path}\",\n     R\"embedded(${text})embedded\"sv},\n")
+  if(path MATCHES "[.]ttf$")
+    file(READ ${ROOT}/${path} text HEX)
+    string(REGEX REPLACE "(..)" "\\\\x\\1" text "${text}")
+    set(text "\"${text}\"")
+  else()
+    file(READ ${ROOT}/${path} text)
+    set(text "R\"embedded(${text})embedded\"")
+  endif()
+  string(APPEND entries "    {\"${path}\",\n     ${text}sv},\n")
 endforeach()
 list(LENGTH paths count)
 

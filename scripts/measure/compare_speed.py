@@ -11,10 +11,11 @@ takes longer than PATIENCE seconds is given up. Both have to write the same to s
 import os
 import re
 import statistics
+import subprocess
 import sys
 import tempfile
-
-from measured import measured
+import threading
+from dataclasses import dataclass
 
 RUNS = int(os.environ.get("MENISCUS_RUNS", "3"))
 PATIENCE = float(os.environ.get("MENISCUS_PATIENCE", "120"))
@@ -42,8 +43,32 @@ CASES = [
       "ligand=element", "--zoom-to", "within 5 of (ligand and chain A)", "--clip", "depth>0.55", "--background", "white", "-o",
       "made.png"], 1),
     ("picture: 1IHM, 677,040 atoms", ["render", "1ihm.pdb", "--assembly", "1", "-o", "made.png"], 1),
-    ("picture: 1TII, 10,000 × 7,500 pixels", ["render", TOXIN, "--size", "10000x7500", "-o", "made.png"], 1),
-]
+    ("picture: 1TII, 10,000 × 7,500 pixels", ["render", TOXIN, "--size", "10000x7500", "-o", "made.png"], 1)]
+
+
+@dataclass
+class Cost:
+    """What one process cost: CPU seconds, its largest memory in MB, and what it printed."""
+    busy: float
+    peak: float
+    output: str
+
+
+def measured(command, cwd):
+    """Returns the cost of a command; None after PATIENCE seconds. Ends this program if the command fails."""
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, cwd=cwd)
+    late = threading.Event()
+    timer = threading.Timer(PATIENCE, lambda: (late.set(), process.kill()))
+    timer.start()
+    output = process.stdout.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    timer.cancel()
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if late.is_set():
+        return None
+    if status:
+        sys.exit(f"compare_speed.py: error: {' '.join(map(str, command))} ended with {process.returncode}")
+    return Cost(usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, output)
 
 
 def path_of(word, folder):
@@ -65,7 +90,7 @@ def run(programs, words, place):
         for program in programs:
             if None in costs[program]:
                 continue
-            cost = measured([program, *words, "--device", "cpu", "--force", "-q"], patience=PATIENCE, cwd=place)
+            cost = measured([program, *words, "--device", "cpu", "--force", "-q"], place)
             costs[program].append(cost)
     return [None if None in costs[program] else costs[program] for program in programs]
 

@@ -20,6 +20,20 @@ meniscus (@PROJECT_VERSION@) unstable; urgency=medium
 execute_process(COMMAND ${GZIP} -9nkf ${generated}/changelog COMMAND_ERROR_IS_FATAL ANY)
 install(FILES ${CMAKE_SOURCE_DIR}/CHANGELOG.md DESTINATION share/doc/meniscus COMPONENT program)
 
+# The notices of what is compiled into the program and the library, by the packages that it came from.
+file(READ ${CMAKE_SOURCE_DIR}/LICENSE notices)
+string(APPEND notices "
+The Blender add-on, /usr/share/meniscus/addon, is under the GNU General Public License, version 3 or later:
+/usr/share/common-licenses/GPL-3.
+")
+foreach(package gemmi-dev tao-pegtl-dev libcli11-dev libglm-dev nlohmann-json3-dev libdeflate-dev libboost-dev fonts-liberation2)
+  if(EXISTS /usr/share/doc/${package}/copyright)
+    file(READ /usr/share/doc/${package}/copyright text)
+    string(APPEND notices "\nParts of this package are compiled from the package ${package}:\n\n${text}")
+  endif()
+endforeach()
+file(WRITE ${generated}/copyright "${notices}")
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_PACKAGE_NAME meniscus)
@@ -37,10 +51,13 @@ set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 # papers that Debian asks for. The description's first line is its title.
 set(CPACK_COMPONENTS_ALL "")
 macro(debian_package component name)
-  cmake_parse_arguments(P "" "SECTION;DESCRIPTION;DEPENDS;RECOMMENDS;ARCHITECTURE" "CONTROL" ${ARGN})
+  cmake_parse_arguments(P "" "SECTION;DESCRIPTION;DEPENDS;RECOMMENDS;ARCHITECTURE;COPYRIGHT" "CONTROL" ${ARGN})
   list(APPEND CPACK_COMPONENTS_ALL ${component})
   install(FILES ${generated}/changelog.gz DESTINATION share/doc/${name} COMPONENT ${component} EXCLUDE_FROM_ALL)
-  install(FILES ${CMAKE_SOURCE_DIR}/LICENSE DESTINATION share/doc/${name} RENAME copyright COMPONENT ${component}
+  if(NOT P_COPYRIGHT)
+    set(P_COPYRIGHT ${CMAKE_SOURCE_DIR}/LICENSE)
+  endif()
+  install(FILES ${P_COPYRIGHT} DESTINATION share/doc/${name} RENAME copyright COMPONENT ${component}
           EXCLUDE_FROM_ALL)
   string(TOUPPER CPACK_DEBIAN_${component} variable)
   set(${variable}_PACKAGE_NAME ${name})
@@ -60,10 +77,11 @@ endmacro()
 # GL is loaded by name, by epoxy. Packages for drawing, films and rendering are optional for users of areas alone.
 debian_package(program meniscus
   SECTION science
+  COPYRIGHT ${generated}/copyright
   DEPENDS "libegl1, libgl1"
-  RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, fonts-liberation2 | fonts-liberation, fonts-dejavu-core, ffmpeg, povray, povray-includes, blender"
+  RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, fonts-dejavu-core, ffmpeg, povray, povray-includes, blender"
   CONTROL ${CMAKE_CURRENT_LIST_DIR}/program/postinst ${CMAKE_CURRENT_LIST_DIR}/program/prerm
-  DESCRIPTION "Exact, analytic solvent-excluded surfaces of molecules on the GPU
+  DESCRIPTION "Exact, analytic solvent-excluded surfaces of molecules
 Meniscus computes the solvent-excluded surface of a molecule exactly: as
 spheres, tori and clipped spheres, closed and certified, never as a mesh that
 approximates them. It does so on the GPU or the CPU, shows the surface while it
@@ -77,6 +95,7 @@ set(library libmeniscus${PROJECT_VERSION_MAJOR})
 file(WRITE ${generated}/shlibs "libmeniscus ${PROJECT_VERSION_MAJOR} ${library} (>= ${PROJECT_VERSION})\n")
 debian_package(libmeniscus ${library}
   SECTION libs
+  COPYRIGHT ${generated}/copyright
   RECOMMENDS "libegl1, libgl1, libegl-mesa0, libgl1-mesa-dri"
   CONTROL ${generated}/shlibs
   DESCRIPTION "Exact solvent-excluded surfaces of molecules - shared library

@@ -25,6 +25,6 @@ install(DIRECTORY ${share}/ DESTINATION share COMPONENT program)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION share/doc/meniscus COMPONENT program)
 install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/SECURITY.md DESTINATION share/doc/meniscus
         COMPONENT program)
-install(FILES ${CMAKE_SOURCE_DIR}/LICENSE DESTINATION share/doc/meniscus RENAME copyright COMPONENT program)
 
 include(${CMAKE_CURRENT_LIST_DIR}/debian.cmake)
+install(FILES ${generated}/copyright DESTINATION share/doc/meniscus COMPONENT program)

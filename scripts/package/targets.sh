@@ -48,7 +48,7 @@ if [[ ! -d $lists ]]; then
   sed 's/^Types: .*/Types: deb-src/' /etc/apt/sources.list.d/debian.sources > "$work/debian.sources"
 fi
 apt=(apt-get -q -o Dir::Etc::sourcelist="$work/debian.sources" -o Dir::Etc::sourceparts=- -o Dir::State::lists="$lists")
-packages=(onetbb freetype zlib libdeflate fmtlib musl openssl)
+packages=(onetbb freetype zlib libdeflate fmtlib musl)
 for package in "${packages[@]}"; do
   compgen -G "$sources/$package-*" > /dev/null && continue
   compgen -G "$lists/*Sources*" > /dev/null || "${apt[@]}" update > /dev/null
@@ -114,24 +114,6 @@ build_libm() {
     "${names[@]/%/.c}" $(printf 'inner_%s.c ' "${inner[@]}")
 }
 
-# OpenSSL's library of ciphers, for checksums: without most of what else it can.
-build_openssl() {
-  local folder=$target_folder/openssl kind=linux-${target%-linux}
-  mkdir -p "$folder"
-  cd "$folder"
-  CC="$zig cc -target $triple" AR="$zig ar" RANLIB="$zig ranlib" perl "$(source_of openssl)/Configure" "$kind" --release \
-    --prefix=/usr --openssldir=/etc/ssl -fPIC -fvisibility=hidden -w \
-    no-{shared,dso,module,engine,legacy,tests,ui-console,deprecated,autoload-config,async,sock,ssl,tls,dtls,srtp,srp,ct,ocsp,cms,cmp,ts} \
-    no-{aria,bf,blake2,camellia,cast,cmac,des,dh,dsa,ec,gost,idea,md4,mdc2,ocb,poly1305,rc2,rc4,rmd160,scrypt,seed,siphash,siv,sm2,sm3,sm4,whirlpool}
-  make -j "$(nproc)" build_generated
-  # Results must not depend on this machine's paths and clock.
-  SOURCE_DATE_EPOCH=0 perl "$(source_of openssl)/util/mkbuildinf.pl" "zig cc" "$kind" > crypto/buildinf.h
-  make -j "$(nproc)" libcrypto.a
-  cp libcrypto.a "$prefix/lib"
-  cp -r "$(source_of openssl)/include/openssl" include/openssl "$prefix/include"
-  cd "$root"
-}
-
 build_dependencies() {
   local zlib deflate gemmi
   zlib=$(source_of zlib) deflate=$(source_of libdeflate) gemmi=$(source_of gemmi)
@@ -148,7 +130,6 @@ build_dependencies() {
     -DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON
   with_cmake "$(source_of fmtlib)" -DFMT_TEST=OFF -DFMT_DOC=OFF
   with_cmake "$(source_of freetype)" -DFT_REQUIRE_ZLIB=ON -DFT_DISABLE_{BZIP2,PNG,HARFBUZZ,BROTLI}=ON
-  [[ $target != *linux ]] || build_openssl
 }
 
 build_library() {

@@ -11,10 +11,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 packages=${1:-}
 bare=${2:-}
-((EUID == 0)) || { echo "try_image.sh: root is needed to build an image in this way" >&2; exit 2; }
-
-work=$(mktemp -d)
-trap 'rm -rf --one-file-system "$work"' EXIT
+source scripts/package/bare.sh
 export STORAGE_DRIVER=vfs BUILDAH_ISOLATION=chroot
 buildah() { command buildah --root "$work/storage" --runroot "$work/run" "$@"; }
 
@@ -24,24 +21,10 @@ if [[ ! $packages ]]; then
 fi
 if [[ ! $bare ]]; then
   bare=$work/bare.tar
-  mmdebstrap --variant=minbase bookworm "$bare" >"$work/mmdebstrap.log" 2>&1 || { tail -n 5 "$work/mmdebstrap.log" >&2; exit 1; }
+  bare_system "$bare"
 fi
 
-cases=0 failures=0
-# check WHAT COMMAND...
-check() {
-  local what=$1
-  shift
-  cases=$((cases + 1))
-  if "$@" >"$work/log" 2>&1; then
-    echo "good    $what: $(tail -n 1 "$work/log" | cut -c 1-120)"
-  else
-    failures=$((failures + 1))
-    echo "FAILED  $what"
-    tail -n 5 "$work/log"
-  fi
-}
-
+run_checked() { "$@"; }
 base() {
   local container
   container=$(buildah from scratch) && buildah add -q "$container" "$bare" / && buildah commit -q --rm "$container" bare

@@ -10,27 +10,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 bare=${1:-}
-((EUID == 0)) || { echo "try_library.sh: a bare system is made by root" >&2; exit 2; }
+source scripts/package/bare.sh
 
-work=$(mktemp -d)
-root=$work/root
-clean() {
-  for mounted in proc dev; do mountpoint -q "$root/$mounted" && umount "$root/$mounted"; done
-  rm -rf --one-file-system "$work"
-}
-trap clean EXIT
+enter_bare "$bare"
 
-mkdir "$root"
-if [[ $bare ]]; then
-  tar xf "$bare" -C "$root"
-else
-  mmdebstrap --variant=minbase bookworm "$root" >"$work/mmdebstrap.log" 2>&1 || { tail -n 5 "$work/mmdebstrap.log" >&2; exit 1; }
-fi
-mount -t proc proc "$root/proc"
-mount --bind /dev "$root/dev"
-cp /etc/resolv.conf "$root/etc/"
-
-home=$root/root
 mkdir "$home/meniscus"
 git ls-files -z --cached --others --exclude-standard | tar c --null -T - --ignore-failed-read 2>/dev/null | tar x -C "$home/meniscus"
 printf '0 0 0 1.7\n1.5 0 0 1.7\n2.3 1.3 0 1.52\n6 0 0 1.7\n' >"$home/atoms.xyzr"
@@ -81,22 +64,7 @@ for call, error, sentence in (
 assert not os.path.exists("a.glb") and not os.path.exists("a.3mf")
 PYTHON
 
-cases=0 failures=0
-# check WHAT COMMAND...: in the bare system.
-check() {
-  local what=$1
-  shift
-  cases=$((cases + 1))
-  if chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
-    PYTHONPATH=/root/meniscus/exporters/bindings/python bash -c "cd && $*" >"$work/log" 2>&1; then
-    echo "good    $what: $(tail -n 1 "$work/log" | cut -c 1-160)"
-  else
-    failures=$((failures + 1))
-    echo "FAILED  $what"
-    tail -n 15 "$work/log"
-  fi
-}
-install="apt-get install -y --no-install-recommends"
+bare_environment+=(PYTHONPATH=/root/meniscus/exporters/bindings/python)
 
 check "lists of packages" apt-get update
 check "a compiler, CMake and three libraries" $install g++ cmake ninja-build libglm-dev libfmt-dev libtbb-dev

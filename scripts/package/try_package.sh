@@ -11,32 +11,15 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 packages=${1:-}
 bare=${2:-}
-((EUID == 0)) || { echo "try_package.sh: a bare system is made by root" >&2; exit 2; }
-
-work=$(mktemp -d)
-root=$work/root
-clean() {
-  for mounted in proc dev; do mountpoint -q "$root/$mounted" && umount "$root/$mounted"; done
-  rm -rf --one-file-system "$work"
-}
-trap clean EXIT
+source scripts/package/bare.sh
 
 if [[ ! $packages ]]; then
   packages=$work/packages
   cpack --config build/test/CPackConfig.cmake -B "$packages" >/dev/null
 fi
-mkdir "$root"
-if [[ $bare ]]; then
-  tar xf "$bare" -C "$root"
-else
-  mmdebstrap --variant=minbase bookworm "$root" >"$work/mmdebstrap.log" 2>&1 || { tail -n 5 "$work/mmdebstrap.log" >&2; exit 1; }
-fi
-mount -t proc proc "$root/proc"
-mount --bind /dev "$root/dev"
-cp /etc/resolv.conf "$root/etc/"
+enter_bare "$bare"
 
 # The script that runs in /root of the bare system.
-home=$root/root
 mkdir -p "$home/c" "$home/cpp"
 for package in meniscus libmeniscus0 libmeniscus-dev python3-meniscus; do
   cp "$packages/$package"_*.deb "$home/$package.deb"
@@ -67,22 +50,6 @@ print(f"{len(atoms)} atoms, {surface.area} Å^2, {surface.volume} Å^3, libmenis
       + meniscus.library_path())
 PYTHON
 
-cases=0 failures=0
-# check WHAT COMMAND...: in the bare system, as it was installed there.
-check() {
-  local what=$1
-  shift
-  cases=$((cases + 1))
-  if chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
-    bash -c "cd && $*" >"$work/log" 2>&1; then
-    echo "good    $what: $(tail -n 1 "$work/log" | cut -c 1-120)"
-  else
-    failures=$((failures + 1))
-    echo "FAILED  $what"
-    tail -n 5 "$work/log"
-  fi
-}
-install="apt-get install -y --no-install-recommends"
 same_numbers='grep -F "$(cat measures)"'
 
 check "lists of packages" apt-get update

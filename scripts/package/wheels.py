@@ -5,7 +5,8 @@ them.
 
     wheels.py OUT [TARGET...]      targets as in targets.sh; all that are built by default
 
-The same files give the same bytes. Each wheel has the package, its library, the programs as scripts, which installers put
+The same files give the same bytes. MENISCUS_URL is the address of the project, for the wheels' metadata; by default it is that of
+the repository in which GitHub runs this. Each wheel has the package, its library, the programs as scripts, which installers put
 beside Python, LICENSE, THIRD_PARTY.txt with the licences of what is linked into them, and a bill of materials (CycloneDX 1.5;
 PEP 770)."""
 
@@ -16,7 +17,10 @@ import json
 import os
 import re
 import stat
+import subprocess
 import sys
+import tomllib
+import urllib.parse
 import zipfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -39,10 +43,11 @@ PARTS = [("oneTBB", "Apache-2.0", "onetbb-*/LICENSE.txt"), ("FreeType", "FTL", "
          ("zlib", "Zlib", "zlib-*/LICENSE"), ("libdeflate", "MIT", "libdeflate-*/COPYING"),
          ("fmt", "MIT", "fmtlib-*/LICENSE.rst"), ("musl", "MIT", "musl-*/COPYRIGHT"), ("gemmi", "MPL-2.0", "gemmi-*/LICENSE*"),
          ("PEGTL", "MIT", "/usr/share/doc/tao-pegtl-dev/copyright"), ("GLM", "MIT", "/usr/share/doc/libglm-dev/copyright"),
+         ("Liberation Sans", "OFL-1.1", "/usr/share/doc/fonts-liberation2/copyright"),
          ("nlohmann-json", "MIT", "/usr/share/doc/nlohmann-json3-dev/copyright"),
          ("LLVM libc++", "Apache-2.0 WITH LLVM-exception", "../tools/lib/python3*/site-packages/ziglang-*.dist-info/licenses/ziglang/lib/libcxx/LICENSE.TXT")]
 #: Further ones, of the program meniscus.
-PARTS_OF_MENISCUS = [("OpenSSL", "Apache-2.0", "openssl-*/LICENSE.txt"), ("CLI11", "BSD-3-Clause", "/usr/share/doc/libcli11-dev/copyright")]
+PARTS_OF_MENISCUS = [("CLI11", "BSD-3-Clause", "/usr/share/doc/libcli11-dev/copyright")]
 
 
 def version():
@@ -58,11 +63,20 @@ def text_of(name, pattern):
         return file.read()
 
 
-def version_of(pattern):
-    """That of a source folder such as onetbb-2021.8.0; else nothing."""
-    found = sorted(glob.glob(os.path.join(BUILT, "sources", pattern.split("/")[0])))
-    match = found and re.search(r"-([0-9][0-9.]*)", os.path.basename(found[0]))
-    return match[1].rstrip(".") if match else None
+def origin_of(pattern):
+    """Returns the version of a part and its package URL, by which scanners know it."""
+    package = pattern.removeprefix("/usr/share/doc/").split("/")[0].removesuffix("-*")
+    folder = os.path.join(BUILT, "sources")
+    if pattern.startswith("/"):
+        number = subprocess.run(["dpkg-query", "-W", "-f", "${Version}", package], check=True, capture_output=True, text=True).stdout
+        return number, f"pkg:deb/debian/{package}@{urllib.parse.quote(number, safe='')}?distro=bookworm"
+    described = sorted(glob.glob(os.path.join(folder, f"{package}_*.dsc")))
+    if described:  # Debian's source, with the number of its patches
+        number = os.path.basename(described[0]).removesuffix(".dsc").partition("_")[2]
+        return number, f"pkg:deb/debian/{package}@{urllib.parse.quote(number, safe='')}?arch=source&distro=bookworm"
+    path = sorted(glob.glob(os.path.join(folder, pattern)))[0]
+    package, number = re.search(r"([a-z]+)-([0-9][0-9.]*[0-9])", os.path.relpath(path, folder)).groups()
+    return number, f"pkg:pypi/{package}@{number}"
 
 
 def has_meniscus(target):
@@ -74,29 +88,46 @@ def parts(target):
 
 
 def third_party(target):
-    begin = "What is linked or compiled into the library and the programs of this package, beside Meniscus itself.\n"
-    return begin + "".join(f"\n{'=' * 80}\n{name} ({licence})\n{'=' * 80}\n\n{text_of(name, pattern)}"
-                           for name, licence, pattern in parts(target))
+    begin = "What is linked or compiled into the library and the programs of this package, in addition to Meniscus itself.\n"
+    for name, licence, pattern in parts(target):
+        number, source = origin_of(pattern)
+        begin += f"\n{'=' * 80}\n{name} {number} ({licence}), from {source}\n{'=' * 80}\n\n{text_of(name, pattern)}"
+    return begin
 
 
 def materials(target):
-    components = [{"type": "library", "name": name, **({"version": number} if (number := version_of(pattern)) else {}),
-                   "licenses": [{"expression": licence}]} for name, licence, pattern in parts(target)]
+    components = []
+    for name, licence, pattern in parts(target):
+        number, source = origin_of(pattern)
+        components.append({"type": "library", "name": name, "version": number, "purl": source, "licenses": [{"expression": licence}]})
     return json.dumps({"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1,
-                       "metadata": {"component": {"type": "library", "name": "meniscus", "version": version(),
+                       "metadata": {"component": {"type": "library", "name": DISTRIBUTION, "version": version(),
+                                                  "purl": f"pkg:pypi/{DISTRIBUTION}@{version()}",
                                                   "licenses": [{"expression": "BSD-3-Clause"}]}},
                        "components": components}, indent=1) + "\n"
 
 
-def metadata():
-    with open(os.path.join(ROOT, "docs", "reference", "library.md"), encoding="utf-8") as file:
+def address():
+    """Returns the address of the project; nothing if it is unknown."""
+    on_github = "{GITHUB_SERVER_URL}/{GITHUB_REPOSITORY}".format_map(os.environ) if "GITHUB_REPOSITORY" in os.environ else ""
+    return os.environ.get("MENISCUS_URL", on_github)
+
+
+def metadata(target):
+    with open(os.path.join(ROOT, "pyproject.toml"), "rb") as file:
+        project = tomllib.load(file)["project"]
+    with open(os.path.join(ROOT, project["readme"]), encoding="utf-8") as file:
         description = file.read()
-    return (f"Metadata-Version: 2.4\nName: {DISTRIBUTION}\n"
-            f"Version: {version()}\n"
-            "Summary: Exact solvent-excluded surfaces of molecules: areas, volumes, patches, meshes, distances, pictures\n"
-            "License-Expression: BSD-3-Clause AND Apache-2.0 AND MIT AND MPL-2.0 AND FTL AND Zlib\n"
-            "License-File: LICENSE\nLicense-File: THIRD_PARTY.txt\n"
-            "Requires-Python: >=3.9\nRequires-Dist: numpy>=1.21\nDescription-Content-Type: text/markdown\n\n" + description)
+    licences = [project["license"], *sorted({licence for _, licence, _ in parts(target)} - {project["license"]})]
+    rows = [("Metadata-Version", "2.4"), ("Name", DISTRIBUTION), ("Version", version()), ("Summary", project["description"]),
+            ("Author", project["authors"][0]["name"]), ("License-Expression", " AND ".join(licences)), ("License-File", "LICENSE"),
+            ("License-File", "THIRD_PARTY.txt"), ("Keywords", ",".join(project["keywords"])),
+            *(("Classifier", words) for words in project["classifiers"]), ("Requires-Python", project["requires-python"]),
+            *(("Requires-Dist", words) for words in project["dependencies"]), ("Description-Content-Type", "text/markdown")]
+    if address():
+        rows += [("Project-URL", f"{name}, {address()}{path}") for name, path in
+                 (("Homepage", ""), ("Documentation", "/tree/main/docs"), ("Changelog", "/blob/main/CHANGELOG.md"), ("Issues", "/issues"))]
+    return "".join(f"{name}: {value}\n" for name, value in rows) + "\n" + description
 
 
 def read(path):
@@ -120,7 +151,7 @@ def contents(target):
              if name.endswith(".py") or name == "py.typed"}
     files[f"meniscus/{library}"] = read(os.path.join(BUILT, target, library))
     files.update({name: read(path) for name, path in programs(target).items()})
-    files[f"{info}/METADATA"] = metadata().encode()
+    files[f"{info}/METADATA"] = metadata(target).encode()
     files[f"{info}/WHEEL"] = ("Wheel-Version: 1.0\nGenerator: meniscus scripts/package/wheels.py\nRoot-Is-Purelib: false\n"
                               f"Tag: py3-none-{tag}\n").encode()
     files[f"{info}/licenses/LICENSE"] = read(os.path.join(ROOT, "LICENSE"))

@@ -23,6 +23,7 @@ class MoleculeCase(unittest.TestCase):
         self.folder = Path(folder.name)
 
     def write(self, name, text):
+        (self.folder / name).parent.mkdir(exist_ok=True)
         (self.folder / name).write_text(text)
 
     def run_program(self, *words):

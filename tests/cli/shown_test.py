@@ -6,21 +6,19 @@ import json
 import math
 import struct
 import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import OpenImageIO
 
-PROGRAM = sys.argv.pop(1)
+import molecule_case
+
 SMALL = ["--size", "96x72", "--samples", "1", "--device", "cpu"]
-ATOM = "{0:<6}{1:5d}  {2:<3} {3:>3} {4}{5:4d}    {6:8.3f}{7:8.3f}{8:8.3f}  1.00 10.00          {9:>2}"
 
 
 def pdb(atoms):
-    return "\n".join([ATOM.format("HETATM" if residue == "LIG" else "ATOM", n, name, residue, chain, number, *place, name[0])
-                      for n, (name, residue, chain, number, place) in enumerate(atoms, 1)] + ["END", ""])
+    """Returns the text of atoms, each (name, residue, chain, residue number, position in Å)."""
+    return molecule_case.pdb([("HETATM" if residue == "LIG" else "ATOM", f" {name:<3}", residue, chain, number, place, name[0])
+                              for name, residue, chain, number, place in atoms])
 
 
 def slab(z=0.0, chain="A", rows=4):
@@ -29,24 +27,14 @@ def slab(z=0.0, chain="A", rows=4):
             for row in range(rows) for column in range(rows)]
 
 
-class Workplace(unittest.TestCase):
+class Workplace(molecule_case.MoleculeCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        super().setUp()
         self.write("slab.pdb", pdb(slab()))
 
-    def write(self, name, text):
-        (self.folder / name).parent.mkdir(exist_ok=True)
-        (self.folder / name).write_text(text)
-
-    def run_program(self, *words):
-        return subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=300, check=False)
-
     def made(self, *words):
-        done = self.run_program(*words)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done.stderr
+        """Returns what a program that must succeed wrote to the standard error stream."""
+        return super().made(*words).stderr
 
     def refused(self, code, said, *words):
         """And leaves everything as it is."""

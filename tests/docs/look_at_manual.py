@@ -2,7 +2,7 @@
 """look_at_manual.py SITE AXE FOLDER: opens pages of the manual in Chromium, as wide as a desktop and as a phone.
 
 axe-core must find no violation, nothing may be fetched from elsewhere or reach beyond the width, and the search must find
-a page. Pictures go to FOLDER.
+a page, also if the site is opened as a file. Pictures go to FOLDER.
 """
 
 import asyncio
@@ -17,7 +17,7 @@ from browser import Browser
 
 SITE, AXE, FOLDER = (pathlib.Path(argument) for argument in sys.argv[1:4])
 PAGES = ["how-to/1tii.html", "tutorials/first-figure.html", "how-to/figures.html", "reference/options/info.html",
-         "explanation/how-it-works.html", "validation/benchmarks.html", "index.html"]  # the last one has the search
+         "explanation/how-it-works.html", "validation/benchmarks.html", "index.html"]
 WIDTHS = {"desktop": (1280, 900), "phone": (390, 844)}
 
 
@@ -42,6 +42,22 @@ async def look(page, address, name):
     return [*found, *(f"fetched: {address}" for address in foreign), *([f"{over} px too wide"] if over > 0 else [])]
 
 
+async def search(page, address):
+    """How many pages the search for "pocket" finds."""
+    await page.send("Page.navigate", url=address)
+    while await page.evaluate("document.readyState") != "complete":
+        await asyncio.sleep(0.05)
+    await page.evaluate("(() => { document.querySelector('[data-md-toggle=search]').click();"
+                        " const i = document.querySelector('.md-search__input'); i.focus(); i.value = 'pocket';"
+                        " i.dispatchEvent(new Event('input', {bubbles: true}));"
+                        " i.dispatchEvent(new KeyboardEvent('keyup', {bubbles: true})); return 0 })()")
+    for _ in range(100):
+        if hits := await page.evaluate("document.querySelectorAll('.md-search-result__item').length"):
+            return hits
+        await asyncio.sleep(0.1)
+    return 0
+
+
 async def main():
     FOLDER.mkdir(parents=True, exist_ok=True)
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=SITE))
@@ -54,17 +70,10 @@ async def main():
                 wrong = await look(page, root + place, f"{width}-{place.replace('/', '-')[:-5]}")
                 print(f"{width} {place}: {'; '.join(wrong) or 'good'}")
                 cases, failures = cases + 1, failures + bool(wrong)
-            await page.evaluate("(document.querySelector('.md-search__input')).focus(), 0")
-            await page.evaluate("(() => { const i = document.querySelector('.md-search__input'); i.value = 'pocket';"
-                                " i.dispatchEvent(new Event('input', {bubbles: true}));"
-                                " i.dispatchEvent(new KeyboardEvent('keyup', {bubbles: true})); return 0 })()")
-            for _ in range(100):
-                hits = await page.evaluate("document.querySelectorAll('.md-search-result__item').length")
-                if hits:
-                    break
-                await asyncio.sleep(0.1)
-            print(f"{width}: the search for pocket finds {hits} pages")
-            cases, failures = cases + 1, failures + (not hits)
+            for address in (root, SITE.resolve().as_uri() + "/"):
+                hits = await search(page, address + "index.html")
+                print(f"{width} {address[:4]}: the search for pocket finds {hits} pages")
+                cases, failures = cases + 1, failures + (not hits)
             for complaint in page.complaints:
                 print(f"{width}: {complaint}")
                 failures += 1

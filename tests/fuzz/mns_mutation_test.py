@@ -26,7 +26,7 @@ package.__path__ = [os.path.join(ADDON, "meniscus_import")]
 import numpy as np  # noqa: E402
 
 import samples  # noqa: E402
-from meniscus_import import joined, mesh_arrays, mns_reader, sequence_reader, storyboard_reader  # noqa: E402
+from meniscus_import import joined, mesh_arrays, mns_reader, sequence_reader  # noqa: E402
 
 warnings.simplefilter("error")  # a number that overflows shows as another one
 
@@ -126,7 +126,7 @@ def small_storyboard():
 
 
 def check_storyboard(path):
-    board = storyboard_reader.read(path)
+    board = sequence_reader.read_storyboard(path)
     assert np.isfinite(board.origin).all() and 0 < board.scale < 1e10 and 0 < board.fps < 1e10
     for scene in board.scenes:
         (scene.name + scene.title).encode()
@@ -172,7 +172,7 @@ def main():
         sequence_reader.read(list_path)
         try_bytes(list_path, b"[" * 200_000, check_manifest)
         try_bytes(story_path, json.dumps(story).encode(), check_storyboard)
-        storyboard_reader.read(story_path)
+        sequence_reader.read_storyboard(story_path)
         for sound in (data, cut):
             for words, odd in samples.odd_headers(sound):
                 try_bytes(path, odd, check_file, words)

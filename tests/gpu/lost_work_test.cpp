@@ -14,7 +14,7 @@
 #include "core/gpu/kernel_records.h"
 #include "core/gpu/program.h"
 #include "core/gpu/work_proof.h"
-#include "core/queries/compare_surfaces.h"
+#include "core/queries/surface_object.h"
 #include "core/render/gl_renderer.h"
 #include "core/surface/compute_surface.h"
 #include "core/visible_surface/view_pipeline.h"

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
 #include "core/camera/camera.h"
+#include "core/render/built_in_fonts.h"
 
 namespace meniscus {
 namespace {
@@ -45,6 +47,19 @@ glm::ivec4 extent(const Framebuffer& picture, glm::ivec2 low = glm::ivec2(0), gl
 TEST(Annotations, NothingAskedIsNothingDrawn) {
   EXPECT_EQ(extent(written({})).z, 0);
   EXPECT_FALSE(Annotations{}.any());
+}
+
+TEST(Annotations, LettersNeedNoFontOfTheSystem) {
+  ASSERT_EQ(built_in_fonts().size(), 2u) << "fonts-liberation2 was missing when this was built";
+  for (const Weight weight : {Weight::regular, Weight::bold}) {
+    const std::string file = Font(20, weight).letters("A").front().font->file;
+    const std::string name = weight == Weight::bold ? "LiberationSans-Bold.ttf" : "LiberationSans-Regular.ttf";
+    EXPECT_EQ(file, "built-in:" + name);
+    const auto found = std::ranges::find(built_in_fonts(), name, &BuiltInFont::name);
+    ASSERT_NE(found, built_in_fonts().end());
+    EXPECT_EQ(font_bytes(file), found->bytes);
+    EXPECT_TRUE(found->bytes.starts_with(std::string_view("\0\1\0\0", 4)));  // TrueType
+  }
 }
 
 TEST(Annotations, PlacesAreThoseThatTheCameraShows) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures that the CPU makes: those of GL but for rounding, and the same bits for any vectors, threads and blocks.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "core/gpu/egl_context.h"
 #include "core/image/color_space.h"
 #include "core/scene/renderers.h"
+#include "core/shapes/shapes.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "core/camera/camera.h"
@@ -160,6 +162,47 @@ TEST(CpuPicture, IsTheSameForAnyThreadsAndBlocks) {
     picture.settings.block_edge = 48;
     expect_same_bits(whole, picture.by(*renderer), picture.name + " in blocks");
   }
+}
+
+TEST(CpuPicture, AdaptiveSamplesShowWhatAllSamplesShow) {
+  const auto renderer = std::make_unique<StillRenderer>();
+  for (Picture& picture : pictures()) {
+    picture.settings.size = {480, 360};
+    picture.settings.samples = 9;
+    const Framebuffer all = picture.by(*renderer);
+    picture.settings.adaptive = true;
+    const Framebuffer some = picture.by(*renderer);
+    const Difference found = difference(all, some);
+    EXPECT_LE(found.by_more, 480 * 360 / 10'000) << picture.name;
+    EXPECT_LE(found.worst_color, 94) << picture.name;  // one of nine samples at the edge of a clear picture
+    EXPECT_GT(found.color, 0) << picture.name << " leaves out no sample";
+    EXPECT_EQ(found.atom + found.depth, 0) << picture.name;
+    picture.settings.block_edge = 48;
+    expect_same_bits(some, picture.by(*renderer), picture.name + " in blocks");
+    const auto narrow = std::make_unique<StillRenderer>(4);
+    expect_same_bits(some, picture.by(*narrow), picture.name + " by short vectors");
+  }
+}
+
+TEST(CpuPicture, AdaptiveSamplesMissNothingThin) {
+  // Sticks of a twentieth of a pixel lie between the centres of pixels, where first samples are even.
+  const auto renderer = std::make_unique<StillRenderer>();
+  Shapes shapes;
+  for (int n = 0; n < 20; ++n)
+    shapes.cylinders.push_back({{-50.0, 5.0 * n - 50.0, 0.0}, {50.0, 5.1 * n - 50.0, 0.0}, 0.01, 0, 0});
+  Coloring coloring;
+  coloring.atom = {glm::vec3(0.9f)};
+  std::array<PictureObject, 1> objects;
+  objects[0].shapes = &shapes;
+  objects[0].coloring = &coloring;
+  RenderSettings settings;
+  settings.size = {250, 250};
+  settings.samples = 9;
+  const Camera camera{{0, 0, 200}, {0, 0, 0}, {0, 1, 0}, Projection::orthographic, 30.0, 110.0};
+  const Framebuffer all = renderer->render(objects, camera, settings);
+  settings.adaptive = true;
+  expect_same_bits(all, renderer->render(objects, camera, settings), "thin sticks");
+  EXPECT_TRUE(std::ranges::any_of(all.color, [](const glm::vec4& color) { return color.w > 0.0f; }));
 }
 
 /// What is left of the light where shade falls, in 8 bits: of squares of `edge` pixels wholly covered, else -1.

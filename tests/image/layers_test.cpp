@@ -9,12 +9,12 @@
 
 #include "core/base/error.h"
 #include "core/image/color_space.h"
-#include "core/queries/surface_point.h"
+#include "core/queries/surface_parts.h"
 #include "core/render/cpu/cpu_renderer.h"
 #include "core/scene/cut.h"
+#include "core/shapes/shapes.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
-#include "core/shapes/shapes.h"
 
 namespace meniscus {
 namespace {

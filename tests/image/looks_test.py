@@ -143,7 +143,7 @@ class Looks(unittest.TestCase):
         self.assertEqual(replies[0]["presets"], words)
         for n, word in enumerate(WRITTEN_OUT):
             with self.subTest(word):
-                self.assertEqual(replies[3 * n + 2]["preset"], word)
+                self.assertEqual(replies[3 * n + 2]["values"]["look.preset"], word)
                 shown = replies[3 * n + 3]["words"]
                 self.run_program(*shown[1:], "-o", "v.png", "--force", "--device", "cpu")
                 if word == "pocket":

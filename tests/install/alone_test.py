@@ -12,6 +12,8 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PARTS = {"GEMMI": "gemmi (with PEGTL)", "ZLIB": "zlib", "GL": "epoxy", "JSON": "nlohmann_json", "DEFLATE": "libdeflate"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]', re.M)
+#: What builds with a part compile: up to #else or #endif.
+PART = re.compile(r"^#ifdef (MENISCUS_\w+)$.*?^#(?:else|endif)$", re.M | re.S)
 FREE = {"glm", "fmt", "tbb"}
 SYSTEM = {"cpuid.h", "stddef.h", "stdint.h", "sched.h", "fcntl.h", "unistd.h", "dlfcn.h", "sys/mman.h", "sys/stat.h", "sys/types.h", "sys/sysinfo.h", "emmintrin.h", "immintrin.h",
           "malloc.h", "quadmath.h", "linux/fs.h", "mach-o/dyld.h", "sys/syscall.h", "errno.h"}
@@ -22,23 +24,30 @@ def configure(folder, *options):
                            *options], text=True, capture_output=True)
 
 
-def closure(files):
-    """Of sources: all headers of ours that they include, and what of others with the file that does."""
-    ours, others, rest = set(), {}, [pathlib.Path(file) for file in files]
+def closure(commands):
+    """Returns all headers of ours that compiled sources include, and others with the file that includes them."""
+    ours, others, rest = set(), {}, [(pathlib.Path(command["file"]), command["command"].split()) for command in commands]
     while rest:
-        file = rest.pop()
+        file, words = rest.pop()
         if file in ours:
             continue
         ours.add(file)
-        for kind, name in INCLUDE.findall(file.read_text()):
+        text = PART.sub(lambda part: part[0] if f"-D{part[1]}" in words else "", file.read_text())
+        for kind, name in INCLUDE.findall(text):
             for place in (ROOT / name, file.parent / name):
                 if place.is_file():
-                    rest.append(place)
+                    rest.append((place, words))
                     break
             else:
                 if name != "meniscus/meniscus.h":
                     others.setdefault(name, file)
     return ours, others
+
+
+def sources(folder):
+    """Returns the commands that compile files of the repository."""
+    commands = json.loads((pathlib.Path(folder) / "compile_commands.json").read_text())
+    return [command for command in commands if not command["file"].startswith(folder)]
 
 
 class Alone(unittest.TestCase):
@@ -53,11 +62,11 @@ class Alone(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         for part in PARTS:
             self.assertRegex(run.stdout, f"no: MENISCUS_{part} is OFF")
-        commands = json.loads((pathlib.Path(self.folder) / "compile_commands.json").read_text())
-        files = [command["file"] for command in commands if not command["file"].startswith(self.folder)]
+        commands = sources(self.folder)
+        files = [command["file"] for command in commands]
         self.assertGreater(len(files), 100)
         self.assertFalse([file for file in files if "/app/" in file])
-        ours, others = closure(files)
+        ours, others = closure(commands)
         self.assertGreater(len(ours), 250)
         foreign = {name: str(file.relative_to(ROOT)) for name, file in others.items()
                    if "." in name and name.split("/")[0] not in FREE and name not in SYSTEM
@@ -110,10 +119,10 @@ class Alone(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         for part in ("GL", "IMAGES", "HDF5"):
             self.assertRegex(run.stdout, f"no: MENISCUS_{part} is OFF")
-        commands = json.loads((pathlib.Path(self.folder) / "compile_commands.json").read_text())
-        files = [command["file"] for command in commands if not command["file"].startswith(self.folder)]
+        commands = sources(self.folder)
+        files = [command["file"] for command in commands]
         self.assertIn(str(ROOT / "app/main.cpp"), files)
-        foreign = {name for name in closure(files)[1] if re.match("epoxy/|EGL/|GL/|OpenImageIO/|hdf5", name)}
+        foreign = {name for name in closure(commands)[1] if re.match("epoxy/|EGL/|GL/|OpenImageIO/|hdf5", name)}
         self.assertEqual(foreign, set())
         self.assertNotRegex(" ".join(command["command"] for command in commands), "epoxy|hdf5/|OpenImageIO")
 
@@ -121,10 +130,10 @@ class Alone(unittest.TestCase):
         run = configure(self.folder, "-DMENISCUS_UNITY=OFF", "-DMENISCUS_TESTS=OFF", "-DMENISCUS_GL=OFF")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertRegex(run.stdout, "meniscus preview: yes")
-        commands = json.loads((pathlib.Path(self.folder) / "compile_commands.json").read_text())
-        files = [command["file"] for command in commands if not command["file"].startswith(self.folder)]
+        commands = sources(self.folder)
+        files = [command["file"] for command in commands]
         self.assertIn(str(ROOT / "app/preview/server/serve.cpp"), files)
-        self.assertFalse({name for name in closure(files)[1] if re.match("epoxy/|EGL/|GL/|GLFW/", name)})
+        self.assertFalse({name for name in closure(commands)[1] if re.match("epoxy/|EGL/|GL/|GLFW/", name)})
 
     def test_says_what_the_program_can_be_built_without(self):
         run = configure(self.folder, "-DCMAKE_DISABLE_FIND_PACKAGE_OpenImageIO=ON")

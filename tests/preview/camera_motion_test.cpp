@@ -3,7 +3,6 @@
 #include "app/preview/camera_motion.h"
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include <glm/geometric.hpp>
@@ -71,30 +70,6 @@ TEST_P(CameraMotion, ADragOverTheWholeHeightIsHalfATurn) {
   const Camera behind = orbited(camera_, {1.0, 0.0});
   EXPECT_LT(glm::length(view_basis(behind).forward + view_basis(camera_).forward), 1e-12);
   EXPECT_LT(glm::length(view_basis(behind).up - view_basis(camera_).up), 1e-12);
-}
-
-TEST_P(CameraMotion, PanMovesThePointUnderTheCursor) {
-  const glm::dvec3 point = point_in_target_plane();
-  const glm::dvec2 drag{number(), number()};
-  const glm::dvec2 shift = pixel_of(panned(camera_, drag), point) - pixel_of(camera_, point);
-  EXPECT_NEAR(shift.x, drag.x * kSize.y, 1e-7);
-  EXPECT_NEAR(shift.y, drag.y * kSize.y, 1e-7);
-}
-
-TEST_P(CameraMotion, ZoomEnlargesByTheFactor) {
-  const glm::dvec3 point = point_in_target_plane();
-  const glm::dvec2 middle = 0.5 * kSize;
-  const glm::dvec2 larger = pixel_of(zoomed(camera_, 1.5), point) - middle;
-  EXPECT_LT(glm::length(larger - 1.5 * (pixel_of(camera_, point) - middle)), 1e-7);
-  EXPECT_NEAR(height_at_target(zoomed(camera_, 1e9)) / height_at_target(zoomed(camera_, 1e12)), 1.0, 1e-12);
-}
-
-TEST_P(CameraMotion, RollTurnsThePictureClockwise) {
-  const glm::dvec3 above = camera_.target + view_basis(camera_).up;
-  const glm::dvec2 turned = pixel_of(rolled(camera_, 0.5 * std::numbers::pi), above) - 0.5 * kSize;
-  const glm::dvec2 before = pixel_of(camera_, above) - 0.5 * kSize;
-  EXPECT_NEAR(turned.x, -before.y, 1e-7);
-  EXPECT_NEAR(turned.y, 0.0, 1e-7);
 }
 
 TEST_P(CameraMotion, ProjectionsShowTheTargetAlike) {

@@ -143,13 +143,13 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
         async with selected.socket() as client:
             before = await self.same_as_exported(client, "as begun")
             for command in (setting("surface.probe", 1.8), setting("surface.color", "bfactor"),
-                            setting("surface.show", "chain D"), {"command": "paint", "selection": "resid 5", "color": "red"},
-                            {"command": "represent", "as": "sticks", "selection": "resid 50-60"},
-                            {"command": "object", "object": {"selection": "chain A and resid 60-80", "color": "teal", "probe": 1.8}},
-                            {"command": "opacity", "opacity": 0.5}, {"command": "cut", "plane": "depth>0.3"},
+                            setting("surface.show", "chain D"), {"command": "add", "key": "surface.color", "value": "resid 5=red"},
+                            {"command": "add", "key": "figure.sticks", "value": "resid 50-60"},
+                            {"command": "add", "key": "figure.object", "value": {"selection": "chain A and resid 60-80", "color": "teal", "probe": 1.8}},
+                            {"command": "add", "key": "surface.opacity", "value": 0.5}, {"command": "add", "key": "surface.clip", "value": "depth>0.3"},
                             setting("surface.cap_hatching", 1.5),
                             {"command": "orbit", "dx": 0.2, "dy": 0.1}, setting("look.silhouettes", 2), setting("look.shadows", 0.5),
-                            {"command": "remove", "of": "objects"}, setting("surface.show", None),
+                            {"command": "set", "key": "figure.object", "value": None}, setting("surface.show", None),
                             setting("surface.patches", "resid 5-20"), setting("surface.min_patch", 30),
                             setting("legend.title", "B-factors"), setting("surface.kind", "sas"),
                             setting("surface.kind", "vdw"), setting("surface.color", "kind"), {"command": "undo"}):
@@ -157,7 +157,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
                 tables = await self.same_as_exported(client, command)
                 if command["command"] == "orbit" or command.get("key", "").startswith(("look", "legend", "surface.cap")):
                     self.assertEqual(tables, before, command)
-                elif command["command"] != "cut" and command.get("key") != "surface.min_patch":
+                elif command.get("key") not in ("surface.clip", "surface.min_patch"):
                     self.assertNotEqual(tables, before, command)
                 before = tables
 
@@ -198,7 +198,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
             _, _, larger, count = await change(setting("surface.probe", 1.6))
             self.assertEqual(count, sum(len(larger[name]) for name in ("primitives", "rows")))
             # A cut that follows the view changes with it, but no table.
-            self.assertEqual((await change({"command": "cut", "plane": "depth>0.4"}))[3], 0)
+            self.assertEqual((await change({"command": "add", "key": "surface.clip", "value": "depth>0.4"}))[3], 0)
             _, cut, _, _ = await change({"command": "orbit", "dx": 0.05, "dy": 0.0})
             _, turned, _, count = await change({"command": "orbit", "dx": 0.05, "dy": 0.0})
             self.assertNotEqual(cut["views"][0]["planes"], turned["views"][0]["planes"])
@@ -253,7 +253,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
                 message = await receive(client, lambda m: m.get("event") == "figure")
                 await client.recv()
                 figures += 1
-                if message["state"]["probe_radius"] == radii[-1]:
+                if message["state"]["values"]["surface.probe"] == radii[-1]:
                     break
                 await client.send(json.dumps({"request": "figure", "has": []}))
             self.assertLess(figures, len(radii) / 2)
@@ -265,7 +265,7 @@ class FigureTables(unittest.IsolatedAsyncioTestCase):
 
         async with self.serve(TOXIN, "--select", "chain D").socket() as client:
             thick = {"selection": "resid 1-20", "roughness": 0.9}
-            self.assertTrue((await ask(client, {"command": "object", "object": thick}))["ok"])
+            self.assertTrue((await ask(client, {"command": "add", "key": "figure.object", "value": thick}))["ok"])
             self.assertRegex(await said(client), r"^The browser cannot [a-z ]*; the program draws its pictures\.$")
             self.assertTrue((await ask(client, {"command": "undo"}))["ok"])
             self.assertEqual(await said(client), "")

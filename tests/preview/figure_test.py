@@ -72,21 +72,21 @@ class Figures(unittest.TestCase):
     def test_the_same_made_by_commands(self):
         self.same_picture(MOLECULE, commands=[
             {"command": "set", "key": "surface.color", "value": "bfactor"}, {"command": "set", "key": "surface.map", "value": "magma"}, {"command": "set", "key": "surface.color_range", "value": "5:80"},
-            {"command": "paint", "selection": "resid 5-30", "color": "orange"},
-            {"command": "represent", "as": "tube", "selection": "chain C"},
-            {"command": "represent", "as": "balls", "selection": "water and within 5 of chain C"},
-            {"command": "represent", "as": "spheres", "selection": "resid 1"},
+            {"command": "add", "key": "surface.color", "value": "resid 5-30=orange"},
+            {"command": "add", "key": "figure.tube", "value": "chain C"},
+            {"command": "add", "key": "figure.balls", "value": "water and within 5 of chain C"},
+            {"command": "add", "key": "figure.spheres", "value": "resid 1"},
             {"command": "set", "key": "shapes.stick_radius", "value": 0.3}, {"command": "set", "key": "shapes.tube_radius", "value": 0.5},
-            {"command": "opacity", "opacity": 0.3},
-            {"command": "opacity", "opacity": 1, "selection": "chain D"},
-            {"command": "cut", "plane": "depth>0.45"},
+            {"command": "add", "key": "surface.opacity", "value": 0.3},
+            {"command": "add", "key": "surface.opacity", "value": "chain D=1"},
+            {"command": "add", "key": "surface.clip", "value": "depth>0.45"},
             {"command": "set", "key": "surface.cap_color", "value": "atom"}, {"command": "set", "key": "surface.cap_hatching", "value": 1.5},
-            {"command": "hide", "selection": "resid 100-110"},
+            {"command": "take_away", "selection": "resid 100-110"},
             {"command": "set", "key": "look.preset", "value": "flat"},
             {"command": "set", "key": "look.depth_cue", "value": 0.3}, {"command": "set", "key": "image.background", "value": "#eef2ff"},
             {"command": "set", "key": "legend.place", "value": "below"}, {"command": "set", "key": "legend.shown", "value": True},
             {"command": "orbit", "dx": 0.2, "dy": 0.05},
-            {"command": "zoom", "factor": 1.4, "x": 100, "y": 60},
+            {"command": "zoom_to", "selection": "chain D"},
             {"command": "set", "key": "surface.probe", "value": 1.7}])
 
     def test_the_same_made_by_properties(self):
@@ -113,11 +113,10 @@ class Figures(unittest.TestCase):
 
     def test_transparent_and_of_another_size(self):
         self.same_picture(MOLECULE, "--projection", "orthographic", "--preset", "soft", width=200, height=210,
-                          samples=2, transparent=True, commands=[{"command": "represent", "as": "sticks",
-                                                                  "selection": "resid 1-20"}])
+                          samples=2, transparent=True, commands=[{"command": "add", "key": "figure.sticks", "value": "resid 1-20"}])
 
     def test_also_where_gl_draws_what_it_can(self):
-        for commands in ([], [{"command": "cut", "plane": "x<60"}]):
+        for commands in ([], [{"command": "add", "key": "surface.clip", "value": "x<60"}]):
             replies = self.same_picture(MOLECULE, "--color", "chain", device="software",
                                         commands=[*commands, {"command": "state"}])
             self.assertEqual(replies[-3]["drawn_by"], "cpu" if commands else "gl")
@@ -136,18 +135,18 @@ class Figures(unittest.TestCase):
             for kind in ("sas", "vdw"):
                 begun = self.same_picture(MOLECULE, "--select", "chain D", "--surface", kind, "--color", "chain",
                                           device=device, commands=[{"command": "state"}])
-                self.assertEqual((begun[0]["surface"], begun[0]["drawn_by"]), (kind, "cpu" if device == "cpu" else "gl"))
+                self.assertEqual((begun[0]["values"]["surface.kind"], begun[0]["drawn_by"]), (kind, "cpu" if device == "cpu" else "gl"))
         # A figure on its way through all of them, and back to one.
         self.same_picture(MOLECULE, "--select", "chain D", "--surface", "vdw", commands=[
             {"command": "set", "key": "surface.kind", "value": "sas"}, {"command": "set", "key": "surface.probe", "value": 2.5},
-            {"command": "represent", "as": "tube", "selection": "chain D"}, {"command": "opacity", "opacity": 0.4},
-            {"command": "set", "key": "surface.kind", "value": "ses"}, {"command": "set", "key": "surface.kind", "value": "vdw"}, {"command": "cut", "plane": "depth>0.4"},
+            {"command": "add", "key": "figure.tube", "value": "chain D"}, {"command": "add", "key": "surface.opacity", "value": 0.4},
+            {"command": "set", "key": "surface.kind", "value": "ses"}, {"command": "set", "key": "surface.kind", "value": "vdw"}, {"command": "add", "key": "surface.clip", "value": "depth>0.4"},
             {"command": "undo"}, {"command": "undo"}, {"command": "undo"}])
 
     def test_kinds_of_patch(self):
         self.same_picture(MOLECULE, "--color", "chain", "--color", "chain A=red",
                           commands=[{"command": "set", "key": "surface.color", "value": "kind"},
-                                    {"command": "represent", "as": "spheres", "selection": "chain A"}])
+                                    {"command": "add", "key": "figure.spheres", "value": "chain A"}])
 
     def test_copies_in_frames(self):
         """Two rows of atoms, one a copy of the other; in the last frame they touch."""
@@ -173,8 +172,8 @@ class Figures(unittest.TestCase):
     def test_models_and_frames(self):
         models = f"{DATA}/pdb2k39_truncated.pdb"
         commands = [{"command": "frame", "index": 2},
-                    {"command": "represent", "as": "sticks", "selection": "within 4 of resid 3"},
-                    {"command": "opacity", "opacity": 0.4}]
+                    {"command": "add", "key": "figure.sticks", "value": "within 4 of resid 3"},
+                    {"command": "add", "key": "surface.opacity", "value": 0.4}]
         self.same_picture(models, "--color", "hydrophobicity", commands=commands)
         self.same_picture(models, "--trajectory", f"{DATA}/dcd2k39_truncated.dcd", "--superpose", "name CA",
                           commands=commands)
@@ -184,7 +183,7 @@ class Figures(unittest.TestCase):
         replies = self.same_picture(*run, commands=[{"command": "state"}, *commands[:2], {"command": "set", "key": "surface.color", "value": "chain"},
                                                     {"command": "set", "key": "surface.color", "value": "rmsf"}, {"command": "state"},
                                                     {"command": "choices"}])
-        self.assertEqual(replies[0]["color"], replies[5]["color"])
+        self.assertEqual(replies[0]["values"]["surface.color"], replies[5]["values"]["surface.color"])
         self.assertIn("rmsf", [scheme["word"] for scheme in replies[6]["schemes"]])
         export = {"command": "export", "format": "png", "force": True}
         replies = self.session(*run, commands=[
@@ -201,7 +200,7 @@ class Figures(unittest.TestCase):
             table.writelines(f"{frame},{atom},{(7 * frame + atom) % 50}\n" for frame in range(3) for atom in range(1, 200))
         numbers = ("--color", "file", "--color-by-file", self.path("numbers.csv"), "--color-column", "score", "--legend")
         for run in (), ("--trajectory", f"{DATA}/dcd2k39_truncated.dcd"):
-            beside = [{"command": "represent", "as": "sticks", "selection": "resid 3"}, commands[2]]
+            beside = [{"command": "add", "key": "figure.sticks", "value": "resid 3"}, commands[2]]
             for frame in 2, 1:
                 self.same_picture(models, *run, *numbers, commands=[{"command": "frame", "index": frame}, *beside])
             with open(self.path("few.csv"), "w") as table:
@@ -227,12 +226,12 @@ class Figures(unittest.TestCase):
         # To another scheme and back to what it was begun with.
         there = self.same_picture(MOLECULE, *options, commands=[
             {"command": "set", "key": "surface.color", "value": "chain"}, {"command": "set", "key": "surface.color", "value": "file"}, {"command": "state"}])
-        self.assertEqual(begun[0]["color"], there[2]["color"])
-        self.assertTrue(there[2]["color"]["own_map"])
+        self.assertEqual(begun[0]["values"]["surface.color"], there[2]["values"]["surface.color"])
+        self.assertTrue(there[2]["own_map"])
 
     def test_text_for_a_shell(self):
         replies = self.session(MOLECULE, "--select", "chain A or chain D", commands=[
-            {"command": "paint", "selection": "name 'C*' or resid 3", "color": "red"}, {"command": "render_command"}])
+            {"command": "add", "key": "surface.color", "value": "name 'C*' or resid 3=red"}, {"command": "render_command"}])
         self.assertIn("--select 'chain A or chain D'", replies[1]["text"])
         shell = subprocess.run(["sh", "-c", "for w in " + replies[1]["text"] + "; do printf '%s\\n' \"$w\"; done"],
                                capture_output=True, text=True)
@@ -240,8 +239,8 @@ class Figures(unittest.TestCase):
 
     def test_what_is_beside_the_surface_says_what_it_is(self):
         replies = self.session(MOLECULE, commands=[
-            {"command": "represent", "as": "spheres", "selection": "resid 1-500"},
-            {"command": "hide", "selection": "not resid 1"},
+            {"command": "add", "key": "figure.spheres", "value": "resid 1-500"},
+            {"command": "set", "key": "surface.show", "value": "resid 1"},
             {"command": "zoom_to", "selection": "all"},
             {"command": "pick", "x": 120, "y": 90}])
         self.assertTrue(replies[-1]["hit"])
@@ -302,12 +301,11 @@ class Figures(unittest.TestCase):
         replies = self.session(MOLECULE, "--select", "polymer", commands=[
             {"command": "state"}, {**export, "path": "first.png"},
             {"command": "set", "key": "surface.color", "value": "bfactor"}, {"command": "set", "key": "surface.map", "value": "magma"}, {"command": "set", "key": "surface.color_range", "value": "5:80"},
-            {"command": "object", "object": {"selection": "chain C", "color": "gold", "opacity": "0.5",
-                                             "clip": "depth>0.5"}},
-            {"command": "object", "object": {"representation": "spheres", "selection": "resn HOH"}},
-            {"command": "represent", "as": "tube", "selection": "chain D"},
+            {"command": "add", "key": "figure.object", "value": {"selection": "chain C", "color": "gold", "opacity": "0.5", "clip": "depth>0.5"}},
+            {"command": "add", "key": "figure.object", "value": {"representation": "spheres", "selection": "resn HOH"}},
+            {"command": "add", "key": "figure.tube", "value": "chain D"},
             {"command": "set", "key": "surface.show", "value": "within 8 of resn HOH"},
-            {"command": "opacity", "opacity": 0.5},
+            {"command": "add", "key": "surface.opacity", "value": 0.5},
             {"command": "set", "key": "legend.shown", "value": True},
             {"command": "orbit", "dx": 0.2, "dy": 0.05},
             {**export, "path": "figure.png"}, {**export, "path": "figure.tif"}, {**export, "path": "figure.jpg"},
@@ -322,8 +320,8 @@ class Figures(unittest.TestCase):
             {"command": "undo"}, {**export, "path": "undone.png"},
             {"command": "redo"}, {**export, "path": "redone.png"}, {"command": "state"}])
         self.assertTrue(all(reply["ok"] for reply in replies), replies)
-        self.assertEqual(replies[1]["export"], {**SIZE, "samples": 2, "transparent": False})
-        self.assertEqual(replies[1]["objects"], replies[-1]["objects"])
+        self.assertEqual((replies[1]["export_size"], replies[1]["values"]["image.samples"]), ([240, 180], 2))
+        self.assertEqual(replies[1]["values"], replies[-1]["values"])
         for name, expected in (("opened", "figure"), ("undone", "first"), ("redone", "figure")):
             self.same(f"{name}.png", f"{expected}.png")
         # Pictures carry their scenes, and so do pages.

@@ -56,7 +56,7 @@ class Films(unittest.TestCase):
 
     def test_it_is_that_of_the_same_scenes(self):
         self.preview("a.pdb", commands=[
-            ("set", {"key": "surface.color", "value": "chain"}), ("cut", {"plane": "z<2"}), ("keep_scene", {}), ("save", {"path": "one.json", **self.SIZE}),
+            ("set", {"key": "surface.color", "value": "chain"}), ("add", {"key": "surface.clip", "value": "z<2"}), ("keep_scene", {}), ("save", {"path": "one.json", **self.SIZE}),
             ("set", {"key": "surface.probe", "value": 2}), ("orbit", {"dx": 0.3, "dy": 0.1}), ("set", {"key": "image.background", "value": "#203040"}), ("keep_scene", {}),
             ("save", {"path": "two.json", **self.SIZE}), ("time_scene", {"index": 0, "hold": 0.16, "transition": 0.24}),
             ("time_scene", {"index": 1, "hold": 0.08}), self.EXPORT, ("save", {"path": "story.json", "strip": True, **self.SIZE})])
@@ -98,8 +98,8 @@ class Films(unittest.TestCase):
             ("state", {}), ("strip", {"place": 1}), ("state", {}), ("save", {"path": "again.json", "strip": True, **self.SIZE})])
         first, second = replies[11], replies[13]
         self.assertEqual([(kept["frame"], kept["hold"], kept["transition"]) for kept in first["strip"]["kept"]], [(0, 1, 0.5), (1, 2, 0.5)])
-        self.assertEqual((first["probe_radius"], first["color"]["scheme"]), (1.4, "chain"))
-        self.assertEqual((second["probe_radius"], second["frame"]), (2.5, 1))
+        self.assertEqual((first["values"]["surface.probe"], first["values"]["surface.color"]), (1.4, ["chain"]))
+        self.assertEqual((second["values"]["surface.probe"], second["frame"]), (2.5, 1))
         self.assertEqual((self.folder / "story.json").read_text(), (self.folder / "again.json").read_text())
 
 

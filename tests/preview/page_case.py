@@ -30,6 +30,16 @@ class PageCase(unittest.IsolatedAsyncioTestCase):
         self.addCleanup(preview.end)
         return preview
 
+    async def select(self, page, atoms):
+        """Selects atoms by an expression."""
+        await page.evaluate(f"document.getElementById('atoms').value = {json.dumps(atoms)}; document.getElementById('figure-form').requestSubmit(); 0")
+
+    async def act(self, page, atoms, words):
+        """Selects atoms, and presses a button of their card."""
+        await self.select(page, atoms)
+        await page.until(f"document.querySelector('#card h2').textContent === {json.dumps(atoms)}")
+        await page.evaluate(f"[...document.querySelectorAll('#card button')].find((one) => one.textContent === {json.dumps(words)}).click()")
+
     async def shoot(self, page, name):
         if "MENISCUS_SCREENSHOTS" in os.environ:
             await page.screenshot(os.path.join(os.environ["MENISCUS_SCREENSHOTS"], name))

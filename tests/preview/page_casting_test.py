@@ -77,22 +77,21 @@ class PageCasting(PageCase):
             await page.evaluate("got = 0")
             await page.evaluate("""const probe = document.getElementById('probe-number'); probe.value = 2;
                 probe.dispatchEvent(new Event('change')); 0""")
-            await page.until("JSON.parse(document.getElementById('picture').dataset.state).probe_radius === 2")
+            await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['surface.probe'] === 2")
             await page.at_rest(200)
             whole = await page.evaluate("got")
             # Other colours need other colours alone.
             await page.evaluate("got = 0")
             await page.evaluate("""const scheme = document.getElementById('scheme'); scheme.value = 'residue';
                 scheme.dispatchEvent(new Event('change')); 0""")
-            await page.until("JSON.parse(document.getElementById('picture').dataset.state).color.scheme === 'residue'")
+            await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['surface.color'][0] === 'residue'")
             await page.at_rest(200)
             colours = await page.evaluate("got")
             print(f"\ntables of another probe: {whole} bytes, of other colours: {colours} bytes")
             self.assertLess(colours, 0.5 * whole)
             # Sticks come with their own primitives.
-            await page.evaluate("""document.getElementById('atoms').value = 'resid 3';
-                document.querySelector('#figure-form button[value=sticks]').click()""")
-            await page.until("JSON.parse(document.getElementById('picture').dataset.state).representations.length === 1")
+            await self.act(page, "resid 3", "Sticks")
+            await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['figure.sticks'].length === 1")
             await page.at_rest(200)
             self.assertTrue(await page.evaluate("meniscus.casts"))
             self.assertEqual(page.complaints, [])

@@ -76,14 +76,12 @@ class PageManners(PageCase):
         preview = self.serve(MOLECULE, "--select", "chain D")
         async with Browser(CHROMIUM, SIZE) as page:
             await page.open(preview.url)
-            await page.evaluate("""document.getElementById('selection').value = 'chain (';
-                document.getElementById('zoom-form').requestSubmit();
-                document.getElementById('atoms').value = 'resid 10 and (';
-                document.querySelector('#figure-form button[value=sticks]').click(); 0""")
+            await page.click("#open-scene")  # of a name that no file has
+            await self.select(page, "resid 10 and (")
             await page.until("!document.getElementById('atoms-fault').hidden && "
                              "document.getElementById('message').classList.contains('error')")
             begin = time.monotonic()
-            await page.click("#kinds")
+            await self.press(page, "k")
             await page.until("document.getElementById('atoms-fault').hidden && document.getElementById('message').hidden")
             self.assertLess(time.monotonic() - begin, 5, "before it goes by itself")
 
@@ -98,7 +96,7 @@ class PageManners(PageCase):
             await page.at_rest()
             self.assertFalse(await page.evaluate(asked), "who looks around has nothing to save")
             for save in ("#writers button[value=scene]", "#save", "#undo"):
-                await page.click("#kinds")
+                await self.press(page, "k")
                 await page.until(unsaved)
                 self.assertTrue(await page.evaluate(asked))
                 await page.click(save)
@@ -109,7 +107,7 @@ class PageManners(PageCase):
             await page.evaluate("""const decode = window.createImageBitmap; window.createImageBitmap = async (...all) => {
                 await new Promise((resolve) => setTimeout(resolve, 2000)); return decode(...all); };
                 document.getElementById('export-name').value = 'late'; 0""")
-            await page.click("#kinds")
+            await self.press(page, "k")
             await page.until(unsaved)
             await page.click("#save")
             await page.until("document.getElementById('message').textContent.includes('Written')")
@@ -133,10 +131,9 @@ class PageManners(PageCase):
             async with Browser(CHROMIUM, size) as page:
                 await page.open(preview.url)
                 if size == (1280, 720):
-                    for act, atoms in (("sticks", "resid 1-20 and not name N or resid 60"),
-                                       ("fade", "chain A and (resid 1-60 or resid 80-120)"), ("surface", "resid 1-9")):
-                        await page.evaluate(f"document.getElementById('atoms').value = '{atoms}'; "
-                                            f"document.querySelector('#figure-form button[value={act}]').click()")
+                    for act, atoms in (("Sticks", "resid 1-20 and not name N or resid 60"),
+                                       ("See through", "chain A and (resid 1-60 or resid 80-120)"), ("Surface of", "resid 1-9")):
+                        await self.act(page, atoms, act)
                     await page.click("#cut-x")
                     await page.evaluate("document.getElementById('view-name').value = 'a view with a name that is long'; "
                                         "document.getElementById('view-form').requestSubmit(); 0")
@@ -224,12 +221,11 @@ class PageManners(PageCase):
             self.assertEqual(await page.evaluate("document.getElementById('export-name').value"), "k]l")
             await page.evaluate("document.activeElement.blur()")
             await self.press(page, "g")
-            await page.until("JSON.parse(document.getElementById('picture').dataset.state).legend.on")
+            await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['legend.shown']")
             after = await self.state(page)
-            for turned_off in ("specular", "depth_cue"):  # by a legend, beside which they would change colours
-                del before["look"][turned_off], after["look"][turned_off]
-            for kept in ("patch_kinds", "probe_radius", "look"):
-                self.assertEqual(after[kept], before[kept], kept)
+            for values in before["values"], after["values"]:  # a legend turns off what would change colours
+                del values["legend.shown"], values["look.specular"], values["look.depth_cue"]
+            self.assertEqual(after["values"], before["values"])
             self.assertEqual(page.complaints, [])
 
     async def test_nothing_waits_for_what_takes_long(self):
@@ -303,13 +299,13 @@ class PageManners(PageCase):
             before = await self.state(page)
             await page.evaluate("document.getElementById('look').open = true, document.getElementById('lamp').focus()")
             await self.press(page, "ArrowRight")
-            await page.until(f"{shown}.look.light_direction[0] > {before['look']['light_direction'][0]}")
+            await page.until(f"parseFloat({shown}.values['look.light']) > {before['values']['look.light'].split(',')[0]}")
             self.assertEqual((await self.state(page))["camera"], before["camera"])
-            await page.evaluate("document.getElementById('kinds').focus()")
+            await page.evaluate("document.getElementById('legend-shown').focus()")
             await self.press(page, "L")
-            await page.until(f"{shown}.look.silhouettes > 0")
+            await page.until(f"{shown}.values['look.silhouettes'] > 0")
             await self.press(page, " ")
-            await page.until(f"{shown}.patch_kinds")
+            await page.until(f"{shown}.values['legend.shown']")
             self.assertFalse((await self.state(page))["playing"])
             await page.evaluate("document.getElementById('by-words').open = true, document.getElementById('atoms').focus()")
             await self.press(page, "l")
@@ -319,23 +315,32 @@ class PageManners(PageCase):
             await page.until("!document.getElementById('help').hidden")
             await self.press(page, "Escape")
             await page.until("document.getElementById('help').hidden")
-            self.assertGreater((await self.state(page))["look"]["silhouettes"], 0)
+            self.assertGreater((await self.state(page))["values"]["look.silhouettes"], 0)
             self.assertEqual(page.complaints, [])
 
     async def test_keys_do_what_the_page_says(self):
         preview = self.serve(MOLECULE, "--select", "chain D", "--preset", "classic")
         async with Browser(CHROMIUM, SIZE) as page:
             await page.open(preview.url)
-            for key, changed in (("ArrowLeft", "camera"), ("-", "camera"), ("k", "patch_kinds"), ("]", "probe_radius"),
-                                 ("o", "camera"), ("r", "camera"), ("z", "camera"), ("y", "camera"), ("g", "legend"),
-                                 ("2", "color"), ("l", "look")):
-                before = (await self.state(page))[changed]
+            async def value(key):
+                state = await self.state(page)
+                return state.get(key, state["values"].get(key))
+
+            for key, changed in (("ArrowLeft", "camera"), ("-", "camera"), ("k", "surface.color"), ("]", "surface.probe"),
+                                 ("o", "camera"), ("r", "camera"), ("z", "camera"), ("y", "camera"), ("g", "legend.shown"),
+                                 ("2", "surface.color"), ("L", "look.silhouettes"), ("a", "look.ambient_occlusion")):
+                before = await value(changed)
                 await self.press(page, key)
                 end = time.monotonic() + 30
-                while (await self.state(page))[changed] == before:
+                while await value(changed) == before:
                     self.assertLess(time.monotonic(), end, f"{key} does nothing")
-            await page.evaluate("""document.getElementById('selection').value = 'resid 10-20 and (';
-                document.getElementById('zoom-form').requestSubmit(); 0""")
+            # Steps of the probe stay on tenths, however fast they come.
+            shown = "JSON.parse(document.getElementById('picture').dataset.state)"
+            for key, count, radius in (("[", 20, 0), ("]", 17, 1.7)):
+                for _ in range(count):
+                    await self.press(page, key)
+                await page.until(f"{shown}.values['surface.probe'] === {radius}")
+            await page.click("#open-scene")
             await page.until("document.getElementById('message').classList.contains('error')")
             self.assertEqual(page.complaints, [])
 

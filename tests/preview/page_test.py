@@ -5,7 +5,10 @@ import asyncio
 import json
 import math
 import os
+import pathlib
+import shutil
 import statistics
+import struct
 import subprocess
 import sys
 import unittest
@@ -100,7 +103,7 @@ class Page(PageCase):
         await page.evaluate("""const slider = document.getElementById('probe'); slider.value = '2.5';
             slider.dispatchEvent(new Event('input', {bubbles: true})); 0""")
         await page.until("document.getElementById('probe-number').value === '2.5'")
-        self.assertEqual((await self.state(page))["probe_radius"], 2.5)
+        self.assertEqual((await self.state(page))["values"]["surface.probe"], 2.5)
 
     async def pick(self, page):
         await page.mouse("mouseMoved", 210, 210)
@@ -115,33 +118,34 @@ class Page(PageCase):
     async def colour(self, page):
         await page.evaluate("""const scheme = document.getElementById('scheme'); scheme.value = 'chain';
             scheme.dispatchEvent(new Event('change')); 0""")
-        await page.until("JSON.parse(document.getElementById('picture').dataset.state).color.scheme === 'chain'")
-        await page.click("#kinds")
-        await page.until("!document.getElementById('kinds-key').hidden")
-        self.assertTrue((await self.state(page))["patch_kinds"])
+        await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['surface.color'][0] === 'chain'")
+        await page.evaluate("""document.getElementById('scheme').value = 'kind';
+            document.getElementById('scheme').dispatchEvent(new Event('change')); 0""")
+        await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['surface.color'][0] === 'kind'")
         for key, value in (("ambient_occlusion", 0.8), ("silhouettes", 2), ("depth_cue", 0.25)):
             await page.evaluate(f"""document.getElementById('look-{key}').value = '{value}';
                 document.getElementById('look-{key}').dispatchEvent(new Event('input')); 0""")
         x, y, size = await page.evaluate("""document.getElementById('look').open = true, document.getElementById('lamp').scrollIntoView(),
             (({x, y, width}) => [x, y, width])(document.getElementById('lamp').getBoundingClientRect())""")
         await page.drag([(x + size / 2, y + size / 2), (x + 0.7 * size, y + 0.3 * size)])
-        look = (await self.state(page))["look"]
-        self.assertEqual([look[key] for key in ("ambient_occlusion", "silhouettes", "depth_cue")], [0.8, 2, 0.25])
-        self.assertGreater(min(look["light_direction"]), 0.4)
+        values = (await self.state(page))["values"]
+        self.assertEqual([values[f"look.{key}"] for key in ("ambient_occlusion", "silhouettes", "depth_cue")], [0.8, 2, 0.25])
+        self.assertGreater(min(map(float, values["look.light"].split(","))), 0.4)
 
     async def save(self, page):
         """The picture saved here, that written by the server, and that of `meniscus render` are the same."""
         await page.evaluate("document.getElementById('export-name').value = 'written'; 0")
         state = await self.state(page)
-        await page.click("#save-camera")
+        camera = self.path("camera.json")
+        with open(camera, "w") as file:
+            json.dump(state["camera"], file)
         await page.click("#save")
         await page.until("document.getElementById('message').textContent.includes('Written')")
-        camera = await self.downloaded(page, "1tii_camera.json")
         rendered = self.path("rendered.png")
         size = f"{state['width']}x{state['height']}"
-        subprocess.run([PROGRAM, "render", MOLECULE, "--camera", camera, "--size", size, "--probe", "2.5", "--color", "kind", "--samples", "4", "--background", state["look"]["background"],
+        subprocess.run([PROGRAM, "render", MOLECULE, "--camera", camera, "--size", size, "--probe", "2.5", "--color", "kind", "--samples", "4", "--background", state["values"]["image.background"],
                         "--ambient-occlusion", "0.8", "--silhouettes", "2", "--depth-cue", "0.25", "--light",
-                        ",".join(str(x) for x in state["look"]["light_direction"]), "-o", rendered],
+                        state["values"]["look.light"], "-o", rendered],
                        check=True, capture_output=True)
         saved = await self.downloaded(page, "written.png")
         self.assertTrue(same_pixels(rendered, saved))
@@ -175,6 +179,15 @@ class Page(PageCase):
                 file.write(data)
         self.assertTrue(same_pixels(exported, self.path("shown.png")))
 
+    def test_the_picture_of_the_manual_can_be_made(self):
+        shutil.copy("/usr/share/pymol/data/tut/1hpv.pdb", self.folder.name)
+        script = pathlib.Path(__file__).resolve().parents[2] / "scripts/check/preview_pictures.py"
+        subprocess.run([sys.executable, "-B", script, PROGRAM, self.folder.name, "640x400"], check=True, timeout=200)
+        with open(self.path("preview_page.png"), "rb") as file:
+            data = file.read()
+        self.assertEqual(struct.unpack(">II", data[16:24]), (640, 400))
+        self.assertGreater(len(data), 30_000, "the molecule is in it")
+
     async def test_text_of_a_file_stays_text(self):
         name = self.path("<img src=x onerror=alert(1)>.cif")
         with open(name, "w") as file:
@@ -202,10 +215,6 @@ class Page(PageCase):
             self.assertEqual(state["keys"][0]["camera"], state["camera"])
             self.assertEqual(page.complaints, [])
 
-    async def act(self, page, atoms, button):
-        await page.evaluate(f"""document.getElementById('atoms').value = {json.dumps(atoms)};
-            document.querySelector('#figure-form button[value="{button}"]').click(); 0""")
-
     async def chips(self, page, count):
         await page.until(f"document.querySelectorAll('#chips li').length === {count}")
         await page.at_rest()
@@ -219,15 +228,17 @@ class Page(PageCase):
         preview = self.serve(MOLECULE, "--select", "polymer", "--color", "chain")
         async with Browser(CHROMIUM, (1100, 900)) as page:
             await page.open(preview.url)
-            await self.act(page, "chain C", "tube")
-            await self.act(page, "resid 10-20 and (", "sticks")
+            await self.act(page, "chain C", "Cartoon")
+            await self.select(page, "resid 10-20 and (")
             await page.until("!document.getElementById('atoms-fault').hidden")
-            self.assertNotIn("represent", await page.evaluate("document.getElementById('atoms-fault').textContent"))
+            self.assertNotIn("locate", await page.evaluate("document.getElementById('atoms-fault').textContent"))
             long = "chain A and (resid 1-60 or resid 80-120 or resid 140-160)"
-            await self.act(page, long, "fade")
-            await self.act(page, "resid 1-20", "paint")
+            await self.act(page, long, "See through")
+            await self.select(page, "resid 1-20")
+            await page.until("document.querySelector('#card h2').textContent === 'resid 1-20'")
+            await page.evaluate("document.querySelector('#card [type=color]').dispatchEvent(new Event('change')); 0")
             await page.click("#cut-x")
-            self.assertEqual(await self.chips(page, 4), ["tube: chain C", "#e69f00: resid 1-20", f"see through: {long}",
+            self.assertEqual(await self.chips(page, 4), ["cartoon: chain C", "#e69f00: resid 1-20", f"see through: {long}",
                                                          "cut x >"])
             await page.click("#chips li:last-child .remove")
             await self.chips(page, 3)
@@ -235,10 +246,10 @@ class Page(PageCase):
                 cut.dispatchEvent(new Event('input')); document.getElementById('legend-shown').click();
                 const preset = document.getElementById('look-preset'); preset.value = 'publication';
                 preset.dispatchEvent(new Event('change')); 0""")
-            await page.until("JSON.parse(document.getElementById('picture').dataset.state).preset === 'publication'")
+            await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['look.preset'] === 'publication'")
             state = await self.state(page)
-            self.assertEqual(state["cuts"], ["depth>0.3"])
-            self.assertTrue(state["legend"]["on"])
+            self.assertEqual(state["values"]["surface.clip"], ["depth>0.3"])
+            self.assertTrue(state["values"]["legend.shown"])
             await self.shoot(page, "figure.png")
             # What is shown, what is written, and what the command makes are one picture.
             await page.click("#copy-command")
@@ -252,7 +263,7 @@ class Page(PageCase):
             await page.click("#chips li:first-child .remove")
             self.assertEqual(len(await self.chips(page, 2)), 2)
             await page.click("#undo")
-            self.assertEqual((await self.chips(page, 3))[0], "tube: chain C")
+            self.assertEqual((await self.chips(page, 3))[0], "cartoon: chain C")
             # A click of the middle button centres, a kept view comes back.
             await page.evaluate("document.getElementById('view-name').value = 'front'; "
                                 "document.getElementById('view-form').requestSubmit(); 0")
@@ -280,7 +291,7 @@ class Page(PageCase):
             middle = round(sum(reach) / 2)
             await page.evaluate(f"""const cut = document.querySelector('#chips input'); cut.value = {middle};
                 cut.dispatchEvent(new Event('input')); 0""")
-            cuts = "JSON.parse(document.getElementById('picture').dataset.state).cuts[0]"
+            cuts = "JSON.parse(document.getElementById('picture').dataset.state).values['surface.clip'][0]"
             await page.until(f"{cuts} === '1,-1,0>{middle}'")
             await page.click("#chips button:not(.remove)")
             await page.until(f"{cuts} === '1,-1,0<{middle}'")
@@ -295,7 +306,7 @@ class Page(PageCase):
             await page.until(f"{scenes} === 1 && document.getElementById('play-strip').disabled")
             await page.evaluate("""const probe = document.getElementById('probe-number');
                 probe.value = 2; probe.dispatchEvent(new Event('change')); 0""")
-            await page.until("JSON.parse(document.getElementById('picture').dataset.state).probe_radius === 2")
+            await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['surface.probe'] === 2")
             await page.click("#keep-scene")
             await page.until(f"{scenes} === 2 && !document.getElementById('play-strip').disabled")
             await page.until("document.querySelectorAll('#scenes canvas').length === 2")
@@ -309,9 +320,9 @@ class Page(PageCase):
             await page.until("document.getElementById('film-of').selectedOptions[0].text === 'Strip: 1.2 s'")
             self.assertTrue((await page.evaluate("document.getElementById('film-of').selectedOptions[0].title")).startswith("30 pictures of "))
             await page.click("#scenes li:first-child .recall")
-            await page.until("JSON.parse(document.getElementById('picture').dataset.state).probe_radius === 1")
+            await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['surface.probe'] === 1")
             await page.evaluate("""window.radii = new Set();
-                new MutationObserver(() => radii.add(JSON.parse(document.getElementById('picture').dataset.state).probe_radius))
+                new MutationObserver(() => radii.add(JSON.parse(document.getElementById('picture').dataset.state).values['surface.probe']))
                   .observe(document.getElementById('picture'), {attributeFilter: ['data-state']}); 0""")
             await page.click("#play-strip")
             await page.until("document.getElementById('play-strip').textContent === 'Play film' && "
@@ -326,7 +337,7 @@ class Page(PageCase):
             await page.evaluate("""var slider = document.getElementById('look-light_strength'); slider.value = slider.max;
                 slider.dispatchEvent(new Event('input')); 0""")
             await page.until("document.getElementById('play-strip').textContent === 'Play film'")
-            self.assertEqual((await self.state(page))["look"]["light_strength"], await page.evaluate("slider.valueAsNumber"))
+            self.assertEqual((await self.state(page))["values"]["look.light_strength"], await page.evaluate("slider.valueAsNumber"))
             # The film is written, and comes by a click on its link.
             await page.evaluate("""document.getElementById('width').value = 64; document.getElementById('height').value = 48;
                 document.getElementById('export-samples').value = 1; 0""")
@@ -346,23 +357,23 @@ class Page(PageCase):
         preview = self.serve(MOLECULE, "--select", "polymer", "--color", "chain")
         async with Browser(CHROMIUM, (1100, 900)) as page:
             await page.open(preview.url)
-            await self.act(page, "chain C", "surface")
+            await self.act(page, "chain C", "Surface of")
             self.assertEqual(await self.chips(page, 1), ["surface: chain C"])
             await page.evaluate("""const [opacity, cut] = document.querySelectorAll('#chips li input[type=range]');
                 opacity.value = 0.5; opacity.dispatchEvent(new Event('input'));
                 cut.value = 0.4; cut.dispatchEvent(new Event('input')); 0""")
-            await page.until("JSON.parse(document.getElementById('picture').dataset.state).objects[0].clip === 'depth>0.4'")
+            await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['figure.object'][0].clip === 'depth>0.4'")
             await page.click("#surface-shown")
             state = await self.state(page)
-            self.assertTrue(state["surface_hidden"])
+            self.assertFalse(state["values"]["surface.shown"])
             # Its atoms have no part of the molecule's surface, and nobody waits for one.
             x, y = await page.evaluate("(({width, height}) => [width / 2, height / 2])"
                                        "(document.getElementById('stage').getBoundingClientRect())")
             await page.drag([(x, y), (x, y)])
             await page.until("Boolean(document.querySelector('#card dd'))")
             self.assertNotIn("exposed", await page.evaluate("document.getElementById('card').textContent"))
-            self.assertEqual(state["objects"], [{"representation": "surface", "selection": "chain C", "color": "#e69f00",
-                                                 "opacity": 0.5, "clip": "depth>0.4"}])
+            self.assertEqual(state["values"]["figure.object"], [{"representation": "surface", "selection": "chain C", "opacity": 0.5,
+                                                                 "clip": "depth>0.4"}])
             await self.shoot(page, "objects.png")
             # The scene that is saved opens again, after all of it was undone.
             await page.click("#writers button[value=scene]")
@@ -378,8 +389,9 @@ class Page(PageCase):
             await page.click("#open-scene")
             await page.until("document.getElementById('message').textContent.includes('Opened')")
             opened = await self.state(page)
-            self.assertEqual((opened["objects"], opened["camera"], opened["surface_hidden"]),
-                             (state["objects"], state["camera"], True))
+            for key in ("figure.object", "surface.shown"):
+                self.assertEqual(opened["values"][key], state["values"][key])
+            self.assertEqual(opened["camera"], state["camera"])
             # A large export is told of, does not stand in the way, and can be cancelled.
             await page.evaluate("""document.getElementById('width').value = 3000;
                 document.getElementById('height').value = 3000;

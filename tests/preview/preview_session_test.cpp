@@ -63,7 +63,10 @@ TEST_P(PreviewSessionTest, BadCommandsAreAnsweredAndChangeNothing) {
            R"({"command":"orbit","dx":"a","dy":0})",
            R"({"command":"orbit","dx":1e9,"dy":0})",
            R"({"command":"orbit","dx":0,"dy":0,"dz":0})",
-           R"({"command":"zoom","factor":0})",
+           R"({"command":"set","key":"surface.clip","index":0,"value":"x<1"})",
+           R"({"command":"add","key":"surface.probe","value":2})",
+           R"({"command":"add","key":"surface.clip","value":null})",
+           R"({"command":"add","key":"surface.clip","value":["x<1","x>0"]})",
            R"({"command":"zoom_to","selection":"chain Z"})",
            R"({"command":"zoom_to","selection":"chain ("})",
            R"({"command":"camera","camera":{"position":[0,0,0]}})",
@@ -95,7 +98,7 @@ TEST_P(PreviewSessionTest, BadCommandsAreAnsweredAndChangeNothing) {
            R"({"command":"export","format":"stl","path":"x.stl"})",
            R"({"command":"export","format":"png","path":"x.gif"})",
            R"({"command":"play","fps":0})",
-           R"({"command":"paint","selection":"name O","color":"component"})",
+           R"({"command":"add","key":"surface.color","value":"name O=component"})",
            R"({"command":"set","key":"surface.show","value":"chain Z"})",
        }) {
     const Json reply = apply(command);
@@ -233,7 +236,7 @@ TEST_P(PreviewSessionTest, EverythingStaysInViewUntilTheCameraMoves) {
   const Json narrow = state()["camera"];
   expect_ok(R"({"command":"resize","width":80,"height":60})");
   EXPECT_NE(state()["camera"], narrow);
-  expect_ok(R"({"command":"zoom","factor":1.1})");
+  expect_ok(R"({"command":"orbit","dx":0.1,"dy":0})");
   const Json moved = state()["camera"];
   expect_ok(R"({"command":"resize","width":40,"height":120})");
   EXPECT_EQ(state()["camera"], moved);
@@ -274,8 +277,8 @@ TEST_P(PreviewSessionTest, KindsOfPatchAreAScheme) {
   expect_ok(R"({"command":"set","key":"surface.color","value":"#ff0000"})");
   session_->render(Quality::full);
   const auto red = session_->rgba();
-  expect_ok(R"({"command":"press","key":"k"})");
-  EXPECT_EQ(state()["patch_kinds"], true);
+  expect_ok(R"({"command":"set","key":"surface.color","value":"kind"})");
+  EXPECT_EQ(state()["values"]["surface.color"], Json::array({"kind"}));
   session_->render(Quality::full);
   EXPECT_NE(session_->rgba(), red);
   expect_ok(R"({"command":"undo"})");
@@ -283,7 +286,8 @@ TEST_P(PreviewSessionTest, KindsOfPatchAreAScheme) {
   EXPECT_EQ(session_->rgba(), red);
   expect_ok(R"({"command":"set","key":"surface.color","value":"bfactor"})");
   expect_ok(R"({"command":"set","key":"surface.map","value":"magma"})");
-  EXPECT_EQ(state()["color"], Json::parse(R"({"scheme":"bfactor","map":"magma"})"));
+  EXPECT_EQ(state()["values"]["surface.color"], Json::array({"bfactor"}));
+  EXPECT_EQ(state()["values"]["surface.map"], "magma");
 }
 
 TEST_P(PreviewSessionTest, TheLookIsForPicturesAtRest) {
@@ -291,10 +295,10 @@ TEST_P(PreviewSessionTest, TheLookIsForPicturesAtRest) {
   const auto draft = session_->rgba();
   session_->render(Quality::full);
   const auto full = session_->rgba();
-  const Json look = Json::parse(R"({"ambient_occlusion":0.9,"silhouettes":2.0})");
   expect_ok(R"({"command":"set","key":"look.ambient_occlusion","value":0.9})");
   expect_ok(R"({"command":"set","key":"look.silhouettes","value":2})");
-  for (const auto& [key, value] : look.items()) EXPECT_EQ(state()["look"][key], value) << key;
+  EXPECT_EQ(state()["values"]["look.ambient_occlusion"], 0.9);
+  EXPECT_EQ(state()["values"]["look.silhouettes"], 2.0);
   session_->render(Quality::draft);
   EXPECT_EQ(session_->rgba(), draft);
   session_->render(Quality::full);

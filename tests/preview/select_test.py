@@ -49,13 +49,13 @@ class Selecting(PageCase):
                 await self.open(page, PROTEASE)
                 await self.shoot(page, f"select_begin_{size[0]}.png")
                 before = await self.state(page)
-                self.assertEqual(before["cuts"], [])
-                await self.press_button(page, "478 1HPV 200")
+                self.assertEqual(before["values"]["surface.clip"], [])
+                await self.press_button(page, "478 200")
                 await self.selected(page, LIGAND)
                 await self.press_button(page, "Look into")
-                await page.until("JSON.parse(document.getElementById('picture').dataset.state).cuts.length === 1")
+                await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['surface.clip'].length === 1")
                 state = await self.state(page)
-                self.assertEqual(state["cuts"], [f"before first ({LIGAND})"])
+                self.assertEqual(state["values"]["surface.clip"], [f"before first ({LIGAND})"])
                 self.assertNotEqual(state["camera"], before["camera"])
                 await self.shoot(page, f"select_pocket_{size[0]}.png")
                 self.assertEqual(page.complaints, [])
@@ -106,7 +106,7 @@ class Selecting(PageCase):
         for options in ((), ("--projection", "orthographic"), ("--legend", "--legend-place", "right")):
             async with Browser(CHROMIUM, (760, 420)) as page:
                 await self.open(page, path, "--color", "chain", *options)
-                await self.press_button(page, "LIG A 1")
+                await self.press_button(page, "LIG 1")
                 await page.until("document.querySelectorAll('#rings circle').length === 1")
                 for _ in range(2):
                     await page.at_rest()
@@ -148,7 +148,7 @@ class Selecting(PageCase):
             self.assertEqual(await page.evaluate("document.querySelectorAll('#letters [tabindex=\"0\"]').length"), 1)
             await self.shoot(page, "select_sequence.png")
             await self.press_button(page, "Sticks")
-            await page.until("JSON.parse(document.getElementById('picture').dataset.state).representations.length === 1")
+            await page.until("JSON.parse(document.getElementById('picture').dataset.state).values['figure.sticks'].length === 1")
             self.assertEqual(page.complaints, [])
 
     async def test_hides_colours_and_measures(self):
@@ -160,7 +160,7 @@ class Selecting(PageCase):
 
             await page.click(".eye[aria-label='Show Chain A']")
             await eye("Chain A", "false")
-            self.assertEqual((await self.state(page))["show"], "all and not (chain A and polymer)")
+            self.assertEqual((await self.state(page))["values"]["surface.show"], "all and not (chain A and polymer)")
             await page.click(".eye[aria-label='Show 478 1HPV 200']")
             await eye("478 1HPV 200", "false")
             await page.click(".eye[aria-label='Show Water']")
@@ -169,7 +169,7 @@ class Selecting(PageCase):
             for name in ("Chain A", "478 1HPV 200"):
                 await page.click(f".eye[aria-label='Show {name}']")
                 await eye(name, "true")
-            self.assertIsNone((await self.state(page))["show"])
+            self.assertIsNone((await self.state(page))["values"]["surface.show"])
             await page.evaluate("""(() => { const c = document.querySelector("[aria-label='Colour of Chain A']");
                 c.value = '#aa3377'; c.dispatchEvent(new Event('change')); })()""")
             await page.until("document.querySelector(\"[aria-label='Colour of Chain A']\").value === '#aa3377'")
@@ -179,15 +179,15 @@ class Selecting(PageCase):
             await page.evaluate("(() => { const b = document.querySelectorAll('#letters button'); b[24].click(); "
                                 "b[49].dispatchEvent(new MouseEvent('click', {bubbles: true, shiftKey: true})); })()")
             await self.press_button(page, "Distance")
-            await page.until("/Å from/.test(document.getElementById('message').textContent)")
+            length = await page.until("document.querySelector('#rings text')?.textContent")
             atoms = {}
             with open(PROTEASE) as file:
                 for row in file:
                     if row.startswith("ATOM") and row[21] == "A" and int(row[22:26]) in (25, 50):
                         atoms.setdefault(int(row[22:26]), []).append([float(row[30 + 8 * n:38 + 8 * n]) for n in range(3)])
             nearest = min(math.dist(a, b) for a in atoms[25] for b in atoms[50])
-            self.assertIn(f"{nearest:.2f} Å", await page.evaluate("document.getElementById('message').textContent"))
-            objects = (await self.state(page))["objects"]
+            self.assertEqual(length, f"{nearest:.2f} Å")
+            objects = (await self.state(page))["values"]["figure.object"]
             self.assertEqual(objects[-1]["representation"], "distance")
             self.assertEqual(page.complaints, [])
 

@@ -43,11 +43,7 @@ class ContentsSession : public SessionCase {
   void open(const std::string& file, const ReadOptions& reading = {}) {
     file_ = file;
     SessionContext context;
-    context.read_shown = [file, reading](const FigureRequest& figure, std::size_t) {
-      ReadOptions shown = reading;
-      figure.mark_atoms(shown);
-      return read_structure(file, shown);
-    };
+    context.read_shown = reader_of(file, reading);
     context.aim = [](const Scene&, const Structure&) {
       Camera camera;
       camera.position = {0.0, 0.0, 77.0};
@@ -120,16 +116,16 @@ TEST_F(ContentsSession, HidesAndShowsAgain) {
   open(folder_.file("many.pdb", kMany));
   expect_ok(R"({"command":"take_away","selection":"chain A and polymer"})");
   EXPECT_EQ(entry("Chain A")["shown"], 0);
-  EXPECT_EQ(state()["show"], "all and not (chain A and polymer)");
+  EXPECT_EQ(values()["surface.show"], "all and not (chain A and polymer)");
   // The last part of the surface that is shown: only what stands beside it stays.
   expect_ok(R"({"command":"take_away","selection":"chain B and polymer"})");
   EXPECT_EQ(entry("Chain B")["shown"], 0);
-  EXPECT_EQ(state()["surface_hidden"], true);
+  EXPECT_EQ(values()["surface.shown"], false);
   expect_ok(R"({"command":"bring_back","selection":"chain B and polymer"})");
   EXPECT_EQ(entry("Chain A")["shown"], 0);
   EXPECT_EQ(entry("Chain B")["shown"], 4);
   expect_ok(R"({"command":"bring_back","selection":"chain A and polymer"})");
-  EXPECT_EQ(state()["show"], nullptr);
+  EXPECT_EQ(values()["surface.show"], nullptr);
   EXPECT_EQ(entry("Chain A")["shown"], 8);
   // Companions of the surface go one by one.
   const std::string zinc = R"json("selection":"chain \"\" and resid 302 and resname ZN"})json";
@@ -145,7 +141,8 @@ TEST_F(ContentsSession, HidesAndShowsAgain) {
   expect_ok(R"({"command":"take_away","selection":"water"})");
   EXPECT_EQ(entry("Water")["shown"], 0);
   // The end of a dashed line is not drawn.
-  expect_ok(R"({"command":"object","object":{"representation":"distance","selection":"chain A to chain B"}})");
+  expect_ok(
+      R"({"command":"add","key":"figure.object","value":{"representation":"distance","selection":"chain A to chain B"}})");
   expect_ok(R"({"command":"take_away","selection":"chain A and polymer"})");
   EXPECT_EQ(entry("Chain A")["shown"], 0);
 }
@@ -166,18 +163,18 @@ TEST_F(ContentsSession, LooksInto) {
   open(folder_.file("many.pdb", kMany));
   const Json reply = apply(R"({"command":"look_into","selection":"resname \"ION\""})");
   EXPECT_EQ(reply["atoms"], 2) << reply;
-  EXPECT_EQ(state()["cuts"], Json::parse(R"json(["before first (resname \"ION\")"])json"));
+  EXPECT_EQ(values()["surface.clip"], Json::parse(R"json(["before first (resname \"ION\")"])json"));
   EXPECT_EQ(state()["camera"]["position"][2], 77.0);
-  EXPECT_TRUE(state()["objects"].empty());  // it is drawn already
+  EXPECT_TRUE(values()["figure.object"].empty());  // it is drawn already
   // Another place: one cut, and the residue of the surface is drawn inside it.
   expect_ok(R"({"command":"look_into","selection":"resid 5A"})");
-  EXPECT_EQ(state()["cuts"], Json::parse(R"json(["before first (resid 5A)"])json"));
-  EXPECT_EQ(state()["objects"][0]["representation"], "sticks");
+  EXPECT_EQ(values()["surface.clip"], Json::parse(R"json(["before first (resid 5A)"])json"));
+  EXPECT_EQ(values()["figure.object"][0]["representation"], "sticks");
   expect_ok(R"({"command":"undo"})");
   expect_ok(R"({"command":"undo"})");
-  EXPECT_TRUE(state()["cuts"].empty());
+  EXPECT_TRUE(values()["surface.clip"].empty());
   EXPECT_FALSE(apply(R"({"command":"look_into","selection":"resname NONE"})")["ok"]);
-  EXPECT_TRUE(state()["cuts"].empty());
+  EXPECT_TRUE(values()["surface.clip"].empty());
 }
 
 TEST_F(ContentsSession, AskingChangesNothingAndIsNotRecorded) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Commands that change what a figure shows, what they refuse, and undo and redo of them.
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -9,39 +8,15 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/preview/camera_motion.h"
 #include "app/preview/command_json.h"
-#include "core/structure/formats/read_structure.h"
 #include "tests/preview/session_case.h"
 
 namespace meniscus::test {
 namespace {
 
-// A peptide bond, a water, and a ligand.
-constexpr std::string_view kThree = R"(ATOM      1  N   ALA A   1       0.000   0.000   0.000  1.00 10.00           N
-ATOM      2  CA  ALA A   1       1.458   0.000   0.000  1.00 20.00           C
-ATOM      3  C   ALA A   1       2.009   1.420   0.000  1.00 30.00           C
-ATOM      4  O   ALA A   1       1.251   2.390   0.000  1.00 40.00           O
-HETATM    5  C1  LIG B   2       6.000   0.000   0.000  1.00 40.00           C
-HETATM    6  O1  LIG B   2       7.200   0.000   0.000  1.00 40.00           O
-HETATM    7  O   HOH B   3       4.000   5.000   0.000  1.00 40.00           O
-END
-)";
-
-class FigureSession : public SessionCase {
+class FigureSession : public PeptideSession {
  protected:
-  explicit FigureSession(const std::optional<Selection>& selection = parse_selection("polymer")) {
-    const std::string file = folder_.file("three.pdb", kThree);
-    ReadOptions reading;
-    reading.selection = selection;
-    SessionContext context;
-    context.read_shown = [file, reading](const FigureRequest& figure, std::size_t) {
-      ReadOptions shown = reading;
-      figure.mark_atoms(shown);
-      return read_structure(file, shown);
-    };
-    begin(read_structure(file, reading), context);
-  }
+  using PeptideSession::PeptideSession;
 
   /// The state without what every command changes.
   Json state() {
@@ -52,28 +27,28 @@ class FigureSession : public SessionCase {
 };
 
 constexpr const char* kEdits[] = {
-    R"({"command":"represent","as":"sticks","selection":"ligand"})",
-    R"({"command":"represent","as":"spheres","selection":"resn HOH"})",
-    R"({"command":"remove","of":"representations","index":0})",
-    R"({"command":"object","object":{"selection":"ligand","color":"red"}})",
-    R"({"command":"object","object":{"representation":"spheres","selection":"resn HOH","color":"#00ff00"}})",
+    R"({"command":"add","key":"figure.sticks","value":"ligand"})",
+    R"({"command":"add","key":"figure.spheres","value":"resn HOH"})",
+    R"({"command":"set","key":"figure.sticks","index":0,"value":null})",
+    R"({"command":"add","key":"figure.object","value":{"selection":"ligand","color":"red"}})",
+    R"({"command":"add","key":"figure.object","value":{"representation":"spheres","selection":"resn HOH","color":"#00ff00"}})",
     R"({"command":"set","key":"surface.shown","value":false})",
-    R"({"command":"object","index":0,"object":{"selection":"ligand","color":"blue","opacity":"0.6","clip":"x<6.5"}})",
+    R"({"command":"set","key":"figure.object","index":0,"value":{"selection":"ligand","color":"blue","opacity":"0.6","clip":"x<6.5"}})",
     R"({"command":"set","key":"surface.shown","value":true})",
-    R"({"command":"remove","of":"objects","index":1})",
+    R"({"command":"set","key":"figure.object","index":1,"value":null})",
     R"({"command":"set","key":"surface.show","value":"within 5 of ligand"})",
     R"({"command":"set","key":"surface.show","value":null})",
     R"({"command":"set","key":"surface.color","value":"bfactor"})",
     R"({"command":"set","key":"surface.map","value":"magma"})",
     R"({"command":"set","key":"surface.color_range","value":"10:20"})",
-    R"({"command":"paint","selection":"name CA","color":"red"})",
-    R"({"command":"opacity","opacity":0.5,"selection":"name O"})",
+    R"({"command":"add","key":"surface.color","value":"name CA=red"})",
+    R"({"command":"add","key":"surface.opacity","value":"name O=0.5"})",
     R"({"command":"set","key":"surface.film_opacity","value":true})",
-    R"({"command":"cut","plane":"x<1"})",
+    R"({"command":"add","key":"surface.clip","value":"x<1"})",
     R"({"command":"set","key":"surface.cap_color","value":"#00ff00"})",
     R"({"command":"orbit","dx":0.0,"dy":0.1})",
     R"({"command":"set","key":"surface.cap_hatching","value":0.5})",
-    R"({"command":"hide","selection":"name N"})",
+    R"({"command":"take_away","selection":"name N"})",
     R"({"command":"set","key":"look.preset","value":"flat"})",
     R"({"command":"set","key":"image.background","value":"#336699"})",
     R"({"command":"set","key":"surface.patches","value":"name CA CB"})",
@@ -115,12 +90,12 @@ TEST_F(FigureSession, EveryStepChangesThePictureAndUndoBringsItBack) {
     expected["height"] = 300;
     Json now = state();
     for (Json* json : {&expected, &now}) {
-      json->erase("camera"), json->erase("look");
+      json->erase("camera");
       for (const char* kind : {"silhouettes", "outer_lines", "inner_lines", "part_lines", "patch_lines"})
         (*json)["values"].erase(std::string("look.") + kind);
     }
-    now["legend"].erase("fault");
-    expected["legend"].erase("fault");
+    now.erase("legend_fault");
+    expected.erase("legend_fault");
     EXPECT_EQ(now, expected) << n;
   }
   EXPECT_FALSE(apply(R"({"command":"undo"})")["ok"]);
@@ -133,10 +108,9 @@ TEST_F(FigureSession, EveryStepChangesThePictureAndUndoBringsItBack) {
 TEST_F(FigureSession, ADragIsOneStepUntilItIsEnded) {
   const Json before = state();
   for (int n = 0; n < 5; ++n) expect_ok(R"({"command":"orbit","dx":0.02,"dy":0.01})");
-  expect_ok(R"({"command":"zoom","factor":1.1})");
   const Json first = state();
   expect_ok(R"({"command":"end_step"})");
-  expect_ok(R"({"command":"pan","dx":0.02,"dy":0.01})");
+  expect_ok(R"({"command":"orbit","dx":0.02,"dy":0.01})");
   EXPECT_EQ(apply(R"({"command":"state"})")["undo"], 2);
   expect_ok(R"({"command":"undo"})");
   EXPECT_EQ(state(), first);
@@ -158,19 +132,18 @@ TEST_F(FigureSession, WhatIsRefusedEndsNoStep) {
 }
 
 TEST_F(FigureSession, WhatIsRefusedChangesNothing) {
-  expect_ok(R"({"command":"cut","plane":"x<1"})");
+  expect_ok(R"({"command":"add","key":"surface.clip","value":"x<1"})");
   const Json before = apply(R"({"command":"state"})");
   const std::vector<std::pair<const char*, const char*>> kRefused{
-      {R"({"command":"represent","as":"sticks","selection":"chain Q"})", "chain Q"},
-      {R"({"command":"represent","as":"sticks","selection":"chain ("})", "represent"},
-      {R"({"command":"represent","as":"lines","selection":"all"})",
-       "one of sticks, balls, spheres, tube, bases, glycans"},
-      {R"({"command":"paint","selection":"all","color":"rot"})", "rot"},
-      {R"({"command":"paint","selection":"all","color":"file"})", "--color-by-file"},
-      {R"({"command":"opacity","opacity":1.5})", "from 0 to 1"},
-      {R"({"command":"opacity","opacity":1,"index":0})", "index"},
-      {R"({"command":"cut","plane":"x=1"})", "there is no < or >"},
-      {R"({"command":"cut","plane":"x<2","index":1})", "from 0 to 0"},
+      {R"({"command":"add","key":"figure.sticks","value":"chain Q"})", "chain Q"},
+      {R"({"command":"add","key":"figure.sticks","value":"chain ("})", "add: figure.sticks"},
+      {R"({"command":"add","key":"figure.lines","value":"all"})", "add: \"key\" is 'figure.lines'"},
+      {R"({"command":"add","key":"surface.color","value":"all=rot"})", "rot"},
+      {R"({"command":"add","key":"surface.color","value":"all=file"})", "--color-by-file"},
+      {R"({"command":"add","key":"surface.opacity","value":1.5})", "not an opacity from 0"},
+      {R"({"command":"set","key":"surface.opacity","index":0,"value":1})", "index"},
+      {R"({"command":"add","key":"surface.clip","value":"x=1"})", "there is no < or >"},
+      {R"({"command":"set","key":"surface.clip","index":1,"value":"x<2"})", "from 0 to 0"},
       {R"({"command":"set","key":"surface.cap_color","value":"greenish"})", "cap_color: 'greenish'"},
       {R"({"command":"set","key":"surface.cap_hatching","value":-1})", "cap_hatching: '-1'"},
       {R"({"command":"set","key":"surface.cap_hatching","value":[1]})", "cap_hatching: '[1]'"},
@@ -178,10 +151,13 @@ TEST_F(FigureSession, WhatIsRefusedChangesNothing) {
       {R"({"command":"set","key":"surface.shown","value":7})", "neither true nor false"},
       {R"({"command":"set","key":"surface.prob","value":2})", "did you mean surface.probe?"},
       {R"({"command":"set","key":"surface.cap_hatching"})", "value"},
-      {R"({"command":"remove","of":"rules","index":0})", "there are no rules"},
-      {R"({"command":"remove","of":"cuts","index":1})", "index"},
-      {R"({"command":"remove","of":"atoms"})", "one of"},
-      {R"({"command":"hide","selection":"all"})", "nothing would be left"},
+      {R"({"command":"set","key":"surface.color","index":1,"value":null})", "from 0 to 0"},
+      {R"({"command":"set","key":"surface.clip","index":1,"value":null})", "from 0 to 0"},
+      {R"({"command":"set","key":"surface.opacity","index":0,"value":null})", "nothing yet that it could name"},
+      {R"({"command":"set","key":"surface.probe","index":0,"value":1})", "one value and no list"},
+      {R"({"command":"add","key":"surface.clip","value":null})", "no value to add"},
+      {R"({"command":"add","key":"surface.clip","value":["x<1","x>0"]})", "give one entry"},
+      {R"({"command":"take_away","selection":"all"})", "nothing would be shown"},
       {R"({"command":"set","key":"surface.show","value":"resid 9"})", "nothing would be left"},
       {R"({"command":"set","key":"look.preset","value":"loud"})", "publication"},
       {R"({"command":"set","key":"legend.place","value":"left"})", "one of auto, right, below"},
@@ -189,10 +165,8 @@ TEST_F(FigureSession, WhatIsRefusedChangesNothing) {
       {R"({"command":"set","key":"surface.color_range","value":"1:9"})", "colours by a number"},
       {R"({"command":"set","key":"shapes.stick_radius","value":0})", "stick_radius: '0'"},
       {R"({"command":"set","key":"surface.kind","value":"ms"})", "one of ses, sas, vdw"},
-      {R"({"command":"recall_view","name":"front"})", "no view is called"},
-      {R"({"command":"save_view","name":""})", "1 to 60"},
-      {R"({"command":"center","x":0,"y":0})", "nothing is there"},
-      {R"({"command":"zoom","factor":2,"x":3})", "give both"},
+      {R"({"command":"zoom","factor":2})", "is not a command"},
+      {R"({"command":"paint","selection":"all","color":"red"})", "use set with the key surface.color"},
   };
   for (const auto& [command, part] : kRefused) {
     const Json reply = apply(command);
@@ -207,7 +181,7 @@ TEST_F(FigureSession, WhatIsRefusedChangesNothing) {
 TEST_F(FigureSession, AtomsBesideTheSurfaceAreThoseOfTheWholeFile) {
   EXPECT_FALSE(apply(R"({"command":"zoom_to","selection":"resn LIG"})")["ok"]) << "it is not shown";
   const auto alone = picture();
-  expect_ok(R"({"command":"represent","as":"balls","selection":"resn LIG"})");
+  expect_ok(R"({"command":"add","key":"figure.balls","value":"resn LIG"})");
   EXPECT_EQ(apply(R"({"command":"zoom_to","selection":"resn LIG"})")["atoms"], 2);
   EXPECT_NE(picture(), alone);
   const Json pick = apply(R"({"command":"pick","x":40,"y":30})");
@@ -215,26 +189,19 @@ TEST_F(FigureSession, AtomsBesideTheSurfaceAreThoseOfTheWholeFile) {
   EXPECT_EQ(pick["residue"], "LIG");
   EXPECT_EQ(pick["kind"], "shape");
   EXPECT_TRUE(pick["exposed_area"].is_null());
-  expect_ok(R"({"command":"remove","of":"representations"})");
+  expect_ok(R"({"command":"set","key":"figure.balls","value":null})");
   expect_ok(R"({"command":"reset_view"})");
   EXPECT_EQ(picture(), alone);
 }
 
-TEST_F(FigureSession, NamedViewsAndTheFirstOneComeBack) {
+TEST_F(FigureSession, TheFirstViewComesBack) {
   const Json first = state()["camera"];
   expect_ok(R"({"command":"orbit","dx":0.3,"dy":0})");
   const Json side = state()["camera"];
-  expect_ok(R"({"command":"save_view","name":"side"})");
-  expect_ok(R"({"command":"orbit","dx":0.3,"dy":0})");
-  EXPECT_EQ(state()["views"], Json::array({"side"}));
-  expect_ok(R"({"command":"recall_view","name":"side"})");
-  EXPECT_EQ(state()["camera"], side);
   expect_ok(R"({"command":"reset_view"})");
   EXPECT_EQ(state()["camera"], first);
   expect_ok(R"({"command":"undo"})");
   EXPECT_EQ(state()["camera"], side);
-  expect_ok(R"({"command":"forget_view","name":"side"})");
-  EXPECT_EQ(state()["views"], Json::array());
 }
 
 TEST_F(FigureSession, ACameraThatWasGivenIsWhatResetReturnsTo) {
@@ -248,58 +215,6 @@ TEST_F(FigureSession, ACameraThatWasGivenIsWhatResetReturnsTo) {
   session.apply({{"command", "reset_view"}});
   EXPECT_EQ(session.state().camera.position, given.position);
   EXPECT_EQ(session.state().camera.target, given.target);
-}
-
-TEST_F(FigureSession, AClickCentresAndZoomStaysAtTheCursor) {
-  const Json before = state()["camera"];
-  const Json pick = apply(R"({"command":"pick","x":30,"y":35})");
-  ASSERT_TRUE(pick["hit"]);
-  expect_ok(R"({"command":"center","x":30,"y":35})");
-  EXPECT_EQ(state()["camera"]["target"], pick["position"]);
-  expect_ok(R"({"command":"undo"})");
-  EXPECT_EQ(state()["camera"], before) << "a double click is taken back, too";
-  for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
-    Camera camera;
-    camera.position = {0, 0, 20};
-    camera.projection = projection;
-    camera.height = 10.0;
-    // What lies in the plane of the target under the cursor.
-    const auto at = [](const Camera& from, glm::dvec2 place) {
-      const ViewBasis basis = view_basis(from);
-      return from.target + (basis.right * place.x - basis.up * place.y) * height_at_target(from);
-    };
-    const glm::dvec2 place{0.2, -0.1};
-    const Camera near = zoomed_at(camera, 3.0, place);
-    EXPECT_LT(glm::distance(at(near, place), at(camera, place)), 1e-12);
-    EXPECT_NEAR(height_at_target(camera) / height_at_target(near), 3.0, 1e-12);
-  }
-}
-
-// While a slow picture is drawn notches become one, however many: too far is as far as it goes, and no place is lost.
-TEST_F(FigureSession, AFastWheelOverASlowPictureIsNotRefused) {
-  for (const double notch : {1.1, 2.0, 1e200, 1.0 / 1.1, 0.5, 1e-200}) {
-    const Json one{{"command", "zoom"}, {"factor", notch}, {"x", 3}, {"y", 4}};
-    for (const int count : {2, 100, 10000}) {
-      SCOPED_TRACE(::testing::Message() << count << " times " << notch);
-      Json wheel = one;
-      for (int n = 1; n < count; ++n) ASSERT_TRUE(merge_commands(wheel, one));
-      const double before = height_at_target(session_->state().camera);
-      const Json reply = session_->apply(wheel);
-      ASSERT_TRUE(reply["ok"]) << reply;
-      const double grown = before / height_at_target(session_->state().camera);
-      EXPECT_GE(notch > 1.0 ? grown : 1.0 / grown, std::min(10.0, 0.9 * std::pow(std::max(notch, 1.0 / notch), count)));
-      expect_ok(R"({"command":"undo"})");
-    }
-  }
-  Json wheel{{"command", "zoom"}, {"factor", 1.1}, {"x", 3}, {"y", 4}};
-  EXPECT_FALSE(merge_commands(wheel, {{"command", "zoom"}, {"factor", 1.1}, {"x", 3}, {"y", 5}}));
-  EXPECT_FALSE(merge_commands(wheel, {{"command", "zoom"}, {"factor", 1.1}}));
-  // What is not a factor is not hidden among others.
-  for (const double wrong : {0.0, -1.0}) {
-    wheel["factor"] = wrong;
-    EXPECT_FALSE(merge_commands(wheel, Json(wheel)));
-    EXPECT_FALSE(session_->apply(wheel)["ok"]) << wrong;
-  }
 }
 
 TEST_F(FigureSession, TheLegendStandsBesideTheMolecule) {
@@ -317,7 +232,7 @@ TEST_F(FigureSession, TheLegendStandsBesideTheMolecule) {
   EXPECT_FALSE(apply(R"({"command":"pick","x":399,"y":150})")["hit"]) << "nothing is there but letters";
   // Too small for it: the picture is drawn without, and the state says why.
   expect_ok(R"({"command":"resize","width":20,"height":20})");
-  EXPECT_FALSE(state()["legend"].value("fault", "").empty());
+  EXPECT_FALSE(state()["legend_fault"].get<std::string>().empty());
   EXPECT_TRUE(session_->render(Quality::full));
   EXPECT_EQ(session_->picture_size(), glm::ivec2(20, 20));
 }
@@ -326,7 +241,7 @@ TEST_F(FigureSession, WithoutItsFileNothingCanBeDrawnBeside) {
   PreviewState view;
   view.size = {80, 60};
   PreviewSession session(make_cpu_preview_renderer(), session_->structure(), view, std::nullopt, folder_.path());
-  const Json reply = session.apply({{"command", "represent"}, {"as", "sticks"}, {"selection", "all"}});
+  const Json reply = session.apply({{"command", "add"}, {"key", "figure.sticks"}, {"value", "all"}});
   EXPECT_FALSE(reply["ok"]);
   EXPECT_NE(reply["error"].get<std::string>().find("cannot be read again"), std::string::npos);
 }
@@ -343,14 +258,14 @@ TEST_F(CompanionSession, TheLigandIsBesideTheSurfaceAndNoObjectOfTheUser) {
   ASSERT_TRUE(pick["hit"]) << pick;
   EXPECT_EQ(pick["residue"], "LIG");
   EXPECT_EQ(pick["kind"], "shape");
-  EXPECT_TRUE(state()["objects"].empty());
+  EXPECT_TRUE(values()["figure.object"].empty());
   expect_ok(R"({"command":"set","key":"surface.show","value":"within 5 of ligand"})");
-  expect_ok(R"({"command":"paint","selection":"within 4.6 of ligand","color":"red"})");
+  expect_ok(R"({"command":"add","key":"surface.color","value":"within 4.6 of ligand=red"})");
 }
 
 TEST_F(FigureSession, ObjectsHaveLooksAndAtomsOfTheirOwn) {
-  expect_ok(R"({"command":"object","object":{"selection":"ligand","color":"gold","specular":0.8}})");
-  const Json told = state()["objects"];
+  expect_ok(R"({"command":"add","key":"figure.object","value":{"selection":"ligand","color":"gold","specular":0.8}})");
+  const Json told = values()["figure.object"];
   ASSERT_EQ(told.size(), 1u);
   EXPECT_EQ(told[0],
             Json::parse(R"({"representation":"surface","selection":"ligand","color":"#ffd700","specular":0.8})"));
@@ -364,20 +279,52 @@ TEST_F(FigureSession, ObjectsHaveLooksAndAtomsOfTheirOwn) {
   EXPECT_TRUE(pick["exposed_area"].is_null()) << "not of the molecule's surface";
   // A slider is one step, and merges on its way.
   expect_ok(R"({"command":"end_step"})");
-  for (const char* opacity : {"0.8", "0.5", "0.2"})
-    expect_ok(std::string(R"({"command":"object","index":0,"object":{"selection":"ligand","opacity":")") + opacity +
-              "\"}}");
+  const auto slid = [](const char* opacity, int index) {
+    return Json{{"command", "set"},
+                {"key", "figure.object"},
+                {"index", index},
+                {"value", {{"selection", "ligand"}, {"opacity", opacity}}}};
+  };
+  for (const char* opacity : {"0.8", "0.5", "0.2"}) EXPECT_TRUE(session_->apply(slid(opacity, 0))["ok"]);
   expect_ok(R"({"command":"undo"})");
-  EXPECT_EQ(state()["objects"], told);
-  Json first = Json::parse(R"({"command":"object","index":0,"object":{"selection":"ligand","opacity":"0.8"}})");
-  Json other = first;
-  other["object"]["opacity"] = "0.7";
-  EXPECT_TRUE(merge_commands(first, other));
-  EXPECT_EQ(first["object"]["opacity"], "0.7");
-  other["index"] = 1;
-  EXPECT_FALSE(merge_commands(first, other));
-  first.erase("index"), other.erase("index");
-  EXPECT_FALSE(merge_commands(first, other)) << "two objects";
+  EXPECT_EQ(values()["figure.object"], told);
+  Json first = slid("0.8", 0);
+  EXPECT_TRUE(merge_commands(first, slid("0.7", 0)));
+  EXPECT_EQ(first, slid("0.7", 0));
+  EXPECT_FALSE(merge_commands(first, slid("0.7", 1)));
+  Json added = slid("0.8", 0);
+  added["command"] = "add";
+  added.erase("index");
+  EXPECT_FALSE(merge_commands(added, Json(added))) << "two objects";
+  first["value"] = nullptr;
+  EXPECT_FALSE(merge_commands(first, Json(first))) << "both are removed";
+}
+
+// Entries of lists are added, changed and removed by their places.
+TEST_F(FigureSession, ListsHaveEntries) {
+  const auto add = [&](const char* key, const Json& value) {
+    return session_->apply({{"command", "add"}, {"key", key}, {"value", value}});
+  };
+  EXPECT_EQ(add("surface.opacity", 0.5)["index"], 0);
+  EXPECT_EQ(add("surface.opacity", "name O=0.25")["index"], 1);
+  EXPECT_EQ(add("surface.opacity", "name C=0.75")["index"], 2);
+  EXPECT_EQ(add("surface.opacity", "name O=0.125")["index"], 2) << "the last one of the same atoms counts";
+  EXPECT_EQ(values()["surface.opacity"], Json({0.5, "name C=0.75", "name O=0.125"}));
+  expect_ok(R"({"command":"set","key":"surface.opacity","index":0,"value":0.375})");
+  expect_ok(R"({"command":"set","key":"surface.opacity","index":1,"value":null})");
+  EXPECT_EQ(values()["surface.opacity"], Json({0.375, "name O=0.125"}));
+  EXPECT_EQ(add("surface.color", "name O=red")["index"], 1) << "after the scheme";
+  EXPECT_EQ(add("surface.color", "name C=gold")["index"], 2);
+  expect_ok(R"({"command":"set","key":"surface.color","index":0,"value":"chain"})");
+  EXPECT_EQ(values()["surface.color"], Json({"chain", "name O=#ff0000", "name C=#ffd700"}));
+  expect_ok(R"({"command":"set","key":"surface.color","index":1,"value":null})");
+  EXPECT_EQ(values()["surface.color"], Json({"chain", "name C=#ffd700"}));
+  EXPECT_NE(add("surface.clip", "x<100").value("note", "").find("x<100"), std::string::npos);
+  expect_ok(R"({"command":"end_step"})");
+  const int steps = SessionCase::state()["undo"];
+  for (const char* plane : {"x<3", "x<2", "x<1"})
+    EXPECT_TRUE(session_->apply({{"command", "set"}, {"key", "surface.clip"}, {"index", 0}, {"value", plane}})["ok"]);
+  EXPECT_EQ(SessionCase::state()["undo"], steps + 1) << "a slider";
 }
 
 TEST_F(FigureSession, WhatItCannotShowIsRefusedInOneLine) {
@@ -392,12 +339,13 @@ TEST_F(FigureSession, WhatItCannotShowIsRefusedInOneLine) {
   for (const char* scheme : {"buried", "rmsf", "relative-accessibility", "component"})
     refused(std::string(R"({"command":"set","key":"surface.color","value":")") + scheme + "\"}",
             "needs more than atoms");
-  refused(R"({"command":"paint","selection":"all","color":"buried"})", "needs more than atoms");
-  refused(R"({"command":"object","object":{"selection":"ligand","color":"rmsf"}})", "needs more than atoms");
+  refused(R"({"command":"add","key":"surface.color","value":"all=buried"})", "needs more than atoms");
+  refused(R"({"command":"add","key":"figure.object","value":{"selection":"ligand","color":"rmsf"}})",
+          "needs more than atoms");
   refused(R"({"command":"set","key":"surface.shown","value":false})", "nothing would be shown");
-  refused(R"({"command":"object","object":{"selection":"resn XYZ"}})", "--object");
-  refused(R"({"command":"object","object":{"selection":"ligand","colour":"red"}})", "colour");
-  refused(R"({"command":"object","index":0,"object":{"selection":"ligand"}})", "index");
+  refused(R"({"command":"add","key":"figure.object","value":{"selection":"resn XYZ"}})", "--object");
+  refused(R"({"command":"add","key":"figure.object","value":{"selection":"ligand","colour":"red"}})", "colour");
+  refused(R"({"command":"set","key":"figure.object","index":0,"value":{"selection":"ligand"}})", "index");
   refused(R"({"command":"save","path":"fig.json"})", "scenes");
   refused(R"({"command":"open","path":"fig.json"})", "scenes");
 }
@@ -406,9 +354,9 @@ TEST_F(FigureSession, WhatItCannotShowIsRefusedInOneLine) {
 TEST_F(FigureSession, ShapesBesideTheSurfaceDoNotTurnTheMolecule) {
   const Json before = apply(R"({"command":"state"})")["camera"];
   const auto camera = [&] { return apply(R"({"command":"state"})")["camera"]; };
-  for (const char* command :
-       {R"({"command":"represent","as":"sticks","selection":"ligand"})",
-        R"({"command":"object","object":{"selection":"ligand"}})", R"({"command":"remove","of":"objects"})"}) {
+  for (const char* command : {R"({"command":"add","key":"figure.sticks","value":"ligand"})",
+                              R"({"command":"add","key":"figure.object","value":{"selection":"ligand"}})",
+                              R"({"command":"set","key":"figure.object","value":null})"}) {
     expect_ok(command);
     EXPECT_EQ(camera(), before) << command;
   }

@@ -10,40 +10,14 @@
 
 #include "core/properties/properties.h"
 #include "core/scene/scene_json.h"
-#include "core/structure/formats/read_structure.h"
 #include "tests/preview/session_case.h"
 
 namespace meniscus::test {
 namespace {
 
-// A peptide bond, a water, and a ligand.
-constexpr std::string_view kAtoms = R"(ATOM      1  N   ALA A   1       0.000   0.000   0.000  1.00 10.00           N
-ATOM      2  CA  ALA A   1       1.458   0.000   0.000  1.00 20.00           C
-ATOM      3  C   ALA A   1       2.009   1.420   0.000  1.00 30.00           C
-ATOM      4  O   ALA A   1       1.251   2.390   0.000  1.00 40.00           O
-HETATM    5  C1  LIG B   2       6.000   0.000   0.000  1.00 40.00           C
-HETATM    6  O1  LIG B   2       7.200   0.000   0.000  1.00 40.00           O
-HETATM    7  O   HOH B   3       4.000   5.000   0.000  1.00 40.00           O
-END
-)";
-
-class PreviewProperties : public SessionCase {
+class PreviewProperties : public PeptideSession {
  protected:
-  PreviewProperties() {
-    const std::string file = folder_.file("three.pdb", kAtoms);
-    ReadOptions reading;
-    reading.selection = parse_selection("polymer");
-    SessionContext context;
-    context.writes_scenes = true;
-    context.read_shown = [file, reading](const FigureRequest& figure, std::size_t) {
-      ReadOptions shown = reading;
-      figure.mark_atoms(shown);
-      return read_structure(file, shown);
-    };
-    PreviewState view;
-    view.molecule.file = file;
-    view.molecule.reading = reading;
-    begin(read_structure(file, reading), context, view);
+  PreviewProperties() : PeptideSession(parse_selection("polymer"), true) {
     expect_ok(R"({"command":"resize","width":200,"height":150})");
     expect_ok(R"({"command":"set","key":"figure.sticks","value":"ligand"})");
     expect_ok(R"({"command":"set","key":"surface.color","value":"bfactor"})");
@@ -52,7 +26,6 @@ class PreviewProperties : public SessionCase {
   Json set(const std::string& key, const Json& value) {
     return session_->apply({{"command", "set"}, {"key", key}, {"value", value}});
   }
-  Json values() { return state()["values"]; }
   Json choices() { return apply(R"({"command":"choices"})")["properties"]; }
 
   /// The texts of a property in the scene that pictures carry; empty if it has its default.

@@ -30,38 +30,40 @@ class StripSession : public SessionCase {
 TEST_F(StripSession, GoesFromSceneToSceneAsFilmsDo) {
   EXPECT_FALSE(apply(R"({"command":"strip","place":0})")["ok"]);
   for (const char* command :
-       {R"({"command":"set","key":"surface.probe","value":1})", R"({"command":"cut","plane":"x<3"})",
+       {R"({"command":"set","key":"surface.probe","value":1})",
+        R"({"command":"add","key":"surface.clip","value":"x<3"})",
         R"({"command":"set","key":"look.ambient","value":0.2})",
         R"({"command":"set","key":"image.background","value":"#000000"})",
         R"({"command":"set","key":"surface.color","value":"element"})", R"({"command":"keep_scene"})"})
     expect_ok(command);
-  const Json first = state();
+  const Json first = values();
   const auto first_picture = picture();
   const Camera from = session_->state().camera;
   for (const char* command :
-       {R"({"command":"set","key":"surface.probe","value":2})", R"({"command":"cut","plane":"x<1","index":0})",
+       {R"({"command":"set","key":"surface.probe","value":2})",
+        R"({"command":"set","key":"surface.clip","index":0,"value":"x<1"})",
         R"({"command":"set","key":"look.ambient","value":0.6})",
         R"({"command":"set","key":"image.background","value":"#ffffff"})",
         R"({"command":"set","key":"surface.color","value":"chain"})", R"({"command":"orbit","dx":0.3,"dy":0.1})"})
     expect_ok(command);
   const Camera to = session_->state().camera;
   EXPECT_EQ(apply(R"({"command":"keep_scene"})")["scenes"], 2);
-  const Json second = state();
+  const Json second = values();
 
   for (const double place : {0.25, 0.5, 0.75}) {
     expect_ok(fmt::format(R"({{"command":"strip","place":{}}})", place));
     const double share = eased(place, Pace::smooth);
-    const Json told = state();
-    EXPECT_NEAR(told["probe_radius"].get<double>(), 1.0 + share, 1e-9);
-    EXPECT_NEAR(told["look"]["ambient"].get<double>(), 0.2 + 0.4 * share, 1e-6);
-    EXPECT_NEAR(parse_cut(told["cuts"][0].get<std::string>()).bound, 3.0 - 2.0 * share, 1e-9);
-    EXPECT_EQ(told["color"], place < 0.5 ? first["color"] : second["color"]);
+    const Json told = values();
+    EXPECT_NEAR(told["surface.probe"].get<double>(), 1.0 + share, 1e-9);
+    EXPECT_NEAR(told["look.ambient"].get<double>(), 0.2 + 0.4 * share, 1e-6);
+    EXPECT_NEAR(parse_cut(told["surface.clip"][0].get<std::string>()).bound, 3.0 - 2.0 * share, 1e-9);
+    EXPECT_EQ(told["surface.color"], (place < 0.5 ? first : second)["surface.color"]);
     EXPECT_NEAR(glm::distance(session_->state().camera.position, camera_between(from, to, share).position), 0.0, 1e-6);
   }
   expect_ok(R"({"command":"strip","place":0})");
   EXPECT_EQ(picture(), first_picture);
   expect_ok(R"({"command":"undo"})");  // all of the strip is a step
-  EXPECT_EQ(state()["probe_radius"], second["probe_radius"]);
+  EXPECT_EQ(values()["surface.probe"], second["surface.probe"]);
 
   // The pictures of the film one after another: 0.4 s of the first scene, 2 s of the way, 1 s of the second scene.
   expect_ok(R"({"command":"time_scene","index":0,"hold":0.4})");
@@ -80,7 +82,7 @@ TEST_F(StripSession, GoesFromSceneToSceneAsFilmsDo) {
   ASSERT_EQ(places.size(), expected.size());
   for (std::size_t n = 0; n < places.size(); ++n) EXPECT_NEAR(places[n], expected[n], 1e-12) << n;
   EXPECT_EQ(state()["fps"], 10.0) << "frames have a rate of their own";
-  EXPECT_EQ(state()["cuts"], second["cuts"]);
+  EXPECT_EQ(values()["surface.clip"], second["surface.clip"]);
   EXPECT_FALSE(apply(R"({"command":"strip","place":1.01})")["ok"]);
   EXPECT_FALSE(apply(R"({"command":"keep_scene","index":2})")["ok"]);
   EXPECT_EQ(apply(R"({"command":"forget_scene","index":0})")["scenes"], 1);

@@ -35,7 +35,8 @@ def refused(call):
     "pandas": "import pandas as pd",
     "MDAnalysis": """import MDAnalysis as mda; u = mda.Universe("1ubq.gro"); v = mda.Universe("1ubq.pdb").select_atoms("protein")""",
     "MDAnalysisTests": """import MDAnalysis as mda, MDAnalysisTests.datafiles as files
-def run(top, trajectory): return meniscus.surface(mda.Universe(top, trajectory).select_atoms("protein"))""",
+def run(top, trajectory): return meniscus.surface(mda.Universe(top, trajectory).select_atoms("protein"))
+def mda_charged(top, trajectory): return meniscus.from_mdanalysis(mda.Universe(top, trajectory))""",
     "mdtraj": """import mdtraj; t = mdtraj.load("1ubq.pdb"); t = t.atom_slice(t.top.select("protein"))""",
     "biotite": """import biotite.structure.io.pdb as bpdb; array = bpdb.PDBFile.read("1ubq.pdb").get_structure(model=1)
 array = array[array.res_name != "HOH"]; bare = array.copy(); bare.element[:] = \"\"""",
@@ -77,6 +78,7 @@ TASKS = [
     ("", "a molecule of arrays", "meniscus.Structure(xyz, m.elements)", "602 atoms"),
     ("", "its surface", "meniscus.surface(meniscus.Structure(xyz, m.elements)).area == s.area", "True"),
     ("", "elements guessed from names", "(meniscus.Structure(xyz, names=m.names, residue_names=m.residue_names).elements == m.elements).all()", "True"),
+    ("", "partial charges of arrays", "meniscus.Structure(xyz[:4], ['C'] * 4, charges=[0.5, -0.5, 0.1, 0]).select('charge > 0')", "2 of 4 atoms"),
     ("", "radii by element", "meniscus.Structure(xyz, m.elements, radii={'C': 1.8}).radii[1]", "1.8"),
     ("", "a set of radii for arrays", "meniscus.Structure(xyz, m.elements, names=m.names, residue_names=m.residue_names, radii='protor').radii[0]", "1.64"),
     ("", "buried area of two parts", "meniscus.buried(m, 'resid 1-38', 'resid 39-76')", "Buried: .* Å² of"),
@@ -146,6 +148,7 @@ TASKS = [
     ("MDAnalysisTests", "PSF and DCD", "run(files.PSF, files.DCD)", "3341 atoms, 10096.67"),
     ("MDAnalysisTests", "prmtop and TRJ", "run(files.PRM, files.TRJ_bz2)", "252 atoms"),
     ("MDAnalysisTests", "TPR and XTC", "run(files.TPR, files.XTC)", "3341 atoms, 11553.78"),
+    ("MDAnalysisTests", "partial charges of a PSF", "mda_charged(files.PSF, files.DCD).select('charge < -0.5 and segid 4AKE')", r"^<meniscus.Structure: [1-9]"),
     ("mdtraj", "Trajectory", "meniscus.surface(t)", "602 atoms, 4027.76"),
     ("mdtraj", "series", "meniscus.series(t)['area'].round(1)", r"4027\.8"),
     ("biotite", "AtomArray", "meniscus.surface(array)", "4027.76"),

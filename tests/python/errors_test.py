@@ -17,7 +17,7 @@ if "MENISCUS_PACKAGE" in os.environ:
 import numpy as np
 
 import meniscus
-from meniscus import _header, _messages
+from meniscus import _header, _library
 from structure_test import atoms, cif, gro, pdb
 
 #: What no message may have: options, C's constants, types and functions, and fields that the package calls otherwise.
@@ -81,7 +81,7 @@ class Provoked(unittest.TestCase):
             self.provoke(lambda: read("odd.pdb"), kinds=(PermissionError, meniscus.InputError))
             os.chmod("odd.pdb", 0o600)
         for status, base in ((_header.INPUT, meniscus.InputError), (_header.OUTPUT, meniscus.OutputError)):
-            error = _messages.error_of(status, "a.pdb: cannot be read: Permission denied")
+            error = _library.error_of(status, "a.pdb: cannot be read: Permission denied")
             self.assertTrue(isinstance(error, PermissionError) and isinstance(error, base) and error.filename == "a.pdb")
 
     def test_types(self):
@@ -174,7 +174,7 @@ class Provoked(unittest.TestCase):
         # Those about pointers, structs and numbers of enumerations, which the package checks itself.
         own = re.compile(r"\{\}(\[\{\}\])? is NULL|not aligned|_stride|_type is|do not fit into memory|overlap|\.size is|asks for more|"
                          r"it has to be 0$|none of MENISCUS_|neither MENISCUS_|no table|no gradient|only for MENISCUS_MESH|MENISCUS_OPTIONS_INIT")
-        left = [text for text in table if FOREIGN.search(_messages.in_words_of_python(text)) and not own.search(text)]
+        left = [text for text in table if FOREIGN.search(_library.in_words_of_python(text)) and not own.search(text)]
         self.assertEqual(left, [])
 
     @classmethod

@@ -78,6 +78,18 @@ class Parts(Case):
         self.assertEqual(part.residue_numbers.tolist(), list(range(9, 17)))
         self.assertEqual(part.select("resid 9 12").indices.tolist(), [33, 45])
 
+    def test_partial_charges_and_segments_stay(self):
+        m = meniscus.Structure([[0, 0, 0], [3, 0, 0], [6, 0, 0]], ["C", "O", "N"], charges=[0.5, -0.25, np.nan], segments=["PROA", "", "PROB"])
+        self.assertEqual(m.select("charge > 0").segments.tolist(), ["PROA"])
+        self.assertEqual(m.split("residue")[1].charges.tolist(), [-0.25])
+        self.assertEqual(len(set(map(tuple, m.colors("charge").tolist()))), 3)
+        m.write("charged.cif")
+        read = meniscus.read("charged.cif", select="all")
+        np.testing.assert_array_equal(read.charges, m.charges)
+        self.assertEqual(read.segments.tolist(), m.segments.tolist())
+        m[2:].write("plain.cif")
+        self.assertNotIn("_atom_site.charge", pathlib.Path("plain.cif").read_text())
+
     def test_elements_and_numbers_are_not_mixed_up(self):
         m = self.molecule
         with self.assertWarnsRegex(DeprecationWarning, "compare atomic_numbers"):
@@ -94,7 +106,7 @@ class Parts(Case):
             self.assertEqual(type(plain), np.ndarray)
         for number, symbol in enumerate(meniscus._columns.SYMBOLS[1:], 1):
             self.assertEqual(meniscus.radii_of([str(symbol)])[0], meniscus.radii_of([number])[0])
-            self.assertEqual(meniscus._radii.atomic_numbers([symbol])[0], number)
+            self.assertEqual(meniscus._columns.atomic_numbers([symbol])[0], number)
 
 
 class Arrays(Case):

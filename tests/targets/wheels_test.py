@@ -5,8 +5,10 @@
 wheels_test.py ROOT BUILD: packs what BUILD has in the place of what scripts/package/targets.sh builds."""
 
 import csv
+import email
 import importlib.util
 import io
+import json
 import os
 import platform
 import shutil
@@ -83,6 +85,33 @@ class Wheels(unittest.TestCase):
                          ["meniscus-msms.exe", "meniscus-nanoshaper.exe", "meniscus-pdb_to_xyzr.exe", "meniscus-pdb_to_xyzrn.exe"])
         for name in names:
             self.assertEqual(info[name].external_attr >> 16, 0o100755, name)
+
+    def test_metadata_and_the_bill_of_materials_name_licences_and_origins(self):
+        self.wheels.PARTS.append(("GLM", "MIT", "/usr/share/doc/libglm-dev/copyright"))
+        self.built("x86_64-windows")
+        with zipfile.ZipFile(self.wheels.pack("x86_64-windows", self.folder)) as wheel:
+            info = f"{self.wheels.WHEEL}-{self.wheels.version()}.dist-info"
+            metadata = email.message_from_bytes(wheel.read(f"{info}/METADATA"))
+            bill = json.loads(wheel.read(f"{info}/sboms/meniscus.cdx.json"))
+        self.assertEqual(metadata["License-Expression"], "BSD-3-Clause AND Apache-2.0 AND MIT")
+        for field in ("Author", "Keywords", "Classifier", "Summary"):
+            self.assertTrue(metadata[field], field)
+        self.assertIn("pip install meniscus-ses", metadata.get_payload())
+        self.assertNotRegex(metadata.get_payload(), r"\]\((?!https://)", "a link that leads nowhere from another site")
+        origins = {part["name"]: part["purl"] for part in bill["components"]}
+        self.assertEqual(origins["oneTBB"], "pkg:pypi/onetbb@2021.8.0")  # without the file of Debian's source, which names patches
+        self.assertRegex(origins["GLM"], r"pkg:deb/debian/libglm-dev@[0-9].*\?distro=bookworm")
+
+    def test_the_package_says_so_where_another_project_has_its_name(self):
+        site = os.path.join(self.folder, "site")
+        shutil.copytree(self.wheels.PACKAGE, os.path.join(site, "meniscus"), ignore=shutil.ignore_patterns("__pycache__"))
+        said = []
+        for folder in ("meniscus_ses-0.2.0.dist-info", "meniscus-0.2.0.dist-info"):
+            os.mkdir(os.path.join(site, folder))
+            said.append(subprocess.run([sys.executable, "-B", "-c", "import meniscus"], env={**os.environ, "PYTHONPATH": site}, check=True,
+                                       capture_output=True, text=True).stderr)
+        self.assertEqual(said[0], "")
+        self.assertIn("pip uninstall meniscus meniscus-ses", said[1])
 
     def test_the_same_files_give_the_same_bytes(self):
         self.built("aarch64-macos")

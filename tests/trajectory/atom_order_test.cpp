@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Trajectories in another order than the file that names their atoms, and correct ones that look unusual.
-#include "core/trajectory/atom_order.h"
+#include "core/trajectory/prepared_frames.h"
 
 #include <algorithm>
 #include <cmath>

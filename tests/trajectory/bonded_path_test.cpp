@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Between frames atoms follow curves, groups turn, and bonds keep their lengths.
-#include "core/trajectory/bonded_path.h"
+#include "core/trajectory/morph.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/queries/surface_point.h"
+#include "core/queries/surface_parts.h"
 
 namespace meniscus::testing {
 namespace {

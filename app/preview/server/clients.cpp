@@ -34,9 +34,13 @@ bool Mailbox::put(ClientNumber client, const nlohmann::json& id, nlohmann::json 
     if (waiting.size() >= kMostWaiting) return false;
     waiting.push_back({client, std::move(command), {id}});
   }
+  wake();
+  return true;
+}
+
+void Mailbox::wake() {
   news_ = true;
   arrived_.notify_one();
-  return true;
 }
 
 Change Mailbox::waiting_change() {
@@ -49,15 +53,13 @@ Change Mailbox::waiting_change() {
 void Mailbox::want_picture(ClientNumber client) {
   const std::lock_guard lock(mutex_);
   content_.wanting.insert(client);
-  news_ = true;
-  arrived_.notify_one();
+  wake();
 }
 
 void Mailbox::want_figure(ClientNumber client, std::set<std::string> known) {
   const std::lock_guard lock(mutex_);
   content_.wanting_figure.insert_or_assign(client, std::move(known));
-  news_ = true;
-  arrived_.notify_one();
+  wake();
 }
 
 void Mailbox::forget(ClientNumber client) {
@@ -65,15 +67,13 @@ void Mailbox::forget(ClientNumber client) {
   content_.wanting.erase(client);
   content_.wanting_figure.erase(client);
   content_.gone.insert(client);
-  news_ = true;
-  arrived_.notify_one();
+  wake();
 }
 
 void Mailbox::fail(const std::string& error) {
   const std::lock_guard lock(mutex_);
   error_ = error;
-  news_ = true;
-  arrived_.notify_one();
+  wake();
 }
 
 Mailbox::Content Mailbox::take(std::optional<std::chrono::steady_clock::time_point> until) {

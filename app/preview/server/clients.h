@@ -61,6 +61,8 @@ class Mailbox {
   Content take(std::optional<std::chrono::steady_clock::time_point> until);
 
  private:
+  void wake();  // take(), while the mutex is locked
+
   std::mutex mutex_;
   std::condition_variable arrived_;
   Content content_;

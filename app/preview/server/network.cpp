@@ -110,9 +110,15 @@ std::string Network::url() const { return fmt::format("http://127.0.0.1:{}/{}/",
 
 std::string Network::url_once() const { return fmt::format("http://127.0.0.1:{}/{}", port(), state_->entry); }
 
-void Network::send(ClientNumber client, const nlohmann::json& message) {
-  asio::post(state_->context, [clients = state_->clients, client, text = text_message(json_line(message))] {
-    if (const auto found = clients->sockets.find(client); found != clients->sockets.end()) found->second->send(text);
+void Network::send(ClientNumber client, const nlohmann::json& message,
+                   std::shared_ptr<const std::vector<std::uint8_t>> bytes) {
+  asio::post(state_->context, [clients = state_->clients, client, text = text_message(json_line(message)),
+                               more = OutgoingMessage{std::move(bytes), false}] {
+    const auto found = clients->sockets.find(client);
+    if (found == clients->sockets.end()) return;
+    const std::shared_ptr<Client> socket = found->second;
+    socket->send(text);
+    if (more.bytes) socket->send(more);
   });
 }
 
@@ -135,18 +141,6 @@ void Network::offer_files(const std::vector<std::filesystem::path>& files) {
   for (const std::filesystem::path& file : files) by_name[file.filename().string()] = file;
   asio::post(state_->context,
              [clients = state_->clients, names = std::move(by_name)]() mutable { clients->files = std::move(names); });
-}
-
-void Network::send_picture(ClientNumber client, const nlohmann::json& message,
-                           std::shared_ptr<const std::vector<std::uint8_t>> picture) {
-  asio::post(state_->context, [clients = state_->clients, client, text = text_message(json_line(message)),
-                               bytes = OutgoingMessage{std::move(picture), false}] {
-    const auto found = clients->sockets.find(client);
-    if (found == clients->sockets.end()) return;
-    const std::shared_ptr<Client> socket = found->second;
-    socket->send(text);
-    socket->send(bytes);
-  });
 }
 
 }  // namespace meniscus

@@ -41,16 +41,15 @@ class Network {
   /// page, later requests are refused. It does not contain the token, because other users may see command lines.
   std::string url_once() const;
 
-  /// Sends a message to one client, or to all. A client that is gone, or too slow to read, is not an error.
-  void send(ClientNumber client, const nlohmann::json& message);
+  /// Sends a message to one client, or to all. A client that is gone, or too slow to read, is not an error. bytes: the
+  /// picture or the figure that the message refers to, sent after it; nullptr: none.
+  void send(ClientNumber client, const nlohmann::json& message,
+            std::shared_ptr<const std::vector<std::uint8_t>> bytes = nullptr);
   void send_to_all(const nlohmann::json& message);
   /// The same, and to each client that comes later, until there is another one; null: none from now on.
   void announce(const nlohmann::json& message);
   /// Lets browsers download these files from now on, and no others. Their names are letters, digits, '.', '_' and '-'.
   void offer_files(const std::vector<std::filesystem::path>& files);
-  /// A message and the picture, or the bytes of the figure, that it speaks of.
-  void send_picture(ClientNumber client, const nlohmann::json& message,
-                    std::shared_ptr<const std::vector<std::uint8_t>> picture);
 
  private:
   struct State;

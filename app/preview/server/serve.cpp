@@ -120,7 +120,7 @@ class ServedSession {
         still_waiting.insert(client);
         continue;
       }
-      network_.send_picture(client, picture_.message, picture_.bytes);
+      network_.send(client, picture_.message, picture_.bytes);
       shown_[client] = picture_.number;
     }
     waiting_ = std::move(still_waiting);
@@ -148,13 +148,9 @@ class ServedSession {
     if (!figure_) message["unavailable"] = escaped(figure_fault_);
     for (auto& [client, reader] : figure_pages_) {
       if (!lacks_the_figure(reader)) continue;
-      if (figure_) {
-        const std::string bytes = page::bytes_for_page(*figure_, *reader.known);
-        network_.send_picture(client, message,
-                              std::make_shared<const std::vector<std::uint8_t>>(bytes.begin(), bytes.end()));
-      } else {
-        network_.send(client, message);
-      }
+      const std::string bytes = figure_ ? page::bytes_for_page(*figure_, *reader.known) : "";
+      network_.send(client, message,
+                    figure_ ? std::make_shared<const std::vector<std::uint8_t>>(bytes.begin(), bytes.end()) : nullptr);
       reader = {{}, figure_revision_};
     }
   }

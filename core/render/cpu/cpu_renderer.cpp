@@ -2,15 +2,11 @@
 // Draws pictures on the CPU: packs scenes, casts the tiles of their blocks on all threads, and finishes samples.
 #include "core/render/cpu/cpu_renderer.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <cstddef>
-#include <utility>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "core/image/color_space.h"
@@ -29,6 +25,39 @@ struct SeenThrough {
 };
 
 constexpr ray_cast::Hit kNoHit{glm::vec3(0.0f), 0.0f, ray_cast::kNoPrimitive, ray_cast::kNoPrimitive, 0, 0};
+
+/// Returns the width of the thinnest thing that objects have, in Å, such as the diameter of a stick.
+double least_width(const Surface* surface, const Shapes* shapes) {
+  constexpr double kLeastThickness = 0.4;  // of ribbons and plates
+  double least = std::numeric_limits<double>::infinity();
+  if (surface)
+    for (const Ball& atom : surface->atoms) least = std::min(least, 2.0 * atom.radius);
+  if (!shapes) return least;
+  for (const SphereShape& sphere : shapes->spheres) least = std::min(least, 2.0 * sphere.radius);
+  for (const CylinderShape& cylinder : shapes->cylinders) least = std::min(least, 2.0 * cylinder.radius);
+  return shapes->mesh.triangles.empty() ? least : std::min(least, kLeastThickness);
+}
+
+/// True if no pixel has a diagonal longer than `width`, Å, so that nothing of this width lies between their centres.
+bool all_pixels_are_narrower(double width, const PictureFrame& frame, const PackPlacement& placement) {
+  const bool is_perspective = frame.camera.projection == Projection::perspective;
+  const double farthest = is_perspective ? std::max(placement.last_depth / frame.eye_distance, 1.0) : 1.0;
+  return width >= std::numbers::sqrt2 * frame.pixel_size * farthest;
+}
+
+/// True if samples may be left out where the first ones are even. Rays that light is traced by differ among samples.
+bool is_adaptive(const RenderSettings& settings) {
+  return settings.adaptive && settings.samples > 1 && !settings.look.traces_light();
+}
+
+/// Returns how far around a block pixels determine its colours, in whole tiles. Uneven bundles depend on the finished
+/// pixels around them, and a pixel on the unevenness of the bundles that its look reads.
+int block_reach(const RenderSettings& settings) {
+  const Look& look = settings.look;
+  const int line_reach = static_cast<int>(std::ceil(0.5f * look.widest_line()));
+  const int compared = is_adaptive(settings) ? 2 * (line_reach + kBundleEdge + 1) : 0;
+  return std::max(look_reach(look), (compared + kTileEdge - 1) / kTileEdge * kTileEdge);
+}
 
 /// Returns the edge of a block, in whole tiles.
 int block_edge(const RenderSettings& settings) {
@@ -72,6 +101,9 @@ void CpuRenderer::place(std::span<const PictureObject> objects, const Camera& ca
     if (object.surface) probe_radius = std::max(probe_radius, object.surface->probe_radius);
   frame_ = make_picture_frame(balls, camera, size);
   placement_ = place_atoms(balls, probe_radius, frame_);
+  double width = std::numeric_limits<double>::infinity();
+  for (const PictureObject& object : objects) width = std::min(width, least_width(object.surface, object.shapes));
+  nothing_is_thin_ = all_pixels_are_narrower(width, frame_, placement_);
   const std::vector<Ball> kept = kept_balls(objects);
   if (kept.empty() || kept.size() == balls.size()) return;
   // The depth cue of a picture with cuts begins at the part that is kept.
@@ -117,6 +149,9 @@ std::shared_ptr<PictureContent> CpuRenderer::pack_copies(std::span<const Surface
     const std::vector<BallGroup> groups = ball_groups(objects);
     frame_ = make_picture_frame(groups, camera, settings.size);
     placement_ = place_atoms(groups, objects.front().surface.probe_radius, frame_);
+    double width = std::numeric_limits<double>::infinity();
+    for (const SurfaceObject& object : objects) width = std::min(width, least_width(&object.surface, nullptr));
+    nothing_is_thin_ = all_pixels_are_narrower(width, frame_, placement_);
   }
   trace_light(objects, settings);
   return std::make_shared<VisibleCopies>(objects, frame_, placement_, settings.look, kernels_, patches_together_);
@@ -129,7 +164,7 @@ Framebuffer CpuRenderer::render(PictureContent& scene, const RenderSettings& set
   const std::vector<PictureBlock> blocks = collector.blocks(block_edge(settings));
   BlockProgress progress(settings, blocks.size());
   for (const PictureBlock& inner : blocks) {
-    const PictureBlock block = with_neighbors(inner, look_reach(settings.look), settings.size);
+    const PictureBlock block = with_neighbors(inner, block_reach(settings), settings.size);
     BlockTask task{scene, {frame_, block, settings.samples, light()}, settings, settings.aovs || settings.mattes};
     if (settings.mattes)
       task.after_sample = [&](int sample) {
@@ -195,16 +230,26 @@ void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
   const Look& look = task.settings.look;
   sums_.assign(task.pixel_count(), glm::vec4(0.0f));
   if (task.hits) hits_.assign(task.pixel_count(), kNoHit);
-  const int step = look.has_effects() || task.after_sample ? 1 : LaneTile::kMostSamples;
+  const int samples = task.settings.samples;
+  const bool leaves_out = is_adaptive(task.settings) && !task.after_sample && nothing_is_thin_;
+  uneven_.reset();
   if (look.has_effects()) resize_samples(task);
-  for (int first = 0; first < task.settings.samples && !interruption.came(); first += step) {
-    interruption.note(first, task.settings.samples);
+  for (int first = 0, count; first < samples && !interruption.came(); first += count) {
+    count = look.has_effects() || task.after_sample || (leaves_out && first == 0) ? 1 : LaneTile::kMostSamples;
+    count = std::min(count, samples - first);
+    interruption.note(first, samples);
     if (task.after_sample && first > 0) hits_.assign(task.pixel_count(), kNoHit);
-    cast_samples(first, std::min(step, task.settings.samples - first), task, interruption);
+    cast_samples(first, count, task, interruption);
     if (task.after_sample) task.after_sample(first);
-    if (!look.has_effects()) continue;
-    apply_look(first, task, interruption);
+    if (look.has_effects()) apply_look(first, task, interruption);
+    if (leaves_out && first == 0 && !interruption.came()) uneven_.emplace().find(sums_, task.at.block.size);
   }
+  if (!uneven_) return;
+  const auto width = static_cast<std::size_t>(task.at.block.size.x);
+  tbb::parallel_for(0, task.at.block.size.y, [&](int y) {
+    for (std::size_t n = y * width; n < (y + 1) * width; ++n)
+      if (uneven_->counts()[n] == 0.0f) sums_[n] *= static_cast<float>(samples);
+  });
 }
 
 void CpuRenderer::cast_samples(int first, int count, const BlockTask& task, Interruption& interruption) {
@@ -220,11 +265,13 @@ void CpuRenderer::cast_samples(int first, int count, const BlockTask& task, Inte
   else
     samples.sums = sums_.data();
   if (look.has_effects() && task.scene.content().shows_through) samples.front = front_.lanes(look.traces_sky());
+  if (uneven_) samples.counts = uneven_->counts().data();
   const glm::ivec2 tiles = tile_counts(task.at.block);
   for_each_until(interruption, tiles.x * tiles.y, [&](int number) {
     const auto tile = static_cast<std::size_t>(number);
     LaneTile own = samples;
     own.origin = tile_origin(task.at.block, tile);
+    if (uneven_ && uneven_->is_even(own.origin, own.origin + kTileEdge)) return;
     task.scene.cast_tile(tile, own, kernels_);
   });
 }
@@ -242,6 +289,7 @@ void CpuRenderer::apply_look(int sample, const BlockTask& block, Interruption& i
   task.samples = samples_.lanes(look.traces_sky());
   task.light_maps = light_maps_.texels().data();
   task.sums = sums_.data();
+  if (uneven_) task.counts = uneven_->counts().data();
   if (block.scene.content().shows_through) apply_front_look(sample, task, look, interruption);
   find_shade(samples_, sample, look, task, interruption);
   for_each_until(interruption, task.view.size.y, [&](int y) { kernels_.finish_row(task, y); });

@@ -2,22 +2,11 @@
 // Pictures of computed surfaces and shapes made by the CPU alone, for files and for previews.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
-
 #include "core/base/progress.h"
 #include "core/render/cpu/lane_kernels.h"
 #include "core/render/cpu/occluders.h"
 #include "core/render/cpu/picture_content.h"
+#include "core/render/cpu/unevenness.h"
 #include "core/render/cpu/visible_copies.h"
 #include "core/render/light_maps.h"
 #include "core/render/picture.h"
@@ -123,6 +112,8 @@ class CpuRenderer {
   LightMaps light_maps_;                // maps of the current picture, if its look needs them
   std::optional<Occluders> occluders_;  // occluders of the current picture, if its light is traced
   const std::shared_ptr<SurfaceContent> surface_ = std::make_shared<SurfaceContent>();  // for pictures of one surface
+  bool nothing_is_thin_ = false;      // true: nothing in the current picture fits between the centres of pixels
+  std::optional<Unevenness> uneven_;  // unevenness of the current block, known after its first sample
   std::vector<glm::vec4> sums_;
   std::vector<ray_cast::Hit> hits_;
   BlockSamples samples_, front_;       // front_: for pictures with transparent parts

@@ -2,10 +2,6 @@
 // Progress and interruption of the current picture.
 #pragma once
 
-#include <algorithm>
-#include <atomic>
-#include <cstddef>
-#include <functional>
 #include <thread>
 
 #include <tbb/parallel_for.h>

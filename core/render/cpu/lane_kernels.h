@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Declares the inner loops of pictures on the CPU, compiled for vectors of several widths, and their data.
+// Declares the inner loops of pictures on the CPU, compiled for vectors of several widths, their data, and which wide
+// instructions this processor has.
 #pragma once
 
 #include <bit>
 #include <cmath>
-#include <cstdint>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
+
 #if defined(__x86_64__)
+#include <cpuid.h>
 #include <immintrin.h>
 #endif
 
@@ -108,6 +107,8 @@ struct LaneSamples {
   glm::vec4* over = nullptr;    ///< transparent parts before all of this, premultiplied; nullptr: none
 };
 
+inline constexpr int kBundleEdge = 4;  ///< pixels; rays are cast in bundles of 4 x 4 pixels
+
 /// Some samples of a tile's pixels.
 struct LaneTile {
   static constexpr int kMostSamples = 4;
@@ -121,6 +122,7 @@ struct LaneTile {
   int sample_count = 1;              ///< 1 to kMostSamples
   glm::vec2 offset[kMostSamples]{};  ///< offsets of samples from the pixels' centres
   LaneList list;
+  const float* counts = nullptr;  ///< as Unevenness::counts(); bundles with 0 are not cast; nullptr: all are
 
   glm::vec4* sums = nullptr;      ///< pixels of the block, to which the sum of samples is added; or nullptr
   ray_cast::Hit* hits = nullptr;  ///< pixels of the block, which get the hits of the first sample; or nullptr
@@ -181,8 +183,9 @@ struct LaneLook {
   float* shade_size = nullptr;         ///< size of a pixel at that depth, Å
   float* sky_seen = nullptr;           ///< shares of the sky and of the lamp that pixels see
   float* lamp_seen = nullptr;
-  glm::vec4* sums = nullptr;  ///< the finished colours are added to it
-  float* ink = nullptr;       ///< receives the share of each pixel that lines cover; or nullptr
+  const float* counts = nullptr;  ///< as Unevenness::counts(); pixels with 0 are not finished; nullptr: all are
+  glm::vec4* sums = nullptr;      ///< the finished colours are added to it
+  float* ink = nullptr;           ///< receives the share of each pixel that lines cover; or nullptr
 };
 
 inline constexpr int kRowsAtOnce = 8;
@@ -211,5 +214,27 @@ const LaneKernels* kernels_of_16_lanes();
 
 /// Returns the widest kernels with at most most_lanes lanes that this processor can run.
 const LaneKernels& widest_kernels(int most_lanes);
+
+#if defined(__x86_64__)
+// The wide instructions of this processor are found here, because not every compiler's runtime has
+// __builtin_cpu_supports().
+
+/// Bits of EBX in leaf 7 of CPUID (Intel, Software Developer's Manual, volume 2A).
+inline constexpr unsigned kAvx2 = 1u << 5;
+inline constexpr unsigned kAvx512 = 1u << 16 | 1u << 17 | 1u << 30 | 1u << 31;  // F, DQ, BW and VL
+
+/// True if the processor has all of them, and the system saves these registers of threads (`registers`: bits of XCR0).
+inline bool processor_has(unsigned wanted, unsigned registers) {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  constexpr unsigned kOsSavesVectors = 1u << 27;  // OSXSAVE
+  if (!__get_cpuid(1, &a, &b, &c, &d) || !(c & kOsSavesVectors)) return false;
+  std::uint32_t kept = 0, upper = 0;
+  __asm__ volatile("xgetbv" : "=a"(kept), "=d"(upper) : "c"(0));
+  return (kept & registers) == registers && __get_cpuid_count(7, 0, &a, &b, &c, &d) && (b & wanted) == wanted;
+}
+
+inline bool processor_has_avx2() { return processor_has(kAvx2, 0x06); }      // registers of 128 and 256 bits
+inline bool processor_has_avx512() { return processor_has(kAvx512, 0xe6); }  // registers of 512 bits and masks, too
+#endif
 
 }  // namespace meniscus

@@ -4,7 +4,6 @@
 #include "core/render/cpu/lane_kernels.h"
 
 #if defined(__x86_64__)
-#include "core/render/cpu/processor.h"
 
 #if defined(__clang__) && __clang_major__ >= 18 && __clang_major__ < 22
 // These compilers have a separate option for registers of 512 bits (evex512).

@@ -4,7 +4,6 @@
 #include "core/render/cpu/lane_kernels.h"
 
 #if defined(__x86_64__)
-#include "core/render/cpu/processor.h"
 
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)

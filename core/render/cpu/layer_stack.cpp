@@ -2,14 +2,7 @@
 // Casts opaque layers first, which limit the visible distance in the others. Then sorts and composites all layers.
 #include "core/render/cpu/layer_stack.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
 #include <tuple>
-#include <utility>
-
-#include <glm/geometric.hpp>
 
 #include "core/base/progress.h"
 #include "core/color/color_maps.h"
@@ -171,6 +164,7 @@ void LayerStack::cast_tile(std::size_t tile, LaneTile task, const LaneKernels& k
   if (is_empty && !task.front.color) return;
   Workplace& place = workplaces_.local();
   place.hits.clear();
+  task.counts = nullptr;  // the layers of all rays of a tile are put together at once
   place.farthest.assign(ray_count(task), kFar);
   place.clipped.resize(ray_count(task));
   const TileWork work{task, kernels, place};

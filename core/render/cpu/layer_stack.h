@@ -6,16 +6,6 @@
 // leaves the solid at the next point behind the plane.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
-
-#include <glm/vec4.hpp>
-#include <tbb/enumerable_thread_specific.h>
-
 #include "core/math/ball.h"
 #include "core/render/cpu/picture_content.h"
 #include "core/render/picture.h"

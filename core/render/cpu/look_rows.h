@@ -60,7 +60,6 @@ struct LookedAtBlock {
 
 #include "gpu_shaders/look/view_space.glsl"
 #include "gpu_shaders/look/light_maps.glsl"
-#include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/ray_cast/studio_light.glsl"
 #include "gpu_shaders/look/finish.glsl"
 
@@ -120,6 +119,7 @@ struct LookedAtBlock {
   }
 
   void finish(pixel_row pixel) {
+    if (look_.counts && !some(counts_at(pixel))) return;
     const real depth = depth_or_nothing(pixel);
     const truth met = depth != real(kNothing);
     const bool has_ink = params.widest_line > 0.0f && !nothing_to_ink(pixel);
@@ -209,6 +209,9 @@ struct LookedAtBlock {
     return false;
   }
 
+  /// True for the pixels that count. The array has more elements than the block has pixels.
+  truth counts_at(pixel_row pixel) const { return load(look_.counts + place_in_block(pixel)) != real(0.0f); }
+
   real4 colors(const glm::vec4* first, pixel_row pixel) const {
     if (count_of(pixel) == kLanes) return load(first);
     glm::vec4 some[kLanes] = {};
@@ -225,6 +228,11 @@ struct LookedAtBlock {
       const real left = 1.0f - over.w;
       finished = {over.x + finished.x * left, over.y + finished.y * left, over.z + finished.z * left,
                   over.w + finished.w * left};
+    }
+    if (look_.counts) {
+      const truth counts = counts_at(pixel);
+      finished = {select(counts, finished.x, real(0.0f)), select(counts, finished.y, real(0.0f)),
+                  select(counts, finished.z, real(0.0f)), select(counts, finished.w, real(0.0f))};
     }
     const real4 sum = colors(sums, pixel);
     const real4 more{sum.x + finished.x, sum.y + finished.y, sum.z + finished.z, sum.w + finished.w};

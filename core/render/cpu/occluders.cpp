@@ -2,14 +2,10 @@
 // Packs occluders into trees of boxes, and casts rays from points towards the sky.
 #include "core/render/cpu/occluders.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <numbers>
 #include <numeric>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>

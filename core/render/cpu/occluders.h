@@ -2,14 +2,7 @@
 // Occluders of light for points of a picture or of a surface, and the directions of the rays towards the light.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <deque>
-#include <span>
-#include <vector>
-
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 
 #include "core/render/cpu/picture_content.h"
 #include "core/render/picture.h"

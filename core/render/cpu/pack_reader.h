@@ -47,9 +47,7 @@ struct PackReader {
   const bool some_hidden;
 
 #include "gpu_shaders/ray_cast/pixel_rays.glsl"
-#include "gpu_shaders/ray_cast/touched_atom.glsl"
 #include "gpu_shaders/ray_cast/patch_hits.glsl"
-#include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/ray_cast/studio_light.glsl"
 #include "gpu_shaders/ray_cast/shade.glsl"
 #include "gpu_shaders/ray_cast/shape_hits.glsl"

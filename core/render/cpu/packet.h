@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packets of numbers, one for each of MENISCUS_LANES rays: the types of gpu_shaders/shared/lane.glsl for C++.
+// Packets of numbers, one for each of MENISCUS_LANES rays: the types of gpu_shaders/reduced_surface/precision.glsl for
+// C++.
 //
 // There are only operations that IEEE 754 rounds correctly, equally in every lane, and functions made of them. So a
 // picture is the same to the bit for any width of the machine's vectors. Functions that the shared sources call have

@@ -2,15 +2,6 @@
 // Packs objects for rays on the CPU, lists their primitives by tile, and casts tiles of opaque scenes.
 #include "core/render/cpu/picture_content.h"
 
-#include <algorithm>
-#include <atomic>
-#include <bit>
-#include <limits>
-#include <numeric>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/base/progress.h"

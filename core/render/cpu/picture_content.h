@@ -3,14 +3,6 @@
 // renderer.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 #include <tbb/enumerable_thread_specific.h>
 
 #include "core/color/coloring.h"

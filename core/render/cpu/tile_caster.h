@@ -9,7 +9,6 @@
 
 namespace meniscus::MENISCUS_LANE_NAMESPACE {
 
-inline constexpr int kBundleEdge = 4;  // pixels
 inline constexpr int kPixelPackets = kBundleEdge * kBundleEdge / kLanes;
 inline constexpr int kMostPackets = kPixelPackets * LaneTile::kMostSamples;
 
@@ -248,14 +247,16 @@ class Bundle : protected LightedPack {
   Rays rays_[kMostPackets];
 };
 
-/// Calls work(origin) for each bundle of a tile.
+/// Calls work(origin) for each bundle of a tile whose pixels count.
 template <typename Work>
 void for_each_bundle(const LanePack& scene, const LaneTile& tile, const Work& work) {
   const glm::ivec2 end = {
       scene.view.size.x < tile.origin.x + kernel::kTileEdge ? scene.view.size.x : tile.origin.x + kernel::kTileEdge,
       scene.view.size.y < tile.origin.y + kernel::kTileEdge ? scene.view.size.y : tile.origin.y + kernel::kTileEdge};
   for (int y = tile.origin.y; y < end.y; y += kBundleEdge)
-    for (int x = tile.origin.x; x < end.x; x += kBundleEdge) work(glm::ivec2(x, y));
+    for (int x = tile.origin.x; x < end.x; x += kBundleEdge)
+      if (!tile.counts || tile.counts[static_cast<std::size_t>(y) * scene.view.size.x + x] != 0.0f)
+        work(glm::ivec2(x, y));
 }
 
 inline void cast_tile(const LanePack& scene, const LaneTile& tile) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the visible parts of many copies of surfaces in a block of a picture, without holding all copies in memory.
+// Finds the visible parts of many copies of surfaces in a block of a picture, without holding all copies in memory, and
+// how far the rays of a block can see.
 //
 // First the atoms are drawn, as balls that no ray passes through. Then patches that may be visible in front of them are
 // moved and packed, copy after copy from front to back. When there are many, they are cast, and patches that no ray
@@ -7,20 +8,56 @@
 // copies, to the bit.
 #pragma once
 
-#include <atomic>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <glm/vec4.hpp>
-
+#include "core/math/ball.h"
 #include "core/math/double_geometry.h"
 #include "core/queries/surface_object.h"
 #include "core/render/cpu/picture_content.h"
-#include "core/render/cpu/ray_depths.h"
+#include "core/render/picture_block.h"
 
 namespace meniscus {
+
+/// A depth for each pixel of a block, beyond which none of its samples shows anything: Å from the camera (orthographic:
+/// from its plane). Initially all are infinite.
+class RayDepths {
+ public:
+  /// Uses the frame of a picture, which is read at the start of each block and must outlive this object.
+  explicit RayDepths(const PictureFrame& frame) : frame_(frame) {}
+
+  void begin(const PictureBlock& block, int samples);
+
+  /// Adds a ball inside an opaque solid that does not contain the camera: rays that enter the ball well have hit the
+  /// solid before. Several threads may call it at once. It takes effect with the next gather().
+  void add_ball(const Ball& ball);
+  /// Declares that no sample of this pixel of the block sees farther. It takes effect with the next gather().
+  void limit(glm::ivec2 pixel, double depth);
+  void gather();
+
+  /// Returns false only if nothing within a bound (Primitive::bound) that begins there (Primitive::nearest) can be
+  /// visible.
+  bool may_show(const glm::vec4& bound, float nearest) const;
+
+ private:
+  glm::dvec2 on_pivot_plane(glm::ivec2 pixel, glm::dvec2 offset) const;
+  double squared_distance(const glm::dvec3& point, const glm::dvec2& through) const;
+  void add_to_pixels(const glm::dvec3& center, double radius, const glm::ivec4& pixels);
+  void add_to_rays(const glm::dvec3& center, double radius, const glm::ivec4& pixels);
+  bool may_show(int level, glm::ivec2 cell, const glm::ivec4& pixels, float nearest) const;
+  bool meets_ray(const glm::vec4& bound, const glm::ivec4& pixels, float nearest) const;
+  std::size_t at(glm::ivec2 pixel) const { return static_cast<std::size_t>(pixel.y) * block_.size.x + pixel.x; }
+
+  /// The farthest depth of each square of 2^n x 2^n pixels.
+  struct Level {
+    glm::ivec2 size{0};
+    std::vector<float> depths;
+  };
+
+  const PictureFrame& frame_;
+  PictureBlock block_;
+  int samples_ = 0;
+  kernel::TileListParameters pixels_{};  // parameters of tiles of one pixel
+  std::vector<float> rays_;              // depth of each sample, pixel by pixel; empty if there are too many
+  std::vector<Level> levels_;            // the first has single pixels
+};
 
 /// Returns the balls of every copy, in the order of merged(). They refer to `objects`, which must outlive them.
 std::vector<BallGroup> ball_groups(std::span<const SurfaceObject> objects);

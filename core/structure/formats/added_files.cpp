@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -2,12 +2,6 @@
 // Molecule files that are added to another file as further models, at their positions or superposed on it.
 #pragma once
 
-#include <cstddef>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "core/structure/formats/structure_formats.h"
 #include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"

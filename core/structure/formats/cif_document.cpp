@@ -3,11 +3,8 @@
 #include "core/structure/formats/cif_document.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <new>
-#include <string>
-#include <string_view>
 
 #include <gemmi/cif.hpp>
 
@@ -121,5 +118,12 @@ gemmi::cif::Document parse_cif(const TextFile& file, const TakeAtomRows& take) {
     rethrow_parse_error(file, error.what());
   }
 }
+
+#ifndef MENISCUS_WITH_JSON
+gemmi::cif::Document read_binary_cif(const TextFile& file) {
+  throw InputError(file.path, 0,
+                   "is BinaryCIF, which this build does not read: it was made without nlohmann_json; give it as mmCIF");
+}
+#endif
 
 }  // namespace meniscus

@@ -2,9 +2,7 @@
 // CIF documents, parsed by gemmi from text or from BinaryCIF.
 #pragma once
 
-#include <cstddef>
 #include <functional>
-#include <string_view>
 
 #include <gemmi/cifdoc.hpp>
 

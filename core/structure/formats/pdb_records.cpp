@@ -2,17 +2,9 @@
 // Parses and writes records of PDB files: atoms, models, bonds and periodic boxes.
 #include "core/structure/formats/pdb_records.h"
 
-#include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
-#include <cmath>
-#include <optional>
-#include <string>
 #include <unordered_map>
-
-#include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads coordinate files of CHARMM (CARD), which have fixed columns of two widths.
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads GRO of GROMACS: fixed columns in nanometres, and one frame after another.
 #include <algorithm>
-#include <array>
-
-#include <fmt/format.h>
 
 #include "core/base/constants.h"
 #include "core/base/error.h"

@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the atom table of mmCIF, as text or as BinaryCIF.
+// Reads the atom table of mmCIF, as text or as BinaryCIF, and its assemblies, which apply products of operators to
+// chains (label_asym_id).
+
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <string>
-#include <unordered_map>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
+#include <gemmi/cifdoc.hpp>
 #include <gemmi/elem.hpp>
 #include <gemmi/numb.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
+#include "core/math/rigid_motion.h"
 #include "core/structure/assembly.h"
 #include "core/structure/atom_classes.h"
 #include "core/structure/formats/cif_document.h"
@@ -25,6 +21,7 @@
 #include "core/structure/plausibility.h"
 #include "core/structure/residues.h"
 #include "core/structure/secondary_structure.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {
@@ -51,7 +48,9 @@ enum Column {
   kB,
   kModel,
   kEntityId,
-  kGroup
+  kGroup,
+  kCharge,
+  kSegment
 };
 std::vector<std::string> column_names(std::string_view text) {
   const std::vector<std::string_view> names = fields_of(text);
@@ -61,7 +60,7 @@ std::vector<std::string> column_names(std::string_view text) {
 const std::vector<std::string> kColumns = column_names(
     "Cartn_x Cartn_y Cartn_z ?type_symbol ?auth_atom_id ?label_atom_id ?auth_comp_id ?label_comp_id ?auth_asym_id "
     "?label_asym_id ?auth_seq_id ?label_seq_id ?pdbx_PDB_ins_code ?label_alt_id ?occupancy ?B_iso_or_equiv "
-    "?pdbx_PDB_model_num ?label_entity_id ?group_PDB");
+    "?pdbx_PDB_model_num ?label_entity_id ?group_PDB ?charge ?auth_segid");
 
 /// Returns the line of a row of _atom_site. In nearly all files a row is one line; otherwise the first line of the loop
 /// is returned.
@@ -152,6 +151,8 @@ Atom read_row(const TextFile& file, const cif::Table& table, std::size_t number_
   if (row.has2(kAlt)) atom.altloc = first_letter(row[kAlt]);
   if (row.has2(kOccupancy)) atom.occupancy = kept_number(row[kOccupancy]);
   if (row.has2(kB)) atom.b_factor = kept_number(row[kB]);
+  if (row.has2(kCharge)) atom.charge = kept_number(row[kCharge]);
+  if (row.has2(kSegment)) atom.segment = cif::as_string(row[kSegment]);
   const gemmi::Element symbol(row.has2(kSymbol) ? cif::as_string(row[kSymbol]) : std::string());
   atom.element = static_cast<std::uint8_t>(symbol.atomic_number());
   return atom;
@@ -430,9 +431,9 @@ bool recognizes(std::string_view text) {
 
 const Reader kMmcifReader{
     {"mmCIF", ".cif .mmcif .mcif", "macromolecular CIF of the wwPDB", "PDBx/mmCIF dictionary; Hall, Allen & Brown 1991",
-     "_atom_site (author's names where given, label_asym_id too), _entity and _entity_poly, _struct_conf and "
-     "_struct_sheet_range, _exptl, pLDDT of _ma_qa_metric_local; chemical components (_chem_comp_atom, "
-     "_chem_comp_bond), each a model"},
+     "_atom_site (author's names where given, label_asym_id too; partial charges as charge, segments as auth_segid), "
+     "_entity and _entity_poly, _struct_conf and _struct_sheet_range, _exptl, pLDDT of _ma_qa_metric_local; chemical "
+     "components (_chem_comp_atom, _chem_comp_bond), each a model"},
     recognizes,
     read,
     read_mmcif_assemblies};
@@ -445,5 +446,110 @@ const Reader kBinaryCifReader{
     is_binary_cif,
     read_binary,
     read_mmcif_assemblies};
+
+namespace {
+
+constexpr std::size_t kMostMotions = 1'000'000;  // of all assemblies of a file
+
+std::map<std::string, RigidMotion> operators_of(const TextFile& file, cif::Block& block) {
+  std::vector<std::string> tags{"id"};
+  for (const char row : {'1', '2', '3'}) {
+    for (const char column : {'1', '2', '3'}) tags.push_back(fmt::format("matrix[{}][{}]", row, column));
+    tags.push_back(fmt::format("vector[{}]", row));
+  }
+  std::map<std::string, RigidMotion> operators;
+  for (const cif::Table::Row row : block.find("_pdbx_struct_oper_list.", tags)) {
+    std::array<std::array<double, 4>, 3> matrix{};
+    for (std::size_t n = 0; n < 12; ++n) {
+      double& number = matrix[n / 4][n % 4];
+      if (!parse_number(row[n + 1], number) || std::abs(number) > kLargestCoordinate) {
+        throw InputError(
+            file.path, 0,
+            fmt::format(
+                "operator {} of _pdbx_struct_oper_list has {} for {}, not a number of at most {}; correct the matrix",
+                in_quotes(row.str(0)), in_quotes(row[n + 1]), tags[n + 1], kLargestCoordinate));
+      }
+    }
+    operators.emplace(row.str(0), rigid_motion(matrix, file.path, 0));
+  }
+  return operators;
+}
+
+const RigidMotion& operator_named(const std::string& name, const std::map<std::string, RigidMotion>& operators,
+                                  const std::string& file) {
+  const auto found = operators.find(name);
+  if (found != operators.end()) return found->second;
+  throw InputError(
+      file, 0,
+      fmt::format("an assembly asks for operator {}, which _pdbx_struct_oper_list does not hold", in_quotes(name)));
+}
+
+/// Returns all products of an expression. Products that differ only in the last factor follow each other. Common
+/// factors are multiplied once.
+std::vector<RigidMotion> products_of(std::string_view expression, const std::map<std::string, RigidMotion>& operators,
+                                     const std::string& file) {
+  std::vector<RigidMotion> products(1);
+  for (const std::vector<std::string>& names : operator_factors(expression, file)) {
+    std::vector<const RigidMotion*> factors;
+    for (const std::string& name : names) factors.push_back(&operator_named(name, operators, file));
+    std::vector<RigidMotion> longer;
+    longer.reserve(products.size() * factors.size());
+    for (const RigidMotion& product : products) {
+      for (const RigidMotion* factor : factors) longer.push_back(product * *factor);
+    }
+    products = std::move(longer);
+  }
+  return products;
+}
+
+std::vector<std::string> split_at_commas(const std::string& list) {
+  std::vector<std::string> names;
+  std::string name;
+  for (const char c : list + ",") {
+    if (c == ',') {
+      if (!name.empty()) names.push_back(std::move(name));
+      name.clear();
+    } else if (c != ' ' && c != '\n' && c != '\t') {
+      name += c;
+    }
+  }
+  return names;
+}
+
+std::map<std::string, std::string> descriptions_of(cif::Block& block) {
+  std::map<std::string, std::string> descriptions;
+  for (const cif::Table::Row row : block.find("_pdbx_struct_assembly.", {"id", "?oligomeric_details", "?details"})) {
+    const std::size_t column = row.has2(1) ? 1 : 2;
+    if (row.has2(column)) descriptions[row.str(0)] = row.str(static_cast<int>(column));
+  }
+  return descriptions;
+}
+
+}  // namespace
+
+std::vector<Assembly> read_mmcif_assemblies(const TextFile& file) {
+  cif::Document document = parse_cif(file, [](cif::Block&, std::size_t) {});
+  std::vector<Assembly> assemblies;
+  std::size_t motions = 0;
+  for (cif::Block& block : document.blocks) {
+    const std::map<std::string, RigidMotion> operators = operators_of(file, block);
+    const std::map<std::string, std::string> descriptions = descriptions_of(block);
+    for (const cif::Table::Row row :
+         block.find("_pdbx_struct_assembly_gen.", {"assembly_id", "oper_expression", "asym_id_list"})) {
+      if (assemblies.empty() || assemblies.back().id != row.str(0)) {
+        const auto description = descriptions.find(row.str(0));
+        assemblies.push_back({row.str(0), description == descriptions.end() ? std::string() : description->second, {}});
+      }
+      AssemblyPart& part = assemblies.back().parts.emplace_back();
+      part.chains = split_at_commas(row.str(2));
+      part.motions = products_of(row.str(1), operators, file.path);
+      motions += part.motions.size();
+      if (motions > kMostMotions)
+        throw CapacityError(fmt::format("{}: its assemblies have more than {} operators, more than this program reads",
+                                        file.path, with_thousands(kMostMotions)));
+    }
+  }
+  return assemblies;
+}
 
 }  // namespace meniscus

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads MOL2 of Tripos (SYBYL): molecules with bonds, partial charges, and substructures, which become residues.
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstdlib>
 #include <iterator>
-#include <limits>
-#include <map>
-#include <string>
-#include <unordered_map>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

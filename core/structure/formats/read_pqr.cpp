@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads PQR files: records of PDB with charge and radius, whose fields are separated by blanks.
-#include "core/structure/formats/read_pqr.h"
+#include "core/structure/formats/pdb_records.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <optional>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/structure/atom_classes.h"
-#include "core/structure/formats/pdb_records.h"
 #include "core/structure/formats/structure_formats.h"
 #include "core/structure/residues.h"
 #include "core/structure/structure.h"

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads PSF: the atoms, charges, masses and bonds of CHARMM, NAMD and X-PLOR, without coordinates.
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <optional>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

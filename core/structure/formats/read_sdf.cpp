@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads MOL and SDF: small molecules with their bonds, as connection tables V2000 and V3000 of MDL.
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <optional>
 #include <unordered_map>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

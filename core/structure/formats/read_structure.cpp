@@ -5,20 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <span>
-#include <string_view>
-#include <unordered_map>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/structure/bonds.h"
 #include "core/structure/formats/added_files.h"
 #include "core/structure/martini.h"
-#include "core/structure/outside_polymer.h"
 #include "core/structure/plausibility.h"
+#include "core/structure/residues.h"
 #include "core/structure/secondary_structure.h"
 #include "core/structure/selection/selection.h"
 

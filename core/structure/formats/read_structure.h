@@ -2,12 +2,6 @@
 // Reads the atoms for a surface from a file. By default these are the polymers of one model at one alternate location.
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "core/structure/residues.h"
 #include "core/structure/assembly.h"
 #include "core/structure/radii/assign_radii.h"

@@ -3,10 +3,7 @@
 #include "core/structure/formats/structure_formats.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

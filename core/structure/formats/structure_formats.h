@@ -2,13 +2,6 @@
 // The table of structure formats and their readers, and the choice of a reader for a file.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "core/base/text_file.h"
 #include "core/structure/structure.h"
 

@@ -3,13 +3,7 @@
 #include "core/structure/radii/assign_radii.h"
 
 #include <algorithm>
-#include <map>
-#include <string>
-#include <string_view>
 #include <tuple>
-#include <unordered_map>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

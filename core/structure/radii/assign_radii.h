@@ -2,10 +2,6 @@
 // Assigns a radius to each atom from tables, sets and overrides, and records the source of each radius.
 #pragma once
 
-#include <span>
-#include <string>
-#include <vector>
-
 #include "core/structure/radii/radii_set.h"
 #include "core/structure/selection/selection.h"
 

@@ -2,8 +2,6 @@
 // Holds the built-in sets of radii (bondi, protor, united, Martini), and finds a set by its name.
 #include "core/structure/radii/radii_set.h"
 
-#include <map>
-
 #include "core/structure/martini.h"
 #include "core/structure/residue_names.h"
 #include "core/structure/element_tables.h"

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Evaluates parsed selections step by step, each step for all atoms, with a stack of sets.
+// Evaluates parsed selections step by step, each step for all atoms, with a stack of sets, and joins residues to
+// places, one shell of neighbours after another.
 #include "core/structure/selection/selection.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
-#include <string_view>
 #include <unordered_set>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/base/text.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/point_tree.h"
-#include "core/structure/selection/places.h"
 #include "core/structure/selection/selection_steps.h"
 #include "core/structure/structure.h"
 
@@ -416,6 +412,31 @@ std::string advice_on_count(std::span<const Atom> atoms, std::size_t frame_atoms
   }
   return message(
       "they do not belong together; if the trajectory has only some of these atoms, select them by @trajectory-atoms@");
+}
+
+std::vector<bool> first_place(std::span<const Atom> atoms, const std::vector<bool>& selected) {
+  using Residue = std::pair<std::uint32_t, std::uint32_t>;
+  const auto residue_of = [&](std::size_t n) { return Residue{atoms[n].copy, atoms[n].residue}; };
+  const auto in_file = [&](std::size_t n) { return std::pair(atoms[n].copy, atoms[n].index); };
+  std::optional<std::size_t> first;
+  for (std::size_t n = 0; n < atoms.size(); ++n)
+    if (selected[n] && (!first || in_file(n) < in_file(*first))) first = n;
+  std::vector<bool> place(atoms.size());
+  std::set<Residue> reached;
+  if (first) reached.insert(residue_of(*first));
+  while (!reached.empty()) {
+    std::vector<glm::dvec3> points;
+    for (std::size_t n = 0; n < atoms.size(); ++n) {
+      if (!selected[n] || place[n] || !reached.contains(residue_of(n))) continue;
+      place[n] = true;
+      points.push_back(atoms[n].position);
+    }
+    const PointTree tree(std::move(points));
+    reached.clear();
+    for (std::size_t n = 0; n < atoms.size(); ++n)
+      if (selected[n] && !place[n] && tree.any_within(atoms[n].position, kWidestGap)) reached.insert(residue_of(n));
+  }
+  return place;
 }
 
 }  // namespace meniscus

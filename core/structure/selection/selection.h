@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Selections: sets of atoms by expression, in the words that users of PyMOL, VMD, MDAnalysis and GROMACS know.
+// Selections: sets of atoms by expression, in the words that users of PyMOL, VMD, MDAnalysis and GROMACS know, and
+// places: groups of selected residues that are far apart.
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
 #include <string_view>
-#include <vector>
+
+#include "core/structure/structure.h"
 
 namespace meniscus {
 
@@ -90,5 +88,12 @@ struct SelectionAndText {
 /// Splits the text at the first "=" with a complete selection before it. "resid 17=K17=A" has the text "K17=A", and
 /// "bfactor>=50=red" has the text "red". Returns nothing if there is no such sign.
 std::optional<SelectionAndText> selection_and_text(std::string_view text);
+
+/// The widest gap between two residues of one place, Å. Pockets are about as wide.
+inline constexpr double kWidestGap = 10.0;
+
+/// Returns the selected atoms of the first residue in the order of the file, and of the residues that gaps of at most
+/// kWidestGap between selected atoms join to it.
+std::vector<bool> first_place(std::span<const Atom> atoms, const std::vector<bool>& selected);
 
 }  // namespace meniscus

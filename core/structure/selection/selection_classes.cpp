@@ -3,8 +3,6 @@
 #include "core/structure/selection/selection_steps.h"
 
 #include <algorithm>
-#include <string>
-#include <string_view>
 
 #include "core/structure/residue_names.h"
 #include "core/structure/secondary_structure.h"

@@ -6,11 +6,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <limits>
-#include <optional>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

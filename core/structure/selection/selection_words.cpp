@@ -3,14 +3,8 @@
 #include "core/structure/selection/selection_words.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstddef>
 #include <iterator>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "core/base/text.h"
 #include "core/structure/selection/selection_steps.h"

@@ -2,17 +2,9 @@
 // Finds the frames of a file one after another, and stores their offsets with a checksum.
 #include "core/trajectory/formats/frame_index.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <optional>
-#include <span>
-#include <string_view>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/output_file.h"

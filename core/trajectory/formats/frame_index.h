@@ -2,10 +2,7 @@
 // The offsets of all frames of a file, for formats without an index of their own. They may be stored in a folder.
 #pragma once
 
-#include <cstdint>
 #include <functional>
-#include <string>
-#include <vector>
 
 #include "core/base/binary_file.h"
 

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads trajectories and restart files of Amber in NetCDF. Their headers are parsed here, too.
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <map>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads DCD trajectories of CHARMM and NAMD, and NAMD's binary files of one frame of coordinates.
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/base/binary_file.h"
 #include "core/base/error.h"

@@ -5,12 +5,6 @@
 
 #include <hdf5.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
-#include <fmt/format.h>
-
 #include "core/base/constants.h"
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads text dumps of LAMMPS (dump atom, dump custom). Their atoms come in any order and are identified by their
 // numbers.
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <numeric>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "core/base/binary_file.h"
 #include "core/base/constants.h"

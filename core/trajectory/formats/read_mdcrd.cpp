@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads text files of Amber, in Å. Trajectories (mdcrd) have a title and then lines of ten numbers in eight columns
 // each. Coordinates of one frame (inpcrd, restart files) have lines of six numbers in twelve columns each.
-#include <algorithm>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "core/base/binary_file.h"
 #include "core/base/error.h"

@@ -2,19 +2,6 @@
 // Reads the models of a structure file (PDB, mmCIF, GRO, XYZ, ...) as frames of a trajectory. In plain text files it
 // finds the models without parsing atoms.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <glm/mat3x3.hpp>
-
 #include "core/base/binary_file.h"
 #include "core/base/constants.h"
 #include "core/base/error.h"

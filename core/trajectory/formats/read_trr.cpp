@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads TRR trajectories of GROMACS: big-endian positions in nanometres, in single or double precision.
-#include <algorithm>
-#include <array>
-#include <cmath>
-
-#include <fmt/format.h>
 
 #include "core/base/binary_file.h"
 #include "core/base/constants.h"

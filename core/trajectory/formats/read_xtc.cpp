@@ -1,14 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads XTC trajectories of GROMACS, whose coordinates are packed as small integers.
-#include "core/trajectory/formats/packed_coordinates.h"
-
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstring>
-
-#include <fmt/format.h>
 
 #include "core/base/binary_file.h"
 #include "core/base/constants.h"
@@ -20,6 +11,19 @@
 
 namespace meniscus {
 namespace {
+
+/// A compressed frame (GROMACS manual, file formats: xtc; after F. van Hoesel, 1994).
+struct PackedCoordinates {
+  float precision = 0.0F;                    ///< steps per nanometre
+  std::array<std::int32_t, 3> lowest = {};   ///< of all atoms, in steps
+  std::array<std::int32_t, 3> highest = {};  ///< of all atoms, in steps
+  std::int32_t small_class = 0;              ///< index into the format's table of sizes of small differences
+  /// Compressed positions; kPackedPadding readable bytes must follow, which do not belong to them.
+  std::span<const std::byte> bits = {};
+};
+
+/// Bytes that must be readable after the end of PackedCoordinates::bits.
+constexpr std::size_t kPackedPadding = 32;
 
 __extension__ using Wide = unsigned __int128;
 
@@ -167,8 +171,8 @@ std::string fault_of(const PackedCoordinates& packed) {
   return {};
 }
 
-}  // namespace
-
+/// Unpacks as many positions (Å) as the span has. Returns what is wrong with the frame, as the predicate of a sentence;
+/// empty if it is valid.
 std::string unpack(const PackedCoordinates& packed, std::span<glm::dvec3> positions) {
   if (std::string fault = fault_of(packed); !fault.empty()) return fault;
   StepReader steps(packed);
@@ -213,8 +217,6 @@ std::string unpack(const PackedCoordinates& packed, std::span<glm::dvec3> positi
     return fmt::format("is damaged: {} bytes are left after its last atom", steps.bits().bytes_left());
   return {};
 }
-
-namespace {
 
 constexpr std::int32_t kMagic = 1995, kMagicOfLargeSystems = 2023;
 constexpr std::size_t kHeader = 56;  // magic, atoms, step, time, nine numbers of the box, atoms again

@@ -2,19 +2,13 @@
 // Lists the trajectory formats, chooses one by content, and loads the module that reads H5MD.
 #include "core/trajectory/formats/trajectory_formats.h"
 
-#include <algorithm>
-#include <array>
-
-#include <fmt/format.h>
-
+#include "core/base/binary_file.h"
 #include "core/base/error.h"
-#include "core/base/gzip.h"
 #include "core/base/module_file.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/base/version.h"
 #include "core/structure/formats/structure_formats.h"
-#include "core/base/binary_file.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {
@@ -124,7 +118,7 @@ namespace {
 bool recognizes(std::string_view start) { return start.starts_with("\x89HDF\r\n\x1a\n"); }
 
 OpenH5md* load() {
-  constexpr ModuleFile kModule{MENISCUS_HDF5_MODULE_NAME, MENISCUS_HDF5_MODULE, "H5MD files", std::size_t{96} << 20};
+  constexpr ModuleFile kModule{"meniscus_hdf5.so", "H5MD files", std::size_t{96} << 20};
   using Give = OpenH5md*(const char* version, std::size_t frame_size);
   void* const give = load_from_module(kModule, "meniscus_open_h5md");
   if (OpenH5md* const open = reinterpret_cast<Give*>(give)(MENISCUS_VERSION, sizeof(Frame))) return open;

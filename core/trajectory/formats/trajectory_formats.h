@@ -2,11 +2,6 @@
 // The table of trajectory formats, and the function that the module for H5MD exports.
 #pragma once
 
-#include <memory>
-#include <span>
-#include <string>
-#include <string_view>
-
 #include "core/structure/formats/structure_formats.h"
 
 namespace meniscus {

@@ -76,6 +76,7 @@ RenderSettings settings_of(const Scene& scene) {
   RenderSettings settings;
   settings.size = scene.picture.size();
   settings.samples = scene.image.samples;
+  settings.adaptive = true;
   settings.look = look_of(scene.look, scene.picture.size(), scene.image.background, Hues::free);
   return settings;
 }

@@ -45,13 +45,11 @@ STUDIO = (
     ((-0.45, 0.65, 0.75), (0.74, 0.72, 0.68)),
     ((0.85, -0.05, 0.45), (0.15, 0.17, 0.20)),
     ((0.0, 1.0, 0.0), (0.05, 0.06, 0.07)),
-    ((0.0, 0.0, 1.0), (0.13, 0.13, 0.14)),
-)
+    ((0.0, 0.0, 1.0), (0.13, 0.13, 0.14)))
 #: The lights of the film style, which have soft shadows: direction, radiance, and angular diameter in degrees.
 FILM = (
     ((-0.55, 0.65, 0.75), (0.90, 0.87, 0.82), 12.0),
-    ((0.8, 0.1, 0.5), (0.13, 0.15, 0.18), 30.0),
-)
+    ((0.8, 0.1, 0.5), (0.13, 0.15, 0.18), 30.0))
 #: Looks that transmit light. Light has many paths there, so sampling is adaptive, and pictures are denoised.
 THROUGH = ("wax", "glass")
 NOISE = 0.02
@@ -188,10 +186,9 @@ def add_lights(scene, camera, style, look):
 
 def bright_field(tree, camera):
     """Returns the output with the colour of BRIGHT_FIELD in the direction of a ray."""
-    toward = tree.nodes.new("ShaderNodeVectorMath")
-    toward.operation = "DOT_PRODUCT"
-    tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"], toward.inputs[0])
-    toward.inputs[1].default_value = camera.matrix_world.col[2].xyz
+    generated = tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"]
+    toward = compat.add_node(tree, "ShaderNodeVectorMath", generated, camera.matrix_world.col[2].xyz,
+                             operation="DOT_PRODUCT")
     half = compat.math_node(tree, "MULTIPLY_ADD", toward.outputs["Value"], 0.5, 0.5)
     ramp = tree.nodes.new("ShaderNodeValToRGB")
     ramp.color_ramp.elements.remove(ramp.color_ramp.elements[-1])
@@ -216,8 +213,7 @@ def apply_style(style):
                                   specular.default_value)
         if style == "flat":
             colors = {
-                link.to_socket.name: link.from_socket for link in material.node_tree.links if link.to_node == shader
-            }
+                link.to_socket.name: link.from_socket for link in material.node_tree.links if link.to_node == shader}
             color = colors.get("Emission Color") or colors.get("Emission") or colors["Base Color"]
             for link in list(shader.inputs["Base Color"].links):
                 material.node_tree.links.remove(link)
@@ -380,8 +376,7 @@ class Stage:
         # The evaluated object of a bake has a mesh of its own or an instance.
         shown = [
             evaluated.data,
-            *(each.object.data for each in graph.object_instances if each.is_instance and each.parent == evaluated)
-        ]
+            *(each.object.data for each in graph.object_instances if each.is_instance and each.parent == evaluated)]
         return sum(len(mesh.polygons) for mesh in shown)
 
 
@@ -489,8 +484,7 @@ def copy_faults():
     output = os.pread(CHATTER.fileno(), 1 << 24, 0)
     faults = [
         line for line in output.decode("utf-8", "replace").splitlines(True)
-        if re.search(r"\b(error|warning|failed)\b", line, re.IGNORECASE)
-    ]
+        if re.search(r"\b(error|warning|failed)\b", line, re.IGNORECASE)]
     sys.stderr.write("".join(faults))
 
 

@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 
 import numpy as np
@@ -14,8 +15,9 @@ import numpy as np
 import samples
 
 PROGRAM, ADDON = sys.argv[1:3]
-sys.path.insert(0, os.path.join(ADDON, "meniscus_import"))
-import mns_reader  # noqa: E402
+package = sys.modules["meniscus_import"] = types.ModuleType("meniscus_import")  # without Blender
+package.__path__ = [os.path.join(ADDON, "meniscus_import")]
+from meniscus_import import mns_reader  # noqa: E402
 
 UBIQUITIN = samples.UBIQUITIN
 

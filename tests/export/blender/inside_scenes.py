@@ -14,7 +14,7 @@ import numpy as np
 sys.path.insert(0, sys.argv[sys.argv.index("--") + 3])
 from computed_case import FOLDER, PROGRAM, UBIQUITIN, ComputedCase, measures, of_file, update, wanted  # noqa: E402
 
-from meniscus_import import attributes, computed, scene_reader  # noqa: E402
+from meniscus_import import attributes, computed, scene_import  # noqa: E402
 from meniscus_import.computing import preparation_table, request  # noqa: E402
 
 SELECTION = "resi 1-12"
@@ -92,7 +92,7 @@ class Scenes(ComputedCase):
 
     def test_what_is_not_shown_is_named(self):
         path = self.scene(molecule={"select": SELECTION}, legend={"shown": True}, annotations={"labels": "resi 3=hello"}, look={"preset": "cover"})
-        self.assertEqual(scene_reader.read(path).unseen, ["legend.shown", "annotations.labels", "look.preset"])
+        self.assertEqual(scene_import.read(path).unseen, ["legend.shown", "annotations.labels", "look.preset"])
         path = self.scene(molecule={"select": SELECTION}, legend={"shown": True}, annotations={"labels": "resi 3=hello"}, camera={"view": "top"},
                           look={"preset": "cover", "shadows": 0.5})
         said = subprocess.run([PROGRAM, "export", "blender", "--scene", path, "-o", os.path.join(self.folder, "a.mns")], check=True,
@@ -115,9 +115,9 @@ class Scenes(ComputedCase):
                     continue
                 one = {name: values.get(key, "1")}
                 given = {"objects": [{"representation": "surface", **one}]} if section == "surface" else {section: one}
-                scene = scene_reader.read(self.scene(**given))
+                scene = scene_import.read(self.scene(**given))
                 shown = len(scene.fields) > 2 or scene.fields["is_run"]
-                self.assertEqual(shown + (key in scene.others) + (key in scene.unseen) + (key in scene_reader.IDLE), 1, key)
+                self.assertEqual(shown + (key in scene.others) + (key in scene.unseen) + (key in scene_import.IDLE), 1, key)
 
     def test_scenes_that_are_none_are_refused(self):
         path = self.scene()

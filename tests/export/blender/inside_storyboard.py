@@ -18,7 +18,7 @@ from mathutils import Vector
 FOLDER, _, HERE, _, PROGRAM = sys.argv[sys.argv.index("--") + 1:][:5]
 sys.path.insert(0, HERE)
 
-from meniscus_import import compat, fading, mesh_arrays, mns_reader, storyboard  # noqa: E402
+from meniscus_import import compat, materials, mesh_arrays, mns_reader, storyboard  # noqa: E402
 
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
 SIZE = (240, 180)
@@ -189,7 +189,7 @@ class Storyboard(unittest.TestCase):
                 self.assertAlmostEqual(cut.color[3], part, delta=1e-4)
             self.assertEqual({counted for (_, path, _), counted in self.counts(whole, cut).items() if path == "color"}, {3})
             for item in whole, cut:
-                self.assertTrue(any(node.type == "GROUP" and node.node_tree.name == fading.NAME for node in item.data.materials[0].node_tree.nodes))
+                self.assertTrue(any(node.type == "GROUP" and node.node_tree.name == materials.FADE for node in item.data.materials[0].node_tree.nodes))
 
     def test_the_background_is_that_of_the_film(self):
         """In linear light; a cut changes it at once, and without one pictures have none."""

@@ -7,15 +7,18 @@ import struct
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 
 PROGRAM, ADDON = sys.argv[1], sys.argv[2]
-sys.path[:0] = [os.path.join(ADDON, "meniscus_import"), os.path.dirname(os.path.abspath(__file__))]
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+package = sys.modules["meniscus_import"] = types.ModuleType("meniscus_import")  # without Blender
+package.__path__ = [os.path.join(ADDON, "meniscus_import")]
 
 import numpy as np  # noqa: E402
 
-import mns_reader  # noqa: E402
 import samples  # noqa: E402
+from meniscus_import import mns_reader  # noqa: E402
 
 
 class Reader(unittest.TestCase):

@@ -6,18 +6,18 @@ import os
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 
 PROGRAM, ADDON = sys.argv[1], sys.argv[2]
-sys.path[:0] = [os.path.join(ADDON, "meniscus_import"), os.path.dirname(os.path.abspath(__file__))]
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+package = sys.modules["meniscus_import"] = types.ModuleType("meniscus_import")  # without Blender
+package.__path__ = [os.path.join(ADDON, "meniscus_import")]
 
 import numpy as np  # noqa: E402
 
-import compat  # noqa: E402
-import header_values  # noqa: E402
-import mns_reader  # noqa: E402
 import samples  # noqa: E402
-import sequence_reader  # noqa: E402
+from meniscus_import import compat, mns_reader, sequence_reader  # noqa: E402
 
 
 class SequenceReader(unittest.TestCase):
@@ -54,7 +54,7 @@ class SequenceReader(unittest.TestCase):
             size = run.frames[0].camera["size"]
             run.set_camera(good)
             self.assertEqual([frame.camera for frame in run.frames], [{**good, "size": size}] * 3)
-            name = header_values.SIZES[projection]
+            name = mns_reader.SIZES[projection]
             missing = {key: value for key, value in good.items() if key != "up"}
             for wrong, said in ((missing, "up is missing"), ({**good, "projection": "fisheye"}, "projection"), ([1, 2], "projection"),
                                 ({**good, "size": [4, 3]}, "'size' is not a key"), ({**good, name: 0}, f"{name} is 0, not a number above 0"),

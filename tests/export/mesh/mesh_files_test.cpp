@@ -12,10 +12,10 @@
 
 #include "core/base/error.h"
 #include "core/mesh/even_mesh.h"
-#include "core/mesh/mesh_attributes.h"
+#include "core/mesh/mesh_colors.h"
 #include "core/mesh/tessellate.h"
 #include "core/queries/distance.h"
-#include "core/queries/surface_point.h"
+#include "core/queries/surface_parts.h"
 #include "core/structure/structure.h"
 #include "core/surface/compute_surface.h"
 #include "exporters/mesh_files/mesh_file_maker.h"

@@ -11,10 +11,9 @@
 
 #include "core/base/error.h"
 #include "core/surface/compute_surface.h"
-#include "exporters/povray/patch_objects.h"
 #include "exporters/povray/povray_scene.h"
-#include "exporters/povray/scene_colors.h"
 #include "exporters/povray/scene_text.h"
+#include "exporters/povray/surface_pieces.h"
 #include "tests/export/povray/patch_molecules.h"
 #include "tests/support/run_program.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/volume/read_volume.h"
+#include "core/volume/volume_grid.h"
 #include "tests/fuzz/target.h"
 
 namespace meniscus::fuzz {

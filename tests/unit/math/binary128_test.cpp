@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Quadruple precision in integers has the bits of the compiler's own.
-#include "core/math/binary128.h"
+#include "core/math/quad_geometry.h"
 
 #include <bit>
 #include <cmath>

@@ -12,10 +12,10 @@
 #include "core/mesh/section_mesh.h"
 #include "core/mesh/tessellate.h"
 #include "core/queries/copies.h"
-#include "core/queries/surface_point.h"
+#include "core/queries/surface_object.h"
+#include "core/queries/surface_parts.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
-#include "core/queries/surface_object.h"
 
 namespace meniscus::testing {
 namespace {

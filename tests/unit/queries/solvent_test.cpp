@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points in the solvent against the oracle that knows only the balls.
-#include "core/queries/surface_point.h"
+#include "core/queries/surface_parts.h"
 
 #include <cmath>
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a surface takes of a file with a polymer, and which of the other molecules pictures draw.
-#include "core/structure/outside_polymer.h"
+#include "core/structure/residues.h"
 
 #include <algorithm>
 #include <string>

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/volume/read_volume.h"
+#include "core/volume/volume_grid.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus {

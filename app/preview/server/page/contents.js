@@ -13,14 +13,17 @@ export function contents_controls({ command, ask }, selection) {
     eye.setAttribute("aria-pressed", String(entry.shown > 0));
     eye.setAttribute("aria-label", `Show ${entry.name}`);
     eye.addEventListener("click", () => command(entry.shown > 0 ? "take_away" : "bring_back", { selection: entry.selection }));
-    const size = entry.kind === "water" ? `${entry.residues.toLocaleString("en")} molecules`
+    const [, residue, chain, number] = entry.residues === 1 && entry.name.match(/^(\S+) (\S+) (-?\d\S*)$/) || [];
+    const size = residue ? `${entry.kind} in ${chain}` : entry.kind === "water" ? `${entry.residues.toLocaleString("en")} molecules`
       : `${entry.kind}, ${(entry.residues > 1 ? entry.residues : entry.atoms).toLocaleString("en")} ${entry.residues > 1 ? "residues" : "atoms"}`;
-    const name = element("button", { type: "button", className: "recall", title: entry.selection }, entry.name,
+    const name = element("button", { type: "button", className: "recall", title: entry.selection }, residue ? `${residue} ${number}` : entry.name,
       element("small", { textContent: size }));
     name.addEventListener("click", (event) => selection.choose({ ...entry, molecule: entry.selection }, event.shiftKey));
+    // What is not on the surface has the colours of its elements.
+    if (entry.shown === 0 || (!entry.color && entry.selection.endsWith("polymer"))) return element("li", {}, eye, name);
     const colour = element("input", { type: "color", value: entry.color ?? "#45a878" });
     colour.setAttribute("aria-label", `Colour of ${entry.name}`);
-    colour.addEventListener("change", () => command("paint", { selection: entry.selection, color: colour.value }));
+    colour.addEventListener("change", () => command("add", { key: "surface.color", value: `${entry.selection}=${colour.value}` }));
     return element("li", {}, eye, name, colour);
   };
 
@@ -98,7 +101,7 @@ export function contents_controls({ command, ask }, selection) {
   });
 
   return (state) => {
-    const shape = JSON.stringify([state.show, state.representations, state.objects, state.values["shapes.bare"], state.surface_hidden, state.color]);
+    const shape = JSON.stringify(Object.entries(state.values).filter(([key]) => /^(figure|shapes\.bare|surface\.(show|color|map|missing))/.test(key)));
     if (shape === known) return;
     known = shape;
     read();

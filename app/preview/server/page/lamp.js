@@ -10,9 +10,9 @@ export function place_lamp(disc, [x, y, z]) {
   disc.setAttribute("aria-valuetext", `${Math.round(100 * x / length)} right, ${Math.round(100 * y / length)} up`);
 }
 
-/// From a place on the disc, within the unit circle.
-function direction(x, y) {
-  const round = (value) => Math.round(value * 1000) / 1000;
+/// Returns the direction of a place on the disc, or of the nearest one within the unit circle.
+function direction(right, up) {
+  const round = (value) => Math.round(value * 1000) / 1000, [x, y] = [right, up].map((value) => value / Math.max(1, Math.hypot(right, up) / 0.98));
   return [round(x), round(y), round(Math.sqrt(1 - x * x - y * y))];
 }
 
@@ -20,11 +20,7 @@ function direction(x, y) {
 export function follow_lamp(disc, tell) {
   const follow = (event) => {
     const box = disc.getBoundingClientRect();
-    let x = (event.clientX - box.left - box.width / 2) / (0.44 * box.width);
-    let y = (box.top + box.height / 2 - event.clientY) / (0.44 * box.height);
-    const across = Math.hypot(x, y);
-    if (across > 0.98) [x, y] = [0.98 * x / across, 0.98 * y / across];
-    tell(direction(x, y));
+    tell(direction((event.clientX - box.left - box.width / 2) / (0.44 * box.width), (box.top + box.height / 2 - event.clientY) / (0.44 * box.height)));
   };
   disc.addEventListener("keydown", (event) => {
     const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
@@ -32,10 +28,7 @@ export function follow_lamp(disc, tell) {
     event.preventDefault();
     event.stopPropagation();
     const dot = disc.firstElementChild;
-    let [x, y] = [(parseFloat(dot.style.left) - 50) / 44 + 0.1 * step[0], (50 - parseFloat(dot.style.top)) / 44 + 0.1 * step[1]];
-    const across = Math.hypot(x, y);
-    if (across > 0.98) [x, y] = [0.98 * x / across, 0.98 * y / across];
-    tell(direction(x, y));
+    tell(direction((parseFloat(dot.style.left) - 50) / 44 + 0.1 * step[0], (50 - parseFloat(dot.style.top)) / 44 + 0.1 * step[1]));
   });
   disc.addEventListener("pointerdown", (event) => { disc.setPointerCapture(event.pointerId); follow(event); });
   disc.addEventListener("pointermove", (event) => { if (disc.hasPointerCapture(event.pointerId)) follow(event); });

@@ -3,10 +3,11 @@
 import { is_worth_timing, time_casting, webgl_device, who_draws } from "./casting.js";
 import { answers, Connection } from "./connection.js";
 import { contents_controls } from "./contents.js";
-import { figure_controls } from "./figure.js";
+import { figure_controls, rows_of } from "./figure.js";
+import { key_help, program_keys } from "./keys.js";
 import { follow_lamp, place_lamp } from "./lamp.js";
 import { Pictures } from "./pictures.js";
-import { property_controls } from "./properties.js";
+import { hex_of, property_controls } from "./properties.js";
 import { select_controls } from "./select.js";
 import { strip_controls } from "./strip.js";
 import { write_controls } from "./write.js";
@@ -25,7 +26,7 @@ let shown = null;      // the message of the picture in the canvas
 let full_picture = null;  // its PNG, if it is full
 let outstanding = 0;   // commands without a reply
 let newest = 0;        // the revision of the latest reply
-let actions = null;    // of keys which are the page's, by their names
+let schemes = [];      // words of the colour schemes there are
 
 const server = new Connection({
   picture: (message, bytes) => show_program_picture(message, bytes).finally(want),
@@ -61,7 +62,7 @@ function place_sections() {
 
 const kStep = 700;  // ms without a command, after which the next is a step of its own for undo
 const tells_only = new Set(["pick", "export", "export_state", "cancel_export", "save", "render_command", "end_step", "undo", "redo"]);
-const changes_state = new Set(["key", "save_view", "forget_view", "keep_scene", "forget_scene", "time_scene", "play", "pause", "save"]);
+const changes_state = new Set(["key", "keep_scene", "forget_scene", "time_scene", "play", "pause", "save"]);
 let last_change = 0;
 
 /// What an error says, without the words of its command and its property, which are a program's and no reader's.
@@ -198,7 +199,7 @@ function tell(text, is_error = false, for_good = false) {
 /// What was wrong with an earlier command, once another one has worked.
 function forget_errors() {
   if ($("message").classList.contains("error") && !stays) $("message").hidden = true;
-  figure.forget_fault();
+  selection.forget_fault();
 }
 
 /// A fresh page, once the server answers again.
@@ -264,7 +265,7 @@ function settle() {
   const casts = Boolean(device && figures > 0 && !unavailable && is_faster("draft"));
   if (casts !== viewer.casts || !viewer.caster) viewer.show_pictures(casts ? null : pictures);
   if (!casts) $("legend").textContent = "";  // it is of the figure that was cast
-  viewer.rests_here = casts && !state.legend.on && is_faster("rest");
+  viewer.rests_here = casts && !state.values["legend.shown"] && is_faster("rest");
   $("drawn-by").textContent = who_draws({ device, unavailable, times, casts, rests: viewer.rests_here });
   note_rest();
   want();
@@ -275,7 +276,7 @@ async function show_program_figure(message, bytes) {
   unavailable = message.unavailable ?? "";
   if (message.revision >= due) due = 0;
   if (!unavailable) {
-    const figure = read_figure_bytes(new Uint8Array(bytes), kept), cuts = message.state.cuts.map((plane) => plane.match(/^depth>(.*)/)?.[1]);
+    const figure = read_figure_bytes(new Uint8Array(bytes), kept), cuts = message.state.values["surface.clip"].map((plane) => plane.match(/^depth>(.*)/)?.[1]);
     const depths = cuts.length === figure.views[0].planes.length && cuts.some(Boolean) ? cuts.map((text) => text && Number(text)) : undefined;
     const is_told = JSON.stringify(file_camera()) === told_text;
     viewer.show_figure({ ...figure, number: ++figures, depths });
@@ -332,10 +333,6 @@ function show_stats(stats, full) {
     ["encoding", ms(stats.encode_milliseconds)]]));
 }
 
-/// Terms and texts of a list.
-const rows_of = (rows) => rows.flatMap((row) => row.map((text, n) =>
-  Object.assign(document.createElement(n === 0 ? "dt" : "dd"), { textContent: text })));
-
 /// The server draws as many pixels as the canvas has on this screen.
 function fit() {
   if (!controls) return;
@@ -350,12 +347,20 @@ new ResizeObserver(fit).observe(stage);
 // State
 
 const context = { command, set, ask, say: (text, is_error) => tell(text, is_error), viewer: () => viewer };
-const figure = figure_controls(context);
+const show_figure = figure_controls(context);
 const properties = property_controls(context);
 const show_strip = strip_controls(context);
 const selection = select_controls(context);
 const show_contents = contents_controls(context, selection);
+const press = program_keys({ command, set, state: () => state, schemes: () => schemes, name: go_to_name });
 const writing = write_controls({ ...context, picture: () => has_picture() ? full_picture : null, changed: ask_state });
+
+/// At once: what is typed behind the key that opens a field is for the field, however late the session replies.
+function go_to_name() {
+  document.body.classList.remove("bare");
+  $("export-name").focus();
+  $("export-name").select();
+}
 
 /// Unless somebody is at it: what is typed, or dragged ahead of the pictures, stays.
 function set_value(control, value) {
@@ -379,13 +384,7 @@ function begin(first) {
   viewer.picked = selection.click;
   told_text = JSON.stringify(file_camera());
   follow_pointer(viewer);
-  follow_keys(viewer, (key) => {
-    if (!controls || !actions || (key.length > 1 && !key.startsWith("Arrow"))) return false;
-    // At once: what is typed behind the key that opens a field is for the field, however late the session replies.
-    if (actions[key.toLowerCase()] === "export") { document.body.classList.remove("bare"); $("export-name").focus(); $("export-name").select(); }
-    else command("press", { key });
-    return true;
-  });
+  follow_keys(viewer, (key) => controls && press(key));
 }
 
 function apply_state(next) {
@@ -399,27 +398,25 @@ function apply_state(next) {
   document.title = `${name} · Meniscus`;
   document.querySelector("h1").textContent = name;
   $("file").textContent = `${next.atoms.toLocaleString("en")} atoms`;
-  $("probe").disabled = $("probe-number").disabled = next.surface === "vdw";
-  set_value($("probe"), next.probe_radius);
-  set_value($("probe-number"), Number(next.probe_radius.toFixed(3)));
-  set_value($("scheme"), next.color.scheme);
-  set_value($("map"), next.color.map ?? "");
-  $("map-row").hidden = $("range-row").hidden = !numbered.has(next.color.scheme);
-  set_value($("range"), next.color.range ?? "");
-  if ($("map").options[0]) $("map").options[0].text = next.color.own_map ? "the file's" : "its own";
+  const { values } = next, [scheme] = values["surface.color"], background = hex_of(values["image.background"]) ?? "#ffffff";
+  $("probe").disabled = $("probe-number").disabled = values["surface.kind"] === "vdw";
+  set_value($("probe"), values["surface.probe"]);
+  set_value($("probe-number"), Number(values["surface.probe"].toFixed(3)));
+  show_scheme(scheme);
+  set_value($("map"), values["surface.map"] ?? "");
+  $("map-row").hidden = $("range-row").hidden = !numbered.has(scheme);
+  set_value($("range"), values["surface.color_range"] === "auto" ? "" : values["surface.color_range"]);
+  if ($("map").options[0]) $("map").options[0].text = next.own_map ? "the file's" : "its own";
   properties.show(next.values);
-  figure.show(next);
+  show_figure(next);
   show_strip(next);
   selection.show(next);
   show_contents(next);
   writing.show(next);
-  $("kinds").checked = next.patch_kinds;
-  $("kinds-key").hidden = !(next.patch_kinds || next.color.scheme === "kind");
-  set_value($("background"), next.look.background);
-  stage.style.background = next.look.background;
-  $("shade").checked = next.look.ambient_occlusion > 0;
-  $("lines").checked = next.look.silhouettes > 0;
-  place_lamp($("lamp"), next.look.light_direction);
+  $("scale-bar").checked = values["annotations.scale_bar"] !== null;
+  set_value($("background"), background);
+  stage.style.background = background;
+  place_lamp($("lamp"), values["look.light"].split(",").map(Number));
   $("frames").hidden = next.frames < 2;
   $("frame").max = next.frames - 1;
   set_value($("frame"), next.frame);
@@ -430,9 +427,19 @@ function apply_state(next) {
   $("follow").checked = next.follow_keys;
 }
 
+const kOneColor = "one colour";
+
+/// Shows by what the surface is coloured.
+function show_scheme(scheme) {
+  const is_one = scheme.startsWith("#");
+  if (is_one) $("one-color").value = scheme;
+  $("one-color-row").hidden = !is_one;
+  set_value($("scheme"), is_one ? kOneColor : scheme);
+}
+
 function fill_choices(choices) {
   if (!choices.ok) return;
-  actions = choices.actions;
+  schemes = choices.schemes.map(({ word }) => word);
   for (const { word, has_map, description, lacks } of choices.schemes) {
     const option = new Option(lacks ? `${word}: the file ${lacks}` : word, word);
     option.title = description;
@@ -440,12 +447,11 @@ function fill_choices(choices) {
     $("scheme").add(option);
     if (has_map) numbered.add(word);
   }
+  $("scheme").add(new Option(kOneColor));
   $("map").add(new Option("its own", ""));
   for (const map of choices.maps) $("map").add(new Option(map, map));
   properties.fill(choices.properties);
-  $("shapes").prepend(...choices.representations.map((as) =>
-    Object.assign(document.createElement("button"), { name: "do", value: as, textContent: as[0].toUpperCase() + as.slice(1) })));
-  $("keys").append(...rows_of(choices.keys.map(({ keys, what }) => [keys, what])));
+  $("keys").append(...rows_of(key_help));
   if (state) apply_state(state);
 }
 
@@ -455,25 +461,16 @@ const set_probe = (radius) => { if (Number.isFinite(radius)) set("surface.probe"
 $("probe").addEventListener("input", (event) => set_probe(event.target.valueAsNumber));
 $("probe-number").addEventListener("change", (event) => set_probe(event.target.valueAsNumber));
 
-$("scheme").addEventListener("change", () =>
-  set("surface.color", [$("scheme").value, ...state.values["surface.color"].filter((entry) => entry.includes("="))]));
+const set_scheme = (scheme) => set("surface.color", [scheme, ...state.values["surface.color"].filter((entry) => entry.includes("="))]);
+$("scheme").addEventListener("change", () => set_scheme($("scheme").value === kOneColor ? $("one-color").value : $("scheme").value));
+$("one-color").addEventListener("input", () => set_scheme($("one-color").value));
 $("range").addEventListener("change", () => set("surface.color_range", $("range").value.trim() || null));
 $("map").addEventListener("change", () => set("surface.map", $("map").value || null));
-let beneath_kinds = "auto";  // the colours before kinds of patch were shown
-$("kinds").addEventListener("change", (event) => {
-  if (event.target.checked) beneath_kinds = state.values["surface.color"];
-  set("surface.color", event.target.checked ? "kind" : beneath_kinds);
-});
 $("projection").addEventListener("change", (event) => set_projection(viewer, event.target.value === "orthographic"));
 $("background").addEventListener("input", (event) => set("image.background", event.target.value));
-for (const [id, key] of [["shade", "a"], ["lines", "l"]]) $(id).addEventListener("change", () => command("press", { key }));
+$("scale-bar").addEventListener("change", (event) => set("annotations.scale_bar", event.target.checked ? "auto" : null));
 follow_lamp($("lamp"), (direction) => { if (controls) set("look.light", direction.join()); });
 $("reset").addEventListener("click", () => command("reset_view"));
-$("zoom-form").addEventListener("submit", async (event) => {
-  event.preventDefault();
-  const reply = await command("zoom_to", { selection: $("selection").value });
-  if (reply) tell(`${reply.atoms.toLocaleString("en")} atoms`);
-});
 $("frame").addEventListener("input", (event) => command("frame", { index: event.target.valueAsNumber }));
 const is_key = ({ keys, frame_number }) => keys.some((key) => key.frame === frame_number);
 const toggle_playing = () => state?.playing ? command("pause") : command("play", { fps: $("rate").valueAsNumber || 10 });

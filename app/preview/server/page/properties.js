@@ -2,8 +2,9 @@
 // Controls made from the table of properties, with its words, limits and help.
 
 const $ = (id) => document.getElementById(id);
+const kSuchAs = { "image.width": "such as 85mm", "image.dpi": "300" };
 const kWords = { ses: "solvent-excluded", sas: "solvent-accessible", vdw: "van der Waals" };
-const hex_of = (color) => ({ black: "#000000", white: "#ffffff" })[color] ?? (/^#/.test(color) ? color : null);
+export const hex_of = (color) => ({ black: "#000000", white: "#ffffff" })[color] ?? (/^#/.test(color) ? color : null);
 
 /// Returns the control of a property, without its words.
 function control_of({ type, words, lowest, highest, step, slider_end }) {
@@ -29,6 +30,7 @@ export function property_controls({ command }) {
   function row(property) {
     const { key, label, unit, help, type } = property, control = control_of(property), line = document.createElement("label");
     control.id = key.replace(".", "-");
+    if (kSuchAs[key]) control.placeholder = kSuchAs[key];
     line.title = help;
     const words = `${label}${unit ? `, ${unit}` : ""} `;
     line.append(...(type === "flag" ? [control, ` ${words}`] : [words, control]));

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is selected: atoms, residues and chains that were clicked on the stage, in the list or in the sequence, and a
 // card with what can be done with them.
-import { element } from "./figure.js";
+import { element, kShapes, rows_of, shape_words } from "./figure.js";
 
 const $ = (id) => document.getElementById(id);
 const kSeries = 400;                             // ms between the clicks of a double or triple click
 const kNear = 6;                                 // CSS pixels between them
+const kAround = 5;                               // Å
 const kLevels = ["atom", "residue", "molecule"];  // selected by one, two and three clicks
+
+/// Returns the rule of a label, which names a residue or an atom as "ASP 25" or "ASP 25 CA".
+function label_of({ selection, name }) {
+  const [, number, residue, atom] = selection.match(/ resid (\S+) and resname (\S+)(?: and name (\S+))?$/) ?? [];
+  return `${selection}=${residue ? [residue, number, atom].filter(Boolean).join(" ") : name}`;
+}
 
 /// Returns where a camera of a state shows points, in pixels of a picture of this size; null for points behind it.
 function projected(points, { position, target, up, projection, vertical_fov, height }, [width, rows]) {
@@ -19,12 +26,13 @@ function projected(points, { position, target, up, projection, vertical_fov, hei
   });
 }
 
-/// Returns the selection: {click(found, event), choose(entry, adds), has(text), listen(listener), show(state)}.
+/// Returns the selection: {click(found, event), choose(entry, adds), forget_fault(), has(text), listen(listener), show(state)}.
 /// An entry is {selection, name, residue, molecule}: its expression, its name for people, and the expressions of the
 /// residue and the chain that it is part of. `viewer` returns what draws the stage.
-export function select_controls({ command, ask, say, viewer }) {
+export function select_controls({ command, set, ask, say, viewer }) {
   const card = $("card"), listeners = [];
-  let entries = [], series = { at: -1e9 }, state = null, located = null, key = "", latest = 0, offered = "";
+  let entries = [], series = { at: -1e9 }, state = null, located = null, key = "", latest = 0, offered = "", labels = [], placed = 0;
+  let size = null, written = null;  // of the molecule's part of the picture; the labels that the viewer has
 
   const text = () => entries.length === 1 ? entries[0].selection
     : entries.map(({ selection }) => `(${selection})`).join(" or ");
@@ -76,25 +84,29 @@ export function select_controls({ command, ask, say, viewer }) {
     if (["convex", "toroidal", "concave"].includes(kind)) rows.push(["what", `${kind} patch`]);
     if (area_follows || exposed_area !== null) rows.push(["exposed", area_follows ? "…" : `${exposed_area.toFixed(3)} Å²`]);
     rows.push(["position", position.map((x) => x.toFixed(2)).join(", ")]);
-    card.querySelector("dl").replaceChildren(...rows.flatMap(([term, value]) =>
-      [element("dt", { textContent: term }), element("dd", { textContent: value })]));
+    card.querySelector("dl").replaceChildren(...rows_of(rows));
   }
 
   // The card
 
   const colour = element("input", { type: "color", value: "#e69f00" });
   colour.setAttribute("aria-label", "Colour of what is selected");
-  colour.addEventListener("change", () => command("paint", { selection: text(), color: colour.value }));
+  colour.addEventListener("change", () => command("add", { key: "surface.color", value: `${text()}=${colour.value}` }));
+  const add = (key, value) => command("add", { key, value });
   const actions = {
     "Look into": () => command("look_into", { selection: text() }),
     "Zoom to": () => command("zoom_to", { selection: text() }),
-    "Sticks": () => command("represent", { as: "sticks", selection: text() }),
-    "Balls": () => command("represent", { as: "balls", selection: text() }),
-    "Surface of": () => command("object", { object: { selection: text(), color: colour.value } }),
-    "See through": () => command("opacity", { selection: text(), opacity: 0.4 }),
-    "Cut before": () => command("cut", { plane: `before ${text()}` }),
+    ...Object.fromEntries(kShapes.map((as) => [shape_words(as, true), () => add(`figure.${as}`, text())])),
+    "Surface of": () => add("figure.object", { representation: "surface", selection: text() }),
+    "See through": () => add("surface.opacity", `${text()}=0.4`),
+    "Cut before": () => add("surface.clip", `before ${text()}`),
     "Hide": () => command("take_away", { selection: text() }),
-    "Distance": measure,
+    "Show only": () => set("surface.show", text()),
+    "Outline": () => set("surface.patches", text()),
+    "Label": () => set("annotations.labels", [...state.values["annotations.labels"], ...entries.map(label_of)]),
+    "Around": () => become([{ selection: `within ${kAround} of (${text()}) and not (${text()})`,
+      name: `${kAround} Å around ${entries.map(({ name }) => name).join("; ")}` }]),
+    "Distance": () => add("figure.object", { representation: "distance", selection: entries.slice(-2).map(({ selection }) => selection).join(" to ") }),
   };
   const buttons = Object.entries(actions).map(([textContent, act]) => {
     const button = element("button", { type: "button", textContent });
@@ -103,6 +115,19 @@ export function select_controls({ command, ask, say, viewer }) {
   });
   card.querySelector(".buttons").append(...buttons, element("label", { textContent: "Colour " }, colour));
   card.querySelector(".plain").addEventListener("click", () => become([]));
+
+  const fault = (words) => {
+    $("atoms-fault").textContent = words;
+    $("atoms-fault").hidden = !words;
+    $("atoms").setAttribute("aria-invalid", String(Boolean(words)));
+  };
+  $("figure-form").addEventListener("submit", async (event) => {
+    event.preventDefault();
+    const selection = $("atoms").value.trim(), found = await command("locate", { selection }, fault);
+    if (!found) return;
+    become([{ selection, name: selection }]);
+    say(`${found.atoms.toLocaleString("en")} atoms`);
+  });
 
   document.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && entries.length > 0) become([]);
@@ -121,15 +146,34 @@ export function select_controls({ command, ask, say, viewer }) {
     card.style.top = `${Math.max(8, Math.min(y + 16, clientHeight - card.offsetHeight - 8))}px`;
   }
 
-  /// Draws a dashed line between the last two entries, and says how long it is.
-  async function measure() {
-    const [from, to] = entries.slice(-2);
-    const drawn = await command("object", { object: { representation: "distance", selection: `${from.selection} to ${to.selection}` } });
-    if (!drawn) return;
-    const sides = await Promise.all([from, to].map(({ selection }) => ask({ command: "locate", selection })));
-    const [near, far] = sides.map(({ points }) => points);
-    const lengths = near.flatMap((a) => far.map((b) => Math.hypot(...minus(a, b))));
-    if (lengths.length > 0) say(`${Math.min(...lengths).toFixed(2)} Å from ${from.name} to ${to.name}`);
+  async function points_of(selection) {
+    const { atoms, points = [], picture = size } = await ask({ command: "locate", selection });
+    size = picture;
+    return { points, are_all: points.length === atoms };
+  }
+
+  /// Returns the shortest distance of two sets of atoms, in words, and its middle; null if not all atoms are told.
+  async function nearest(...sides) {
+    const [near, far] = await Promise.all(sides.map(points_of));
+    const pairs = near.are_all && far.are_all ? near.points.flatMap((a) => far.points.map((b) => [length(minus(a, b)), times(plus(a, b), 0.5)])) : [];
+    const [reach, point] = pairs.reduce((best, pair) => pair[0] < best[0] ? pair : best, [Infinity]);
+    return point && { text: `${reach.toFixed(2)} Å`, point };
+  }
+
+  /// Finds where the labels of atoms and the lengths of dashed lines belong, which pictures of the stage do not have.
+  async function place_labels({ values }) {
+    const number = ++placed;
+    const found = await Promise.all([
+      ...values["annotations.labels"].map(async (label) => {
+        const [, selection, words] = label.match(/^(.*)=(.*)$/s), { points } = await points_of(selection);
+        return points.length > 0 && { text: words, point: times(points.reduce(plus), 1 / points.length) };
+      }),
+      ...values["figure.object"].filter(({ representation }) => values["annotations.lengths"] && representation === "distance")
+        .map(({ selection }) => nearest(...selection.split(" to "))),
+    ]);
+    if (number !== placed) return;
+    [labels, written] = [found.filter(Boolean), null];
+    draw();
   }
 
   // On the stage
@@ -138,31 +182,41 @@ export function select_controls({ command, ask, say, viewer }) {
     const number = latest;
     const found = entries.length > 0 ? await ask({ command: "locate", selection: text() }) : { ok: true, points: [], places: [] };
     if (number !== latest || !found.ok) return;
-    located = found;
+    [located, size] = [found, found.picture ?? size];
     viewer().select(found.places.flatMap(([first, count]) => Array.from({ length: count }, (_, n) => first + n)));
     draw();
   }
 
-  /// Rings around the atoms, which are seen with pictures of the program only.
+  function drawn(tag, attributes, textContent = "") {
+    const made = Object.assign(document.createElementNS("http://www.w3.org/2000/svg", tag), { textContent });
+    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, typeof value === "number" ? value.toFixed(1) : value);
+    return made;
+  }
+
+  /// Rings around the atoms, and labels: on pictures of the program here, else by what casts.
   function draw() {
-    const { width = 1, height = 1 } = state ?? {}, svg = $("rings");
+    const { width = 1, height = 1, camera } = state ?? {}, svg = $("rings"), { figure } = viewer();
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    const places = state && located ? projected(located.points, state.camera, located.picture ?? [width, height]) : [];
-    svg.replaceChildren(...places.filter(Boolean).map(([x, y]) => {
-      const ring = document.createElementNS("http://www.w3.org/2000/svg", "circle");
-      for (const [name, value] of [["cx", x.toFixed(1)], ["cy", y.toFixed(1)], ["r", located.points.length > 60 ? 3 : 6]]) ring.setAttribute(name, value);
-      return ring;
-    }));
+    const place = (points) => state ? projected(points, camera, size ?? [width, height]) : [];
+    const rings = place(located?.points ?? []).filter(Boolean).map(([cx, cy]) => drawn("circle", { cx, cy, r: located.points.length > 60 ? 3 : 6 }));
+    const texts = place(labels.map(({ point }) => point)).map((at, n) => at && drawn("text", { x: at[0], y: at[1] }, labels[n].text));
+    svg.replaceChildren(...rings, ...texts.filter(Boolean));
+    if (figure.labels === written) return;
+    written = figure.labels = labels.map(({ text: words, point }) => ({ text: words, point: minus(point, figure.origin) }));
+    viewer().write_labels();
+    if (viewer().casts) viewer().change();
   }
 
   /// Shows the selection in a state's picture; atoms may have other places in it than before.
   function show(next) {
     state = next;
-    const places = JSON.stringify([next.frame, next.width, next.height, next.legend, next.representations, next.objects]);
+    const places = JSON.stringify([next.frame, next.width, next.height, next.legend_fault,
+      Object.entries(next.values).filter(([name]) => /^(figure|legend|annotations\.l)/.test(name))]);
     if (places !== key && entries.length > 0) locate();
+    if (places !== key) place_labels(next);
     key = places;
     draw();
   }
 
-  return { click, choose, has, listen: (listener) => listeners.push(listener), show };
+  return { click, choose, forget_fault: () => fault(""), has, listen: (listener) => listeners.push(listener), show };
 }

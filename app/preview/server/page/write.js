@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writing: pictures, films, scenes and files into the program's folder, from which this browser can download them.
 import { element } from "./figure.js";
+import { hex_of } from "./properties.js";
 
 const $ = (id) => document.getElementById(id);
-const kEndings = { png: ".png", film: ".mp4", povray: "", blender: ".mns", scene: ".json", story: ".json" };
+const kEndings = { film: ".mp4", povray: "", blender: ".mns", scene: ".json", story: ".json", camera_path: ".json" };
 const kFilms = { strip: "Strip", turntable: "Turntable", frames: "All frames" };
 
 /// picture(): the PNG on the stage, if it is there in full; changed(): is called after something was written. Returns
@@ -15,14 +16,9 @@ export function write_controls({ command, ask, say, picture, changed }) {
 
   /// Returns what is asked of an exported picture.
   const wishes = () => {
-    const wish = { samples: $("export-samples").valueAsNumber || state.samples };
-    wish.transparent = $("export-transparent").checked;
-    const [width, height] = [$("width").valueAsNumber, $("height").valueAsNumber];
-    if (width) wish.width = width;
-    if (height) wish.height = height;
-    if (width && !height) wish.height = Math.max(16, Math.round(width * state.height / state.width));
-    if (height && !width) wish.width = Math.max(16, Math.round(height * state.width / state.height));
-    return wish;
+    const [width, height, samples] = ["width", "height", "export-samples"].map((id) => $(id).valueAsNumber), ratio = state.width / state.height;
+    const sides = { width: width || Math.max(16, Math.round(height * ratio)), height: height || Math.max(16, Math.round(width / ratio)) };
+    return { samples: samples || state.values["image.samples"], transparent: $("export-transparent").checked, ...((width || height) && sides) };
   };
 
   /// Lists the films that can be made, with what each of them gives.
@@ -41,7 +37,7 @@ export function write_controls({ command, ask, say, picture, changed }) {
 
   /// Lists what was written: a link to each file, and the place of all.
   const list_written = (written = []) => $("written").replaceChildren(...written.map(({ name, path, folder }) => element("li", {},
-    folder ? name : element("a", { href: `files/${name}`, download: name, textContent: name }), element("span", { textContent: path }))));
+    folder ? element("span", { textContent: name, title: path }) : element("a", { href: `files/${name}`, download: name, textContent: name, title: path }))));
 
   /// Asks how far the export is, and lists what was written.
   const ask_written = async () => {
@@ -52,33 +48,27 @@ export function write_controls({ command, ask, say, picture, changed }) {
 
   $("write").addEventListener("submit", async (event) => {
     event.preventDefault();
-    const format = event.submitter?.value ?? "png", path = $("export-name").value + kEndings[format];
+    const format = event.submitter?.value ?? "png", path = $("export-name").value + (kEndings[format] ?? $("ending").value);
     const values = { path, force: $("export-force").checked, ...wishes() };
-    if (format === "scene" || format === "story") {
-      const reply = await command("save", { ...values, strip: format === "story" });
-      if (!reply) return;
-      changed();
-      await ask_written();
-      return say(`Written: ${reply.path}`);
-    }
     // What is shown is at hand: the browser has it, too.
-    const at_hand = format === "png" && !$("width").value && !$("height").value && !$("export-samples").value && !values.transparent ? picture() : null;
+    const at_hand = path.endsWith(".png") && !$("width").value && !$("height").value && !$("export-samples").value && !values.transparent ? picture() : null;
     const more = format === "film" ? { of: $("film-of").value } : { archive: format === "povray" };
-    if (!await command("export", { format, wait: false, ...values, ...more })) return;
+    const reply = await (format === "scene" || format === "story" ? command("save", { ...values, strip: format === "story" })
+      : command("export", { format, wait: false, ...values, ...more }));
+    if (!reply) return;
     if (at_hand) download(at_hand, path);
-    follow();
+    if (reply.running) return follow();
+    changed();
+    await ask_written();
+    say(`Written: ${reply.path}`);
   });
+  $("ending").addEventListener("change", () => { $("save").textContent = `Save ${$("ending").selectedOptions[0].text}`; });
   $("open-scene").addEventListener("click", async () => {
     const name = $("export-name").value;
     const reply = await command("open", { path: /\.(json|png|tiff?|jpe?g|html)$/.test(name) ? name : `${name}.json` });
     if (reply) say(`Opened: ${reply.path}`);
   });
   $("job-cancel").addEventListener("click", () => command("cancel_export"));
-
-  const stem = () => state.file.split("/").pop().replace(/\.[^.]*$/, "").replace(/[^A-Za-z0-9_-]+/g, "_") || "view";
-  const download_json = (value, name) => download(new Blob([JSON.stringify(value, null, 2) + "\n"], { type: "application/json" }), `${stem()}_${name}.json`);
-  $("save-camera").addEventListener("click", () => download_json(state.camera, "camera"));
-  $("save-path").addEventListener("click", () => download_json({ keys: state.keys }, "camera_path"));
 
   /// Shows how far the export is until it is done; the view can be turned meanwhile.
   async function follow() {
@@ -110,10 +100,13 @@ export function write_controls({ command, ask, say, picture, changed }) {
 
   const show = (next) => {
     state = next;
-    const told = JSON.stringify(next.export), films = JSON.stringify([next.strip.kept, next.frames, next.fps, next.width, next.height]);
-    if (told !== taken)
-      for (const [id, key] of [["width", "width"], ["height", "height"], ["export-samples", "samples"]]) $(id).value = next.export[key] ?? "";
-    if (told !== taken) $("export-transparent").checked = next.export.transparent;
+    const { export_size, values } = next, opaque = Boolean(hex_of(values["image.background"]));
+    const told = JSON.stringify([export_size, export_size && values["image.samples"], opaque]), films = JSON.stringify([next.strip.kept, next.frames, next.fps, next.width, next.height]);
+    if (told !== taken) {
+      const asked = export_size ? [...export_size, values["image.samples"]] : ["", "", ""];
+      ["width", "height", "export-samples"].forEach((id, n) => { $(id).value = asked[n]; });
+      $("export-transparent").checked = !opaque;
+    }
     if (films !== offered || told !== taken) offer_films();
     $("save-story").hidden = next.strip.scenes === 0;
     taken = told;

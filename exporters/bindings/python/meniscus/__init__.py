@@ -22,31 +22,41 @@ del _numpy
 
 from ._errors import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, OutputError,
                       UsageError)
+from ._columns import Atom, radii_of
 from ._library import library_path, version
 from ._mesh import Mesh
-from ._molecule_tables import Atom
 from ._page import Page, page
-from ._patches import Patches
+from ._patches import Patches, Pocket
 from ._picture import Camera, Picture
-from ._pockets import Pocket
-from ._radii import radii_of
 from ._read import read
 from ._scene import Property, Scene, properties
 from ._structure import Structure
 from ._surface import Surface
 from ._widget import Picked, Widget, widget
-from ._computed import Buried, buried, surface
+from ._computed import Buried, buried, frames, series, surface
 from ._adapters import (from_ase, from_biopython, from_biotite, from_gemmi, from_mdanalysis, from_mdtraj, from_openmm,
                         from_prody, from_rdkit)
-from ._frames import frames, series
 
 __all__ = [
     "Atom", "Buried", "Camera", "CapacityError", "Error", "GpuError", "InputError", "InternalError", "Mesh",
     "NotClosedError", "OutputError", "Page", "Patches", "Picked", "Picture", "Pocket", "Property", "Scene", "Structure",
     "Surface", "UsageError", "Widget", "buried", "frames", "from_ase", "from_biopython", "from_biotite", "from_gemmi",
     "from_mdanalysis", "from_mdtraj", "from_openmm", "from_prody", "from_rdkit", "library_path", "page", "properties",
-    "radii_of", "read", "series", "surface", "version", "widget",
-]
+    "radii_of", "read", "series", "surface", "version", "widget"]
+
+
+def _look_for_the_other_project() -> None:
+    """Warns if the project that has the name and the import name meniscus on PyPI is installed in the same folder: pip
+    replaces files of one with files of the other without a word."""
+    from glob import escape, glob
+    from os import path
+    from ._errors import warn
+    if glob(path.join(escape(path.dirname(__path__[0])), "meniscus-*.dist-info")):
+        warn("the package meniscus, which is another project, is installed beside meniscus-ses, and the files of one "
+             "replace those of the other: pip uninstall meniscus meniscus-ses, then install the one that you need")
+
+
+_look_for_the_other_project()
 
 
 def __getattr__(name: str) -> str:

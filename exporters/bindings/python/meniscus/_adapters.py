@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Optional
 
 from ._computed import surface
 from ._errors import warn, wrong_type
-from ._packages import structure_of
+from ._read import structure_of
 from ._sources import TAKEN_BY, package_of
 from ._structure import Structure
 from ._surface import Surface
@@ -14,7 +14,7 @@ from ._surface import Surface
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._types import SurfaceOptions
+    from ._arguments import SurfaceOptions
 
 
 class _Taken(Structure):

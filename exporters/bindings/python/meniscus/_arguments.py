@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks the arguments of callers, and converts values with units to plain numbers in Å without importing their
-packages."""
+"""Types of arguments and results, and the checks of arguments. Values with units become plain numbers in Å without an
+import of their packages."""
 from __future__ import annotations
 
 import numbers
@@ -9,12 +9,43 @@ import os
 import reprlib
 import sys
 from ctypes import Structure, c_double, c_float, c_int32
-from typing import Any, Optional
+from typing import Any, Literal, Optional, TypedDict, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ._errors import InputError, UsageError, warn, wrong_type
-from ._types import AnyArray
+
+Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
+Bytes = NDArray[np.uint8]
+Indices = NDArray[np.uint32]
+Numbers = NDArray[np.int32]
+Texts = NDArray[np.str_]
+Rows = NDArray[np.void]  # a structured array
+AnyArray = NDArray[Any]
+
+Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
+
+Kind = Literal["ses", "sas", "vdw"]
+Device = Literal["cpu", "auto", "gpu", "software"]
+Projection = Literal["perspective", "orthographic"]
+Quantity = Literal["area", "volume", "sas_area", "sas_volume"]
+MeshFormat = Literal["stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms", "ply", "ply-ascii", "py", "usda", "usdz"]
+PocketKind = Literal["cavity", "pocket", "tunnel"]
+RadiiSet = Literal["bondi", "united", "protor", "martini2", "martini3", "file"]
+Hydrogens = Literal["auto", "keep", "drop"]
+UnknownElement = Literal["halt", "guess", "skip"]
+
+
+class SurfaceOptions(TypedDict, total=False):
+    """The keyword arguments of surface()."""
+    probe: float
+    kind: Kind
+    device: Device
+    threads: int
+    verify: bool
+
 
 #: Methods that convert units: of OpenMM and ParmEd, of pint, and of astropy and unyt.
 _CONVERSIONS = ("value_in_unit", "m_as", "to_value")

@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The arrays of a molecule, with one row for each atom."""
+"""The arrays of a molecule, with one row for each atom, its single atoms, parts and tables, and radii of elements."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import ctypes
+import functools
+import importlib
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
 
 import numpy as np
 
 from . import _header as header
-from ._errors import warn, wrong_type
-from ._radii import atomic_numbers
-from ._types import AnyArray, Bytes, Floats, Indices, Numbers, Singles, Texts
+from . import _library as lib
+from ._arguments import AnyArray, Bytes, Floats, Indices, Numbers, Singles, Texts, listed, whole_number
+from ._errors import InputError, UsageError, warn, wrong_type
 
 #: The dtype of the rows of each column, and its number of columns. All other columns are texts.
 NUMBERS: dict[int, Any] = {
@@ -27,6 +31,58 @@ SYMBOLS = np.array(("", *"""H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca S
     Re Os Ir Pt Au Hg Tl Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu Am Cm Bk Cf Es Fm Md No Lr Rf Db Sg Bh Hs Mt Ds Rg Cn Nh
     Fl Mc Lv Ts Og""".split()))
 CLASSES = np.array(["polymer", "ligand", "water", "ion", "unclassified"])
+
+
+@functools.lru_cache(maxsize=None)
+def _element(symbol: str) -> int:
+    """Returns the atomic number of a symbol; 0 if no element has it."""
+    number = ctypes.c_int32()
+    lib.call("element_of_symbol", symbol.strip().encode(), ctypes.byref(number))
+    return number.value
+
+
+@functools.lru_cache(maxsize=None)
+def _radius(element: int) -> float:
+    radius = ctypes.c_double()
+    lib.call("element_radius", element, ctypes.byref(radius), None)
+    return radius.value
+
+
+def atomic_numbers(elements: Any) -> AnyArray:
+    """Returns the atomic numbers of symbols, or whole numbers as they are: (n,); 0 for symbols of no element."""
+    values = np.asarray(elements)
+    if values.dtype.kind in "iu":
+        return values.astype(np.int64)
+    distinct, places = np.unique(values.astype(np.str_), return_inverse=True)
+    numbers = np.array([_element(str(symbol)) for symbol in distinct], dtype=np.int64)
+    found: AnyArray = numbers[places.reshape(-1)] if len(numbers) else np.empty(0, np.int64)
+    return found
+
+
+def radii_of(elements: Iterable[Union[str, int]]) -> Floats:
+    """Returns the van der Waals radii of elements in Å, (n,), by Bondi (1964, 1966) or Mantina et al. (2009); 2.0 for
+    metals without a published value.
+
+    elements: symbols or atomic numbers. Raises InputError for a symbol or number of no element.
+
+    >>> meniscus.radii_of(["C", "Zn", 8]).tolist()
+    [1.7, 1.39, 1.52]
+    >>> meniscus.radii_of(["Qq"])
+    Traceback (most recent call last):
+        ...
+    meniscus.InputError: atom 0: 'Qq' is not an element; give radii"""
+    checked: list[Union[str, int]] = [
+        element if isinstance(element, str) else whole_number(f"atom {n}: the element", element)
+        for n, element in enumerate(listed("elements", elements, "symbols or atomic numbers"))]
+    known: dict[Union[str, int], float] = {}
+    for n, element in enumerate(checked):
+        if element in known:
+            continue
+        number = _element(element) if isinstance(element, str) else element
+        if number == 0:
+            raise InputError(f"atom {n}: {str(element)!r} is not an element; give radii")
+        known[element] = _radius(number)
+    return np.array([known[element] for element in checked], dtype=np.float64)
 
 
 if TYPE_CHECKING:
@@ -251,3 +307,94 @@ class Columns:
         >>> molecule.hydropathies[:3].tolist()
         [1.8, 1.8, 1.8]"""
         return self._compared(header.STRUCTURE_HYDROPATHIES)
+
+
+class Atom(NamedTuple):
+    """An atom of a Structure.
+
+    row: its row in the structure. name, element, residue_name, residue_number, insertion_code, chain: as in the arrays
+    of Structure. position: Å. radius: the van der Waals radius in Å.
+
+    >>> atom = meniscus.read("helix.pdb")[1]
+    >>> atom.name, atom.element, atom.residue_name, atom.residue_number, atom.chain, atom.radius
+    ('CA', 'C', 'ALA', 1, 'A', 1.7)"""
+    row: int
+    name: str
+    element: str
+    residue_name: str
+    residue_number: int
+    insertion_code: str
+    chain: str
+    position: tuple[float, float, float]
+    radius: float
+
+
+def atoms_of(molecule: Columns, rows: Iterable[int]) -> Iterator[Atom]:
+    """Yields atoms of a molecule."""
+    chosen = list(rows)
+    columns = [np.asarray(column)[chosen].tolist() for column in (
+        molecule.names, molecule.elements, molecule.residue_names, molecule.residue_numbers, molecule.insertion_codes,
+        molecule.chains, molecule.positions, molecule.radii)]
+    for row, (name, element, residue, number, code, chain, (x, y, z), radius) in zip(chosen, zip(*columns)):
+        yield Atom(row, name, element, residue, number, code, chain, (x, y, z), radius)
+
+
+def groups_of(molecule: Columns, by: str) -> tuple[AnyArray, AnyArray]:
+    """Returns the first row of each residue, chain or model in their order, and the number of the group of each atom.
+    Raises UsageError for other words."""
+    keys: dict[str, tuple[Any, ...]] = {"residue": (molecule.models, molecule.copies, molecule.residues),
+                                        "chain": (molecule.models, molecule.chains), "model": (molecule.models,)}
+    if by not in keys:
+        raise UsageError(f"by is {by!r}, none of {', '.join(keys)}")
+    codes = np.zeros(len(molecule.radii), np.int64)
+    for key in keys[by]:
+        distinct, places = np.unique(np.asarray(key), return_inverse=True)
+        codes = np.unique(codes * len(distinct) + places.reshape(-1), return_inverse=True)[1].reshape(-1)
+    first = np.unique(codes, return_index=True)[1]
+    order = np.argsort(first)
+    numbers = np.empty(len(order), np.int64)
+    numbers[order] = np.arange(len(order))
+    return first[order], numbers[codes] if len(codes) else codes
+
+
+def parts_of(molecule: Columns, by: Literal["residue", "chain", "model"]) -> list[AnyArray]:
+    """Returns the rows of each residue, chain or model."""
+    first, group = groups_of(molecule, by)
+    return np.split(np.argsort(group, kind="stable"), np.cumsum(np.bincount(group, minlength=len(first)))[:-1])
+
+
+def frame_of(columns: dict[str, Any]) -> Any:
+    """Returns a pandas.DataFrame. Raises ImportError if pandas is not installed."""
+    try:
+        pandas = importlib.import_module("pandas")
+    except ImportError as error:
+        raise ImportError(f"to_dataframe() needs pandas ({error}): python -m pip install pandas") from error
+    return pandas.DataFrame({name: np.asarray(values) for name, values in columns.items()})
+
+
+def dataframe_of(molecule: Columns) -> Any:
+    """Returns a table of the atoms."""
+    x, y, z = np.asarray(molecule.positions).T
+    return frame_of({"index": molecule.indices, "name": molecule.names, "element": molecule.elements,
+                     "residue_name": molecule.residue_names, "residue_number": molecule.residue_numbers,
+                     "insertion_code": molecule.insertion_codes, "chain": molecule.chains, "model": molecule.models,
+                     "class": molecule.classes, "x": x, "y": y, "z": z, "radius": molecule.radii,
+                     "charge": molecule.charges, "b_factor": molecule.b_factors, "occupancy": molecule.occupancies})
+
+
+def sums_of(molecule: Columns, by: str, values: dict[str, AnyArray]) -> AnyArray:
+    """Returns a structured array with the sums of values of atoms for each residue, chain or model."""
+    first, group = groups_of(molecule, by)
+    keys: dict[str, Any] = {"model": molecule.models, "chain": molecule.chains}
+    if by == "residue":
+        keys.update(residue_name=molecule.residue_names, residue_number=molecule.residue_numbers,
+                    insertion_code=molecule.insertion_codes)
+    elif by == "model":
+        del keys["chain"]
+    columns = {name: np.asarray(column)[first] for name, column in keys.items()}
+    columns["atoms"] = np.bincount(group, minlength=len(first))
+    columns.update({name: np.bincount(group, of_atoms, len(first)) for name, of_atoms in values.items()})
+    table = np.empty(len(first), [(name, column.dtype) for name, column in columns.items()])
+    for name, column in columns.items():
+        table[name] = column
+    return table

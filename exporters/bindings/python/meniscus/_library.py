@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Loads libmeniscus, and calls its functions; their errors become exceptions."""
+"""Loads libmeniscus, and calls its functions; their errors become exceptions of the package, in words of Python."""
 from __future__ import annotations
 
+import _thread
+import atexit
 import ctypes
 import functools
 import os
@@ -9,11 +11,124 @@ import pathlib
 import platform
 import re
 import sys
-from typing import Any, Callable
+import threading
+from typing import Any, Callable, Optional
 
 from . import _header as header
-from ._calls import interruptible
-from ._messages import error_of
+from ._errors import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, OutputError,
+                      UsageError, also, unknown_name)
+
+_EXCEPTIONS: dict[int, type[Error]] = {
+    header.INTERNAL: InternalError, header.USAGE: UsageError, header.INPUT: InputError, header.NO_GPU: GpuError,
+    header.CAPACITY: CapacityError, header.OUTPUT: OutputError, header.NOT_CLOSED: NotClosedError}
+
+#: Words of C and of the command line in messages, and those of the package.
+_WORDS = [(re.compile(words), python) for words, python in (
+    (r"use the program's --force to replace it", "replace=True replaces it"),
+    (r", and format is NULL; the formats are ", "; give a format: "),
+    (r": meniscus_atoms\.count is 0", ""),
+    (r"\bprobe_radius\b", "probe"),
+    (r"\blarge_probe_radius\b", "large_probe"),
+    (r"give one colour, or atom_colors", "give one colour, or colors with one for each atom"),
+    (r"or the van der Waals surface", 'or kind="vdw"'),
+    (r"which MENISCUS_MESH_BY_DENSITY does not keep to; leave it at \S+", "which a mesh of a density does not keep to; "
+     "leave it out"),
+    (r"MENISCUS_ATOM_SAS_AREAS are of MENISCUS_SES surfaces; see MENISCUS_ATOM_AREAS",
+     'atom_sas_areas are of surfaces of kind "ses"; atom_areas has those of other kinds'),
+    (r"gradients of MENISCUS_GRADIENT_SAS_\.\.\. are of MENISCUS_SES surfaces; see MENISCUS_GRADIENT_AREA",
+     'gradients of "sas_area" and "sas_volume" are of surfaces of kind "ses"; "area" and "volume" are those of others'),
+    (r"a surface of MENISCUS_SES", 'a surface of kind "ses"'),
+    (r"meniscus_render_scene\(\)", "a meniscus.Scene"),
+    (r"lists atoms without coordinates; add trajectory with a file that has them",
+     "lists atoms without coordinates; meniscus.frames(trajectory, topology=...) reads both"),
+    (r"(\.(?:xtc|trr|dcd|nc|ncdf|nctraj|h5md|lammpstrj)): is in none of the formats that are read .*",
+     r"\1: is a trajectory; meniscus.frames(trajectory, topology=...) reads it"),
+    (r"the program's --(\w+)", r"the program's option \1"))]
+
+#: The ends of messages about files, and Python's exceptions for them.
+_ABOUT_FILES: tuple[tuple[str, type[Exception]], ...] = (
+    ("No such file or directory", FileNotFoundError), ("Permission denied", PermissionError),
+    ("Operation not permitted", PermissionError), ("Read-only file system", PermissionError),
+    ("Is a directory", IsADirectoryError), ("is a folder; give the name of a molecule file", IsADirectoryError),
+    ("Not a directory", NotADirectoryError))
+
+
+def in_words_of_python(message: str) -> str:
+    """Returns a message of the library with the names that the package has."""
+    for words, python in _WORDS:
+        message = words.sub(python, message)
+    return message
+
+
+def about_file(base: type[Error], message: str, file: Optional[str] = None) -> Error:
+    """Returns an error about a file, which is also Python's exception for the reason that the message ends with."""
+    path = message.split(": ")[0] if file is None else file
+    if ": exists already; " in message:
+        return also(base, (FileExistsError,), message, path)
+    kind = next((kind for end, kind in _ABOUT_FILES if message.endswith(end)), None)
+    if kind is None and isinstance(base, type) and issubclass(base, OutputError) and os.path.isdir(path):
+        kind = IsADirectoryError
+    return base(message) if kind is None else also(base, (kind,), message, path)
+
+
+def error_of(status: int, message: str) -> Error:
+    """Returns the exception of a call that failed. message: that of meniscus_last_error()."""
+    text = in_words_of_python(message)
+    base = _EXCEPTIONS.get(status, Error)
+    if base is UsageError and (text.endswith(" is not a value of a scene") or "; did you mean " in text):
+        return unknown_name(text)
+    return about_file(base, text) if base in (InputError, OutputError) else base(text)
+
+
+def _wait_for(done: Any) -> None:
+    """Waits for an interrupted function before Python ends, because the library cannot end while it computes. Another
+    Ctrl-C ends the process. done: the lock that is released when the function ends."""
+    try:
+        done.acquire()
+    except KeyboardInterrupt:
+        os._exit(130)
+
+
+def interruptible(function: Callable[[], Any]) -> Any:
+    """Returns the result of a function, which has to end by itself.
+
+    In the main thread another thread runs it. After Ctrl-C this function raises KeyboardInterrupt at once. The other
+    thread finishes the function and drops the result. Until then it keeps the variables of all callers alive, because
+    the library reads their arrays."""
+    if threading.current_thread() is not threading.main_thread():
+        return function()
+    done = _thread.allocate_lock()
+    kept: list[Any] = []
+    finished = False
+    result: Any = None
+    error: Any = None
+
+    def run() -> None:
+        nonlocal error, finished, result
+        try:
+            result = function()
+        except BaseException as raised:
+            error = raised
+        finished = True
+        kept.clear()
+        done.release()
+
+    done.acquire()
+    try:
+        _thread.start_new_thread(run, ())
+        done.acquire()
+    except BaseException:
+        frame: Any = sys._getframe()
+        while frame is not None and not finished:
+            kept.append(frame)
+            frame = frame.f_back
+        if not finished:  # otherwise this thread may have the lock
+            atexit.register(_wait_for, done)  # after those of the package, so that it is called before them
+        raise
+    if error is not None:
+        raise error
+    return result
+
 
 #: The functions that may take longer than a tenth of a second, whatever the molecule.
 _LONG = frozenset(("read", "surface_pockets", "surface_mesh", "mesh_save", "render", "render_scene", "scene_page",

@@ -5,19 +5,40 @@ from __future__ import annotations
 import copy
 import ctypes
 import importlib
+import os
+import re
+import tempfile
 from typing import IO, Any, Optional, Protocol, Union
 
 import numpy as np
 
 from . import _header as header
 from . import _library as lib
-from ._arguments import file_name, flag, text
+from ._arguments import AnyArray, Bytes, Floats, Indices, MeshFormat, Path, Singles, file_name, flag, text
 from ._arrays import view
-from ._colors import atom_colors
 from ._errors import UsageError
-from ._mesh_attributes import attribute_of
-from ._types import AnyArray, Bytes, Floats, Indices, MeshFormat, Path, Singles
+from ._picture import atom_colors
 from ._written import save_by_library
+
+_TYPES = {"float": "<f4", "uchar": "u1", "int": "<i4", "double": "<f8"}
+#: The properties of vertices in PLY files that are no attributes.
+_OTHERS = ("x", "y", "z", "nx", "ny", "nz", "red", "green", "blue")
+
+
+def _vertices_of(content: bytes) -> AnyArray:
+    """Returns the vertices of a binary PLY file as a structured array."""
+    head, rows = content.split(b"end_header\n", 1)
+    text = head.decode().split("element face")[0]
+    row = np.dtype([(name, _TYPES[kind]) for kind, name in re.findall(r"^property (\w+) (\w+)$", text, re.M)])
+    count = re.search(r"^element vertex (\d+)$", text, re.M)
+    assert count is not None
+    return np.frombuffer(rows, row, int(count[1]))
+
+
+def _places(points: AnyArray) -> list[bytes]:
+    """Returns points as keys: their bytes in single precision."""
+    rows = np.ascontiguousarray(points, "<f4") + np.float32(0)  # without negative zeros
+    return [row.tobytes() for row in rows]
 
 
 class Computed(Protocol):
@@ -201,7 +222,20 @@ class Mesh:
 
         >>> round(float(mesh.attribute("mean_curvature").max()), 3)
         0.588"""
-        return attribute_of(self, name)
+        if not isinstance(name, str) or name in ("all", "usual", "none") or "," in name:
+            raise UsageError(f"name is {name!r}; give the name of one attribute, such as mean_curvature")
+        with tempfile.TemporaryDirectory(prefix="meniscus-") as folder:
+            path = os.path.join(folder, "mesh.ply")
+            self.save(path, attributes=name)
+            with open(path, "rb") as file:
+                table = _vertices_of(file.read())
+        values: Any = table[next(column for column in table.dtype.names or () if column not in _OTHERS)]
+        saved = np.stack([table[axis] for axis in "xyz"], axis=1)
+        row_of = dict(zip(reversed(_places(saved)), range(len(saved) - 1, -1, -1)))
+        rows = [row_of.get(place, -1) for place in _places(np.asarray(self.vertices))]
+        for vertex in (n for n, row in enumerate(rows) if row < 0):  # the file has welded it with a neighbour
+            rows[vertex] = int(np.argmin(((saved - self.vertices[vertex]) ** 2).sum(axis=1)))
+        return np.asarray(values[rows], np.float32)
 
     def to_trimesh(self) -> Any:
         """Returns a trimesh.Trimesh with "atom", "kind" and "component" in its face_attributes.

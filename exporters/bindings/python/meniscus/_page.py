@@ -5,13 +5,12 @@ from __future__ import annotations
 import ctypes
 import os
 import re
-import tempfile
 from typing import Any, Optional, Protocol, Union
 
 from . import _library as lib
-from ._arguments import flag, positive
-from ._errors import InputError, OutputError
-from ._types import Path
+from ._arguments import Path, positive
+from ._errors import InputError
+from ._written import save_bytes
 
 #: The permissions of a page in a frame: to run its script, and to save a PNG file. It cannot access the outer page.
 _MAY = "allow-scripts allow-downloads"
@@ -62,21 +61,7 @@ class Page:
         OutputError if the file cannot be written, or exists and is not replaced.
 
         >>> page.save("helix.html", replace=True)"""
-        target = os.fsdecode(path)
-        if not flag("replace", replace) and os.path.lexists(target):
-            raise OutputError(f"{target}: exists already; replace=True replaces it")
-        try:
-            handle, temporary = tempfile.mkstemp(suffix=".part", dir=os.path.dirname(target) or ".")
-            try:
-                with open(handle, "w", encoding="utf-8", newline="\n") as file:
-                    file.write(self._html)
-                os.chmod(temporary, 0o666 & ~_umask())
-                os.replace(temporary, target)
-            except BaseException:
-                os.unlink(temporary)
-                raise
-        except OSError as error:
-            raise OutputError(f"{target}: cannot be written: {error.strerror}") from None
+        save_bytes(self._html.encode("utf-8"), path, replace)
 
     def frame(self, src: Optional[str] = None, *, height: Optional[int] = None) -> str:
         """Returns an <iframe> with this page for another page.
@@ -109,12 +94,6 @@ class Shown(Protocol):
 def _quoted(text: str) -> str:
     """Returns a text as the value of an HTML attribute in double quotes."""
     return text.replace("&", "&amp;").replace('"', "&quot;")
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def made(make: str, *arguments: Any, height: int) -> Page:

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures, cameras, and the renderers that draw pictures."""
+"""Pictures, cameras, colours of atoms, and the renderers that draw pictures."""
 from __future__ import annotations
 
 import atexit
 import ctypes
+import functools
 import os
 import struct
 import threading
@@ -14,12 +15,10 @@ from typing import IO, Any, Optional, Union
 import numpy as np
 
 from . import _header as header
-from ._arguments import number, word
-from ._arrays import real_array
-from ._colors import atom_colors
+from ._arguments import AnyArray, Bytes, Path, Projection, number, word
+from ._arrays import as_file, handle_of, real_array
 from ._errors import InputError, UsageError, wrong_type
 from ._library import Handle, call
-from ._types import AnyArray, Bytes, Path, Projection
 from ._written import save_bytes
 
 DEVICES = {"cpu": header.CPU, "auto": header.AUTO, "gpu": header.GPU, "software": header.SOFTWARE}
@@ -138,6 +137,48 @@ class Picture(_Sealed):
     def __repr__(self) -> str:
         height, width, _ = self.pixels.shape
         return f"<meniscus.Picture: {width}x{height}>"
+
+
+@functools.lru_cache(maxsize=None)
+def _atom() -> Handle:
+    """Returns a molecule of one atom, which the library colours."""
+    with as_file(b"1\n\nC 0 0 0\n") as path:
+        return handle_of(path)
+
+
+@functools.lru_cache(maxsize=1024)
+def color_of(name: str) -> tuple[float, float, float]:
+    """Returns the sRGB of a name such as "red", or of "#rrggbb". Raises InputError for other texts."""
+    color = np.empty(3, np.float32)
+    try:
+        call("structure_colors", _atom().pointer, name.encode(), color.ctypes.data)
+    except UsageError as error:
+        if "is not one of" not in str(error):  # of a build without colours
+            raise
+        raise InputError(f"colors has {name!r}, no colour such as red or #rrggbb; Structure.colors() has those of "
+                         "schemes") from None
+    red, green, blue = color.tolist()
+    return red, green, blue
+
+
+def atom_colors(colors: Any, atom_count: int) -> AnyArray:
+    """Returns a contiguous array of floats, (atom_count, 3), from one colour or from one colour per atom.
+
+    colors: sRGB in [0, 1], (3,) or (n, 3), also with an alpha of 1, (4,) or (n, 4), as matplotlib has it; or one name
+    or n names of colours. Raises InputError for other shapes and for colours that are not opaque."""
+    names = np.asarray(colors) if isinstance(colors, (str, list, tuple, np.ndarray)) else np.empty(0)
+    if names.dtype.kind == "U":
+        given = np.array([color_of(str(name)) for name in names.flat], np.float32).reshape(*names.shape, 3)
+    else:
+        given = real_array(colors, "colors").astype(np.float32)
+    if given.shape in ((4,), (atom_count, 4)):
+        if (given[..., 3] != 1).any():
+            raise InputError("colors has an alpha below 1, which colours of atoms do not have; opacity is a value of a "
+                             "scene")
+        given = given[..., :3]
+    if given.shape not in ((3,), (atom_count, 3)):
+        raise InputError(f"colors has the shape {given.shape}; it has to be (3,) or ({atom_count}, 3)")
+    return np.array(np.broadcast_to(given, (atom_count, 3)), order="C")
 
 
 _renderers: dict[str, Handle] = {}

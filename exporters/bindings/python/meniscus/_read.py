@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Molecules from files."""
+"""Reads molecules from files, and takes those of other packages."""
 from __future__ import annotations
 
 import os
 from typing import IO, Any, Iterable, Literal, Mapping, Optional, Sequence, Union
 
-from ._errors import warn
-from ._molecule_file import as_file, is_content, opened
+import numpy as np
+
+from ._arguments import Hydrogens, Path, RadiiSet, UnknownElement
+from ._arrays import as_file, handle_of, is_content
+from ._errors import InputError, warn
+from ._sources import Source, opened, package_of
 from ._structure import Structure
-from ._types import Hydrogens, Path, RadiiSet, UnknownElement
 
 
 def read(path: Union[Path, IO[Any]], *, select: Optional[str] = None, assembly: Union[str, int, None] = None,
@@ -40,7 +43,7 @@ def read(path: Union[Path, IO[Any]], *, select: Optional[str] = None, assembly: 
         ...
     meniscus.InputError: none.pdb: cannot be read: No such file or directory"""
     with as_file(path) as file:
-        handle = opened(file, select=select, assembly=assembly, model=model, altloc=altloc, hydrogens=hydrogens,
+        handle = handle_of(file, select=select, assembly=assembly, model=model, altloc=altloc, hydrogens=hydrogens,
                         radii=radii, radii_files=radii_files, radius=radius, keep_water=keep_water, keep_ions=keep_ions,
                         unknown_element=unknown_element)
     structure = Structure._read(handle, os.path.basename(os.fsdecode(file)) if is_content(path) else None)
@@ -52,10 +55,38 @@ def read(path: Union[Path, IO[Any]], *, select: Optional[str] = None, assembly: 
 def models_of(path: Union[Path, IO[Any]]) -> list[Structure]:
     """Returns each model of a file, with the atoms that read() uses."""
     with as_file(path) as file:
-        first, whole = opened(file), opened(file, model="all")
+        first, whole = handle_of(file), handle_of(file, model="all")
     name = os.path.basename(os.fsdecode(file)) if is_content(path) else None
     for warning in Structure._read(first, name).warnings:
         if "model=" in warning:  # that only one model is used
             continue
         warn(f"{os.fsdecode(file) if name is None else name}: {warning}")
     return Structure._read(whole, name).split("model")
+
+
+def first_of(source: Source, radii: Optional[Any]) -> Structure:
+    """Returns the molecule in the first frame that is left of a source. Elements that are missing are guessed from
+    names with a warning. radii: see Structure."""
+    positions = next(source.frames, None)
+    if positions is None:
+        raise InputError("the atoms have no positions")
+    elements, altlocs = source.elements, source.altlocs
+    if elements is not None:
+        elements = np.asarray(elements)
+        if elements.dtype.kind not in "iu":
+            elements = np.char.strip(elements.astype(np.str_))
+    columns = {name: values for name, values in source.columns().items() if values is not None}
+    if len(altlocs):
+        columns["altlocs"] = np.array([str(letter).strip(" .\0") for letter in altlocs], np.str_)
+    for name, values in columns.items():
+        if np.asarray(values).dtype.kind == "O":
+            columns[name] = np.asarray(values).astype(np.str_)
+    structure = Structure(positions, elements, radii=radii, **columns)
+    for warning in structure.warnings:
+        warn(warning)
+    return structure
+
+
+def structure_of(molecule: Any, radii: Optional[Any]) -> Structure:
+    """Returns the current or first frame of a molecule of another package."""
+    return first_of(opened(molecule, package_of(molecule), False), radii)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import os
+import re
 import shutil
 import tempfile
 import weakref
@@ -15,16 +16,15 @@ import numpy as np
 
 from . import _header as header
 from . import _library as lib
-from ._arguments import plain
+from ._arguments import Device, Path, plain
+from ._arrays import WHOLE, column_of
 from ._errors import InputError, UsageError, wrong_type
-from ._packages import structure_of
 from ._page import Page, made
 from ._picture import Picture, blank, renderer
-from ._scene_molecule import values_of
 from ._scene_values import SceneAttributes
+from ._read import structure_of
 from ._sources import is_molecule
 from ._structure import Structure
-from ._types import Device, Path
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -107,6 +107,24 @@ def _known() -> dict[str, Property]:
 _LARGEST_SHOWN = 15_000_000
 
 
+def _radii_of(structure: Structure) -> list[str]:
+    """Returns the overrides that give atoms the radii which the library would not give them."""
+    own, usual = np.asarray(structure.radii), np.asarray(column_of(structure._library_object(), header.STRUCTURE_RADII))
+    return [f"index {' '.join(map(str, np.flatnonzero((own == radius) & (own != usual))))}={radius!r}"
+            for radius in np.unique(own[own != usual]).tolist()]
+
+
+def _values_of(structure: Structure, folder: str) -> dict[str, Any]:
+    """Writes a molecule to a folder, and returns the values of a scene that use all of its atoms with their radii."""
+    stem = re.sub(r"[^\w.-]", "_", os.path.basename(structure.file).split(".")[0]) or "molecule"
+    path = os.path.join(folder, stem + ".cif")
+    overrides = _radii_of(structure)
+    structure.write(path, replace=True)
+    values = {"file": path, **WHOLE, "model": "all" if len(set(structure.models.tolist())) > 1 else None,
+              "altloc": "all" if (structure.altlocs != "").any() else None, "radius": overrides or None}
+    return {name: value for name, value in values.items() if value is not None}
+
+
 class Scene(SceneAttributes, Mapping[str, Any]):
     """All settings of a picture, with the defaults of the program: Scene("1ubq.cif", color="chain", legend=True).
 
@@ -146,7 +164,7 @@ class Scene(SceneAttributes, Mapping[str, Any]):
         """Writes a molecule to a temporary file, and sets the values that draw it."""
         folder = tempfile.mkdtemp(prefix="meniscus-")
         weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
-        for name, value in values_of(molecule, folder).items():
+        for name, value in _values_of(molecule, folder).items():
             self[name] = value
         object.__setattr__(self, "_molecule", molecule)
 

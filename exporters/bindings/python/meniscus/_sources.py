@@ -9,11 +9,6 @@ import numpy as np
 
 from ._errors import InputError, warn, wrong_type
 
-#: The functions of _adapters.py that take the objects of each package.
-TAKEN_BY = {"MDAnalysis": "from_mdanalysis", "mdtraj": "from_mdtraj", "prody": "from_prody", "biotite": "from_biotite",
-            "Bio": "from_biopython", "ase": "from_ase", "rdkit": "from_rdkit", "openmm": "from_openmm",
-            "gemmi": "from_gemmi"}
-
 
 class Source(NamedTuple):
     """The atoms of a molecule of another package.
@@ -198,6 +193,8 @@ def _gemmi(part: Any, every: bool) -> Source:
 _READERS: dict[str, Callable[[Any, bool], Source]] = {
     "MDAnalysis": _mdanalysis, "mdtraj": _mdtraj, "prody": _prody, "biotite": _biotite, "Bio": _biopython, "ase": _ase,
     "rdkit": _rdkit, "openmm": _openmm, "gemmi": _gemmi}
+#: The functions of _adapters.py that take the objects of each package.
+TAKEN_BY = {package: "from" + reader.__name__ for package, reader in _READERS.items()}
 
 
 def package_of(value: Any) -> str:

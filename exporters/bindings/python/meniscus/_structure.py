@@ -11,16 +11,12 @@ import numpy as np
 
 from . import _header as header
 from . import _library as lib
-from ._arguments import number
-from ._arrays import real_array
-from ._cif import cif_of
-from ._columns import NUMBERS, SYMBOLS, Columns
+from ._arguments import AnyArray, Floats, Path, Singles, number
+from ._arrays import Report, WHOLE, column_of, handle_of, real_array, renamed, report_of
+from ._columns import (NUMBERS, SYMBOLS, Atom, Columns, atomic_numbers, atoms_of, dataframe_of, parts_of,
+                       radii_of)
 from ._errors import InputError, also, wrong_type
-from ._molecule_file import WHOLE, Report, column_of, opened, renamed, report_of
-from ._molecule_tables import Atom, atoms_of, dataframe_of, parts_of
-from ._radii import atomic_numbers, radii_of
-from ._types import AnyArray, Floats, Path, Singles
-from ._written import written
+from ._written import cif_of, written
 
 #: The parameters of Structure() and their columns.
 _GIVEN = {"radii": header.STRUCTURE_RADII, "names": header.STRUCTURE_NAMES,
@@ -104,12 +100,12 @@ class Structure(Columns):
         return cls._of(report if name is None else report._replace(file=name), count, {}, handle)
 
     def _set_residues(self, without: bool) -> None:
-        """Counts the residues: a new one begins where the model, chain, number, insertion code or name changes.
+        """Counts the residues: a new one begins where the model, chain, segment, number, insertion code or name changes.
 
         without: whether the atoms have no residues, so that they have no class."""
         columns, new = self._columns, np.zeros(self._count, bool)
-        for key in (header.STRUCTURE_MODELS, header.STRUCTURE_CHAINS, header.STRUCTURE_RESIDUE_NUMBERS,
-                    header.STRUCTURE_INSERTION_CODES, header.STRUCTURE_RESIDUE_NAMES):
+        for key in (header.STRUCTURE_MODELS, header.STRUCTURE_CHAINS, header.STRUCTURE_SEGMENTS,
+                    header.STRUCTURE_RESIDUE_NUMBERS, header.STRUCTURE_INSERTION_CODES, header.STRUCTURE_RESIDUE_NAMES):
             new[1:] |= columns[key][1:] != columns[key][:-1]
         columns[header.STRUCTURE_RESIDUES] = np.cumsum(new).astype(np.uint32)
         columns[header.STRUCTURE_INDICES] = np.arange(self._count, dtype=np.uint32)
@@ -202,7 +198,7 @@ class Structure(Columns):
             with open(path, "w", encoding="utf-8", errors="surrogateescape") as file:
                 file.write(text)
             with renamed(path, self.file or "the molecule"):
-                return opened(path, **options)
+                return handle_of(path, **options)
 
     def _library_object(self) -> lib.Handle:
         """Returns the library's object of these atoms, in this order. Raises InputError if it does not take all."""

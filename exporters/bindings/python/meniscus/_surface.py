@@ -9,18 +9,17 @@ import numpy as np
 
 from . import _header as header
 from . import _library as lib
-from ._arguments import flag, number, warn_of_nanometres, word
+from ._arguments import (AnyArray, Device, Floats, Indices, Kind, Projection, Quantity, Rows, flag, number,
+                         warn_of_nanometres, word)
 from ._arrays import doubles, numbers, real_array, view
+from ._columns import frame_of, sums_of
 from ._errors import GpuError, InputError
 from ._mesh import Mesh
 from ._page import Page, made
 from ._picture import DEVICES, Camera, Picture, framed, of_picture, painted
-from ._pockets import Pocket, pockets_of
 from ._scene import Scene
-from ._molecule_tables import frame_of, sums_of
-from ._patches import Patches
+from ._patches import Patches, Pocket, pockets_of
 from ._structure import Structure
-from ._types import AnyArray, Device, Floats, Indices, Kind, Projection, Quantity, Rows
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

@@ -9,10 +9,9 @@ from typing import Any, Callable, NamedTuple, Optional, Union
 import numpy as np
 
 from ._arrays import real_array
-from ._colors import atom_colors
 from ._errors import InputError
 from ._page import Page, page_of
-from ._picture import Camera
+from ._picture import Camera, atom_colors
 
 #: Shows the page in a frame. The frame isolates it, except for the messages of messages.js in exporters/page.
 _SCRIPT = """
@@ -90,16 +89,11 @@ def _model(shown: Page) -> Any:
         return trait.tag(sync=True)
 
     traits = {
-        "_esm": _SCRIPT,
-        "html": shared(traitlets.Unicode(shown.html)),
-        "title": shared(traitlets.Unicode(shown.title)),
-        "height": shared(traitlets.Int(shown.height)),
-        "atoms": shared(traitlets.Int(0)),
+        "_esm": _SCRIPT, "html": shared(traitlets.Unicode(shown.html)), "title": shared(traitlets.Unicode(shown.title)),
+        "height": shared(traitlets.Int(shown.height)), "atoms": shared(traitlets.Int(0)),
         "camera": shared(traitlets.Dict(default_value=None, allow_none=True)),
-        "picked": shared(traitlets.Dict(default_value=None, allow_none=True)),
-        "colors": shared(traitlets.Bytes(b"")),
-        "label": shared(traitlets.Unicode("")),
-    }
+        "picked": shared(traitlets.Dict(default_value=None, allow_none=True)), "colors": shared(traitlets.Bytes(b"")),
+        "label": shared(traitlets.Unicode(""))}
     return type("MeniscusWidget", (anywidget.AnyWidget,), traits)()
 
 

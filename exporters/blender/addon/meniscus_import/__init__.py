@@ -3,14 +3,9 @@
 only, and runs in Blender 3.4 and later."""
 
 bl_info = {
-    "name": "Meniscus",
-    "author": "The Meniscus developers",
-    "version": (0, 2, 0),
-    "blender": (3, 4, 0),
+    "name": "Meniscus", "author": "The Meniscus developers", "version": (0, 2, 0), "blender": (3, 4, 0),
     "location": "File > Import > Meniscus surface (.mns); 3D View > Sidebar > Meniscus",
-    "description": "Exact solvent-excluded molecular surfaces: import, compute, animate",
-    "category": "Import-Export",
-}
+    "description": "Exact solvent-excluded molecular surfaces: import, compute, animate", "category": "Import-Export"}
 
 import os
 
@@ -21,9 +16,12 @@ from . import (bake_run, build, compat, computed, mns_reader, panel, scene_impor
                storyboard)
 
 
-class Looks:
-    """The properties that both imports share."""
+class Importing(ImportHelper):
+    """The properties that all imports share."""
 
+    bl_options = {"UNDO", "PRESET"}
+
+    filepath: bpy.props.StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
     crisp_colors: bpy.props.BoolProperty(
         name="Crisp colours", description="Colours change at edges; otherwise they blend between vertices",
         default=True)
@@ -34,14 +32,18 @@ class Looks:
         name="Centre",
         description="Puts the middle of the molecule to the origin, or where an earlier import put it, so that a "
         "surface and its trajectory overlay; otherwise coordinates are those of the molecule's file", default=False)
-    import_camera: bpy.props.BoolProperty(
-        name="Camera", description="Import the camera of the file", default=True)
+    import_camera: bpy.props.BoolProperty(name="Camera", description="Import the camera of the file", default=True)
     use_camera: bpy.props.BoolProperty(name="Use camera",
                                        description="Make it the camera of the scene, and take the size of its picture",
                                        default=True)
     standard_view: bpy.props.BoolProperty(name="Standard view transform",
                                           description="Show colours as they are; Filmic and AgX make them paler",
                                           default=False)
+
+    def shared_values(self, *names):
+        """Returns the values of the shared properties and of others by their names."""
+        return {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
+                                                       "use_camera", *names)}
 
     def report_view_transform(self, context):
         """Shows colours in solid views, and reports a view transform that changes them."""
@@ -54,16 +56,25 @@ class Looks:
                         f"The view transform {view.view_transform} changes colours; Standard shows them as they are")
 
 
-class IMPORT_SCENE_OT_meniscus(Looks, bpy.types.Operator, ImportHelper):
+class ImportingRun(Importing):
+    """The properties of imports of several frames."""
+
+    filename_ext = ".json"
+    filter_glob: bpy.props.StringProperty(default="*.json", options={"HIDDEN"})
+    scale: bpy.props.FloatProperty(name="Scale", description="Blender units per ångström; 0 takes that of the file",
+                                   default=0.0, min=0.0, soft_max=1.0, precision=4)
+    set_time: bpy.props.BoolProperty(
+        name="Set frame range and rate", description="The scene gets the range and the rate of the run, and a marker "
+        "for each scene of a storyboard", default=True)
+
+
+class IMPORT_SCENE_OT_meniscus(Importing, bpy.types.Operator):
     """Import solvent-excluded surfaces that Meniscus exported"""
 
     bl_idname = "import_scene.meniscus"
     bl_label = "Import Meniscus surface"
-    bl_options = {"UNDO", "PRESET"}
-
     filename_ext = ".mns"
     filter_glob: bpy.props.StringProperty(default="*.mns", options={"HIDDEN"})
-    filepath: bpy.props.StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
     directory: bpy.props.StringProperty(subtype="DIR_PATH", options={"SKIP_SAVE", "HIDDEN"})
     files: bpy.props.CollectionProperty(type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE", "HIDDEN"})
     scale: bpy.props.FloatProperty(
@@ -81,12 +92,10 @@ class IMPORT_SCENE_OT_meniscus(Looks, bpy.types.Operator, ImportHelper):
 
     def execute(self, context):
         paths = [os.path.join(self.directory, file.name) for file in self.files if file.name] or [self.filepath]
-        options = {name: getattr(self, name) for name in ("scale", "crisp_colors", "own_materials", "parts", "center",
-                                                          "import_camera", "use_camera")}
         imported = 0
         for path in paths:
             try:
-                build.import_file(path, context, **options)
+                build.import_file(path, context, **self.shared_values("scale", "parts"))
                 imported += 1
             except (mns_reader.MnsError, OSError) as error:
                 self.report({"ERROR"}, str(error))
@@ -96,40 +105,21 @@ class IMPORT_SCENE_OT_meniscus(Looks, bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
 
-class IMPORT_SCENE_OT_meniscus_sequence(Looks, bpy.types.Operator, ImportHelper):
+class IMPORT_SCENE_OT_meniscus_sequence(ImportingRun, bpy.types.Operator):
     """Import a sequence of surfaces, one a frame, that Meniscus exported"""
 
     bl_idname = "import_scene.meniscus_sequence"
     bl_label = "Import Meniscus sequence"
-    bl_options = {"UNDO", "PRESET"}
-
-    filename_ext = ".json"
-    filter_glob: bpy.props.StringProperty(default="*.json", options={"HIDDEN"})
-    filepath: bpy.props.StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
     mode: bpy.props.EnumProperty(
         name="Frames", default="BAKE",
         items=(("BAKE", "In this file",
                 "All frames become part of the .blend file, which then renders anywhere without add-on"),
                ("STREAM", "Read when shown",
                 "One frame in memory; the file needs this add-on and the exported folder")))
-    scale: bpy.props.FloatProperty(
-        name="Scale", description="Blender units per ångström; 0 takes that of the sequence", default=0.0, min=0.0,
-        soft_max=1.0, precision=4)
-    start: bpy.props.FloatProperty(name="Start", description="The frame of the scene that shows the first of the run",
-                                   default=1.0)
-    speed: bpy.props.FloatProperty(
-        name="Speed", description="Frames of the run in a frame of the scene", default=1.0, min=1e-4, soft_max=10.0)
-    outside: bpy.props.EnumProperty(
-        name="Outside", description="What shows before and behind the run", default="EMPTY",
-        items=(("EMPTY", "Nothing", "Nothing shows"), ("HOLD", "Hold", "The first and the last frame stay"),
-               ("LOOP", "Loop", "The run begins anew"), ("PINGPONG", "To and fro", "The run goes back and forth")))
-    set_time: bpy.props.BoolProperty(
-        name="Set frame range and rate", description="The scene gets the range and the rate of the run", default=True)
 
     @build.reports_errors
     def execute(self, context):
-        options = {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
-                                                          "use_camera", "set_time")}
+        options = self.shared_values("set_time")
         window = context.window_manager
         window.progress_begin(0, 1)
         try:
@@ -146,23 +136,14 @@ class IMPORT_SCENE_OT_meniscus_sequence(Looks, bpy.types.Operator, ImportHelper)
         return {"FINISHED"}
 
 
-class IMPORT_SCENE_OT_meniscus_storyboard(Looks, bpy.types.Operator, ImportHelper):
+IMPORT_SCENE_OT_meniscus_sequence.__annotations__.update(settings.timing_fields("EMPTY"))
+
+
+class IMPORT_SCENE_OT_meniscus_storyboard(ImportingRun, bpy.types.Operator):
     """Import a storyboard that meniscus film --to blender wrote: scenes, and key frames from each to the next"""
 
     bl_idname = "import_scene.meniscus_storyboard"
     bl_label = "Import Meniscus storyboard"
-    bl_options = {"UNDO", "PRESET"}
-
-    filename_ext = ".json"
-    filter_glob: bpy.props.StringProperty(default="*.json", options={"HIDDEN"})
-    filepath: bpy.props.StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
-    scale: bpy.props.FloatProperty(
-        name="Scale", description="Blender units per ångström; 0 takes that of the storyboard", default=0.0, min=0.0,
-        soft_max=1.0, precision=4)
-    set_time: bpy.props.BoolProperty(
-        name="Set frame range and rate",
-        description="The scene gets the range and the rate of the film, and a marker for each of its "
-        "scenes", default=True)
     set_background: bpy.props.BoolProperty(
         name="Background",
         description="The camera sees the colours of the film where there is no object; what lights the scene stays",
@@ -170,9 +151,8 @@ class IMPORT_SCENE_OT_meniscus_storyboard(Looks, bpy.types.Operator, ImportHelpe
 
     @build.reports_errors
     def execute(self, context):
-        options = {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
-                                                          "use_camera", "set_time", "set_background")}
-        storyboard.import_file(self.filepath, context, scale=self.scale or None, **options)
+        storyboard.import_file(self.filepath, context, scale=self.scale or None,
+                               **self.shared_values("set_time", "set_background"))
         self.report_view_transform(context)
         return {"FINISHED"}
 
@@ -209,8 +189,7 @@ def object_menu_entry(self, context):
 
 CLASSES = [
     IMPORT_SCENE_OT_meniscus, IMPORT_SCENE_OT_meniscus_sequence, IMPORT_SCENE_OT_meniscus_storyboard,
-    OBJECT_OT_meniscus_reload
-]
+    OBJECT_OT_meniscus_reload]
 
 if compat.can_drop_files():
 
@@ -227,9 +206,11 @@ if compat.can_drop_files():
     CLASSES.append(IMPORT_SCENE_FH_meniscus)
 
 
+_register, _unregister = bpy.utils.register_classes_factory(CLASSES)
+
+
 def register():
-    for item in CLASSES:
-        bpy.utils.register_class(item)
+    _register()
     bpy.types.TOPBAR_MT_file_import.append(menu_entry)
     bpy.types.VIEW3D_MT_object.append(object_menu_entry)
     sequence.register()
@@ -243,5 +224,4 @@ def unregister():
     sequence.unregister()
     bpy.types.VIEW3D_MT_object.remove(object_menu_entry)
     bpy.types.TOPBAR_MT_file_import.remove(menu_entry)
-    for item in reversed(CLASSES):
-        bpy.utils.unregister_class(item)
+    _unregister()

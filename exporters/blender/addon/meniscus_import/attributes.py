@@ -7,14 +7,9 @@ from . import compat
 
 #: Types of attributes that can be copied: the field of a value, its columns, its numpy type.
 TYPES = {
-    "FLOAT": ("value", 1, np.float32),
-    "INT": ("value", 1, np.int32),
-    "BOOLEAN": ("value", 1, bool),
-    "FLOAT_VECTOR": ("vector", 3, np.float32),
-    "FLOAT2": ("vector", 2, np.float32),
-    "FLOAT_COLOR": ("color", 4, np.float32),
-    "BYTE_COLOR": ("color", 4, np.float32),
-}
+    "FLOAT": ("value", 1, np.float32), "INT": ("value", 1, np.int32), "BOOLEAN": ("value", 1, bool),
+    "FLOAT_VECTOR": ("vector", 3, np.float32), "FLOAT2": ("vector", 2, np.float32),
+    "FLOAT_COLOR": ("color", 4, np.float32), "BYTE_COLOR": ("color", 4, np.float32)}
 DOMAINS = ("POINT", "FACE", "CORNER")
 #: Attributes that identify atoms, also among copies of one; scenes of 0.1.0 have the second only.
 KEYS = ("ses_atom", "atom_index")
@@ -37,8 +32,7 @@ class Kept:
         count = max(len(self.known), len(older.known))
         for kept in (self, older):
             kept.values = np.concatenate(
-                [kept.values,
-                 np.zeros((count - len(kept.values), kept.values.shape[1]), kept.values.dtype)])
+                [kept.values, np.zeros((count - len(kept.values), kept.values.shape[1]), kept.values.dtype)])
             kept.known = np.concatenate([kept.known, np.zeros(count - len(kept.known), dtype=bool)])
         self.values[~self.known] = older.values[~self.known]
         self.known |= older.known

@@ -9,8 +9,7 @@ from . import (attributes, build, compat, computed, frame_picker, libraries, mes
 
 #: Bytes per value of an attribute, by its type.
 VALUE_BYTES = {
-    "FLOAT": 4, "INT": 4, "INT8": 1, "BOOLEAN": 1, "BYTE_COLOR": 4, "FLOAT_COLOR": 16, "FLOAT_VECTOR": 12, "FLOAT2": 8
-}
+    "FLOAT": 4, "INT": 4, "INT8": 1, "BOOLEAN": 1, "BYTE_COLOR": 4, "FLOAT_COLOR": 16, "FLOAT_VECTOR": 12, "FLOAT2": 8}
 #: Bytes of a vertex, an edge, a corner and a face, without attributes.
 ELEMENT_BYTES = (12, 8, 12, 8)
 #: The share of these bytes that remains in a compressed .blend.
@@ -27,8 +26,7 @@ class Stream:
     """An object that shows frames of files, which are read while the timeline plays."""
 
     TIMES = {
-        f'["meniscus_{name.lower()}"]': name for name in (frame_picker.START, frame_picker.SPEED, frame_picker.FRAME)
-    }
+        f'["meniscus_{name.lower()}"]': name for name in (frame_picker.START, frame_picker.SPEED, frame_picker.FRAME)}
     TIMES['["meniscus_by_hand"]'] = frame_picker.BY_HAND
 
     def __init__(self, item, scene):
@@ -232,9 +230,4 @@ def draw(layout, context):
             layout.label(text=line)
 
 
-def register():
-    bpy.utils.register_class(OBJECT_OT_meniscus_bake)
-
-
-def unregister():
-    bpy.utils.unregister_class(OBJECT_OT_meniscus_bake)
+register, unregister = bpy.utils.register_classes_factory([OBJECT_OT_meniscus_bake])

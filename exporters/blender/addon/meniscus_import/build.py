@@ -249,7 +249,7 @@ def fps_of(scene):
 
 
 def build_mesh(surface, name, options, new_materials, fps, names, fades=False):
-    """Returns a new mesh of a surface. fades: True for materials that fade by the object's colour (fading.py)."""
+    """Returns a new mesh of a surface. fades: True for materials that fade by the object's colour."""
     mesh = bpy.data.meshes.new(name)
     add_materials(mesh, surface, new_materials, options.own_materials, fades)
     fill_mesh(mesh, of_surface(surface, options.scale, options.crisp_colors, names), fps)

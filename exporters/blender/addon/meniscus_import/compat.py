@@ -147,16 +147,29 @@ def set_active_color(mesh, name):
     colors.active_color_index = colors.render_color_index = colors.find(name)
 
 
+def add_node(tree, kind, *inputs, **values):
+    """Adds a node by the name of its class, such as "ShaderNodeMath", and returns it. inputs: sockets that are linked to
+    its first inputs, or their values; None for the default. values: attributes of the node."""
+    node = tree.nodes.new(kind)
+    for name, value in values.items():
+        setattr(node, name, value)
+    for socket, value in zip(node.inputs, inputs):
+        if value is not None:
+            set_socket(tree, socket, value)
+    return node
+
+
+def set_socket(tree, socket, value):
+    """Sets an input to a value, or links it to another socket."""
+    if isinstance(value, bpy.types.NodeSocket):
+        tree.links.new(value, socket)
+    else:
+        socket.default_value = value
+
+
 def math_node(tree, operation, *operands):
     """Adds a node that computes with numbers and sockets, and returns its output."""
-    node = tree.nodes.new("ShaderNodeMath")
-    node.operation = operation
-    for socket, value in zip(node.inputs, operands):
-        if isinstance(value, (int, float)):
-            socket.default_value = value
-        else:
-            tree.links.new(value, socket)
-    return node.outputs[0]
+    return add_node(tree, "ShaderNodeMath", *operands, operation=operation).outputs[0]
 
 
 def can_drop_files():
@@ -198,25 +211,17 @@ def add_output(tree, name, kind):
 def hsv_node(tree, saturation, value):
     """Adds a node that makes a colour from its hue, which is the first input. 3.3 joined the nodes of all colour spaces
     into one."""
-    node = tree.nodes.new("ShaderNodeCombineColor")
-    node.mode = "HSV"
-    node.inputs[1].default_value, node.inputs[2].default_value = saturation, value
-    return node
+    return add_node(tree, "ShaderNodeCombineColor", None, saturation, value, mode="HSV")
 
 
 def mix_colors(tree, share, color, other):
     """Adds a node that mixes the colour of a socket with `other`, and returns its output. share: the weight of `other`,
     a number or a socket."""
-    node = tree.nodes.new("ShaderNodeMix")
-    node.data_type = "RGBA"
+    node = add_node(tree, "ShaderNodeMix", data_type="RGBA")
     factor, first, second = (next(socket for socket in node.inputs if socket.identifier == name)
                              for name in ("Factor_Float", "A_Color", "B_Color"))
-    second.default_value = other
-    if isinstance(share, bpy.types.NodeSocket):
-        tree.links.new(share, factor)
-    else:
-        factor.default_value = share
-    tree.links.new(color, first)
+    for socket, value in ((factor, share), (first, color), (second, other)):
+        set_socket(tree, socket, value)
     return next(socket for socket in node.outputs if socket.identifier == "Result_Color")
 
 
@@ -248,8 +253,7 @@ def line_art(item, name, width):
 
 def switch_geometry(tree, condition, if_true, otherwise):
     """Adds a node that chooses between two geometries, and returns its output. None stands for an empty geometry."""
-    node = tree.nodes.new("GeometryNodeSwitch")
-    node.input_type = "GEOMETRY"
+    node = add_node(tree, "GeometryNodeSwitch", input_type="GEOMETRY")
     for socket, source in zip((socket for socket in node.inputs if socket.enabled), (condition, otherwise, if_true)):
         if source is not None:
             tree.links.new(source, socket)

@@ -44,8 +44,7 @@ class SurfaceRequest:
         """Returns a process.Job whose result becomes a Shown."""
         about = {
             "request": dataclasses.asdict(self.request), "atoms": self.atoms and vars(self.atoms), "scale": self.scale,
-            "crisp": self.crisp, "others": [vars(each) for each in self.others]
-        }
+            "crisp": self.crisp, "others": [vars(each) for each in self.others]}
         job = working().submit(owner, self.key, "surface", about, urgency)
         job.make = lambda result: result and Shown(result, self)
         return job
@@ -66,7 +65,7 @@ def working():
 
 def search_tools_again():
     """Searches for the tools again, because they may have been installed meanwhile. Returns the result of
-    works.Tools.describe_tools()."""
+    jobs.Tools.describe_tools()."""
     end()
     return working().describe_tools()
 
@@ -269,8 +268,7 @@ def _deliver(done):
             before = item.data.get(SHOWN)
             copies = [
                 other for other in bpy.data.objects
-                if other != item and showing.requests_same_surface(item, other) and other.data.get(SHOWN) == before
-            ]
+                if other != item and showing.requests_same_surface(item, other) and other.data.get(SHOWN) == before]
             for each in (item, *copies):
                 try:
                     show(each, job.key, _kept[job.key])

@@ -2,6 +2,8 @@
 """The frames of a run as meshes of the file. Geometry Nodes of an object show the mesh of the scene's time, without
 scripts."""
 
+import functools
+
 import bpy
 
 from . import compat, sequence_reader
@@ -111,9 +113,7 @@ def _one_of(tree, items, first, index, may_group):
     """Returns the output with the geometry of the item at the place `index`. The places of `items` begin with `first`.
     may_group: True if a small number of items may become a node group."""
     if len(items) == 1:
-        node = tree.nodes.new("GeometryNodeObjectInfo")
-        node.inputs["Object"].default_value = items[0]
-        return node.outputs["Geometry"]
+        return compat.add_node(tree, "GeometryNodeObjectInfo", items[0]).outputs["Geometry"]
     if may_group and len(items) <= MOST_OF_A_GROUP:
         return _group_of(tree, items, first, index)
     half = len(items) // 2
@@ -130,18 +130,13 @@ def _group_of(tree, items, first, index):
     compat.add_output(inner, "Geometry", "NodeSocketGeometry")
     given, result = inner.nodes.new("NodeGroupInput"), inner.nodes.new("NodeGroupOutput")
     inner.links.new(_one_of(inner, items, first, given.outputs[0], False), result.inputs[0])
-    node = tree.nodes.new("GeometryNodeGroup")
-    node.node_tree = inner
-    tree.links.new(index, node.inputs[0])
-    return node.outputs[0]
+    return compat.add_node(tree, "GeometryNodeGroup", index, node_tree=inner).outputs[0]
 
 
 def _index(tree, given, count):
     """Returns two sockets: the index of the shown frame from 0, and 1 if a frame is shown or 0. The nodes compute what
     sequence_reader.Timing does."""
-
-    def math(operation, *operands):
-        return compat.math_node(tree, operation, *operands)
+    math = functools.partial(compat.math_node, tree)
 
     def choose(condition, if_true, otherwise):  # the condition is 0 or 1
         return math("ADD", otherwise, math("MULTIPLY", condition, math("SUBTRACT", if_true, otherwise)))

@@ -43,8 +43,7 @@ def packed(prepared):
     existing = {name: np.empty(0) for name in ("atom.opacity", "mesh.cap_plane") if surface.get(name) is not None}
     return {
         "path": surface.path, "header": surface.header, "existing": existing, "arrays": vars(prepared.arrays),
-        "points": prepared.points, "triangles": prepared.triangles
-    }
+        "points": prepared.points, "triangles": prepared.triangles}
 
 
 def unpacked(given):

@@ -24,10 +24,8 @@ STAND_INS = {
     "atom.entity": (4, 1, np.int32),
     **{
         f"atom.{name}": (0.0, 1, np.float32)
-        for name in ("charge", "hydrophobicity", "area", "accessible_area", "buried_area")
-    },
-    **{f"mesh.{name}": (0.0, 1, np.float32) for name in mns_reader.OF_VERTICES if name.endswith("curvature")},
-}
+        for name in ("charge", "hydrophobicity", "area", "accessible_area", "buried_area")},
+    **{f"mesh.{name}": (0.0, 1, np.float32) for name in mns_reader.OF_VERTICES if name.endswith("curvature")}}
 OF_TRIANGLES = ("mesh.kind", "mesh.patch", "mesh.component", "mesh.atom", "mesh.cap_plane", "mesh.patch_area")
 OF_VERTICES = ("mesh.position", "mesh.normal", "mesh.velocity", "mesh.map_color", *(f"mesh.{name}"
                                                                                     for name in mns_reader.OF_VERTICES))

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Materials that colour by attributes, so that colours of a mesh can change without a new computation."""
 
+import functools
+
 import bpy
 
-from . import compat, fading, materials, mns_reader
+from . import compat, materials, mns_reader
 from .mesh_arrays import SLOTS
 
 #: The custom property that identifies node groups and materials of this module.
@@ -51,8 +53,7 @@ COLORINGS = {
     "CONFIDENCE": "Confidence (pLDDT)", "B_FACTOR": "B-factor", "CHARGE": "Charge", "POTENTIAL": "Potential map",
     "HYDROPHOBICITY": "Hydrophobicity (Kyte & Doolittle)", "LIPOPHILICITY": "Lipophilicity", "KIND": "Patch kind",
     "CURVATURE": "Curvature", "SMOOTH_CURVATURE": "Curvature, smooth", "ATOM_AREA": "Area of the atom",
-    "ACCESSIBLE_AREA": "Accessible area of the atom", "BURIED_AREA": "Buried area of the atom"
-}
+    "ACCESSIBLE_AREA": "Accessible area of the atom", "BURIED_AREA": "Buried area of the atom"}
 #: Name of a colouring -> its attribute.
 ATTRIBUTES = {"COLOR": "Color", **HUES, **{name: of[0] for of_all in (STEPS, SCALES) for name, of in of_all.items()}}
 #: Name of a look -> its label.
@@ -94,9 +95,7 @@ def _color(tree, name):
 
 
 def _attribute(tree, name):
-    node = tree.nodes.new("ShaderNodeAttribute")
-    node.attribute_name = name
-    return node
+    return compat.add_node(tree, "ShaderNodeAttribute", attribute_name=name)
 
 
 def _steps(tree, attribute, steps):
@@ -134,11 +133,9 @@ def _ramp(tree, stops):
 
 def _hues(tree, attribute):
     """Adds nodes with a hue for each integer. Multiples of the golden section are never near one another."""
-    number = compat.math_node(tree, "FLOOR",
-                              compat.math_node(tree, "ADD",
-                                               _attribute(tree, attribute).outputs["Fac"], 0.5))
-    hue = compat.math_node(tree, "FRACT",
-                           compat.math_node(tree, "ADD", compat.math_node(tree, "MULTIPLY", number, 0.6180340), 0.58))
+    math = functools.partial(compat.math_node, tree)
+    number = math("FLOOR", math("ADD", _attribute(tree, attribute).outputs["Fac"], 0.5))
+    hue = math("FRACT", math("ADD", math("MULTIPLY", number, 0.6180340), 0.58))
     node = compat.hsv_node(tree, 0.45, 0.85)
     tree.links.new(hue, node.inputs[0])
     return node.outputs[0]
@@ -177,13 +174,10 @@ def material(look, coloring, scale=0.1, kind=materials.OPAQUE, fades=False, look
     made[MARK] = mark
     tree = compat.node_tree(made)
     output = compat.find_or_add(tree, "OUTPUT_MATERIAL", "ShaderNodeOutputMaterial")
-    group = tree.nodes.new("ShaderNodeGroup")
-    group.node_tree = coloring_group(coloring)
-    group.location = (-400, 0)
+    group = compat.add_node(tree, "ShaderNodeGroup", node_tree=coloring_group(coloring), location=(-400, 0))
     color = group.outputs["Color"]
     if look == "FLAT":
-        shader = tree.nodes.new("ShaderNodeEmission")
-        tree.links.new(color, shader.inputs["Color"])
+        shader = compat.add_node(tree, "ShaderNodeEmission", color)
         for node in [node for node in tree.nodes if node.type == "BSDF_PRINCIPLED"]:
             tree.nodes.remove(node)
     else:
@@ -202,7 +196,7 @@ def material(look, coloring, scale=0.1, kind=materials.OPAQUE, fades=False, look
             tree.links.new(materials.let_through(tree, kind, surface.links[0].from_socket, shader), surface)
         compat.let_through(made)
     if fades:
-        fading.add(made)
+        materials.add_fade(made)
     return made
 
 
@@ -240,10 +234,8 @@ def _glass(tree, shader, color, output, scale):
     enters, and absorbed along its way inside. That works in Cycles. Eevee fills the whole bounding box with a volume,
     so there the surface has more of the colour."""
     tree.links.new(_clear(tree, shader, color, 0.5), output.inputs["Surface"])
-    absorption = tree.nodes.new("ShaderNodeVolumeAbsorption")
-    absorption.inputs["Color"].default_value = (0.75, 0.85, 0.9, 1.0)
-    absorption.inputs["Density"].default_value = 0.02 / scale
-    absorption.location = (output.location[0] - 220, output.location[1] - 200)
+    absorption = compat.add_node(tree, "ShaderNodeVolumeAbsorption", (0.75, 0.85, 0.9, 1.0), 0.02 / scale,
+                                 location=(output.location[0] - 220, output.location[1] - 200))
     tree.links.new(absorption.outputs[0], output.inputs["Volume"])
     other, in_color = tree.nodes.new("ShaderNodeOutputMaterial"), tree.nodes.new("ShaderNodeBsdfPrincipled")
     output.target, other.target = "CYCLES", "EEVEE"
@@ -258,16 +250,13 @@ def _clear(tree, shader, color, white):
     _set(shader, GLASS_BENDS, "IOR")
     _set(shader, 1.0, "Transmission Weight", "Transmission")
     tree.links.new(compat.mix_colors(tree, white, color, (1.0, 1.0, 1.0, 1.0)), shader.inputs["Base Color"])
-    mirror, fresnel, side, both = (tree.nodes.new("ShaderNode" + kind)
-                                   for kind in ("BsdfGlossy", "Fresnel", "NewGeometry", "MixShader"))
-    mirror.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
-    mirror.inputs["Roughness"].default_value = 0.08  # enough to sample lamps without grain
-    fresnel.inputs["IOR"].default_value = GLASS_IOR
+    # This roughness is enough to sample lamps without grain.
+    mirror = compat.add_node(tree, "ShaderNodeBsdfGlossy", (1.0, 1.0, 1.0, 1.0), 0.08)
+    fresnel = compat.add_node(tree, "ShaderNodeFresnel", GLASS_IOR)
+    side = tree.nodes.new("ShaderNodeNewGeometry")
     outside = compat.math_node(tree, "SUBTRACT", 1.0, side.outputs["Backfacing"])
-    tree.links.new(compat.math_node(tree, "MULTIPLY", fresnel.outputs[0], outside), both.inputs[0])
-    tree.links.new(shader.outputs[0], both.inputs[1])
-    tree.links.new(mirror.outputs[0], both.inputs[2])
-    return both.outputs[0]
+    share = compat.math_node(tree, "MULTIPLY", fresnel.outputs[0], outside)
+    return compat.add_node(tree, "ShaderNodeMixShader", share, shader.outputs[0], mirror.outputs[0]).outputs[0]
 
 
 MAKERS = {"PAINT": _paint, "CLAY": _clay, "WAX": _wax}

@@ -2,9 +2,11 @@
 """The materials of imported surfaces. They are found by their purpose and shared by all imports, and edits of the user
 remain."""
 
+import functools
+
 import bpy
 
-from . import compat, fading
+from . import compat
 from .mesh_arrays import SLOTS
 
 #: The kinds of opacity of a surface, and the endings of the names of their materials.
@@ -59,7 +61,7 @@ def find_or_make(role, kind, new_materials, own=False, hatching=None, looks=(), 
     """Returns the material of a role for a kind of opacity. It is created if needed, and then added to new_materials.
 
     role: one of SLOTS. own: True for a material of this import only. hatching: the result of hatching_of(). looks: the
-    result of looks_of(). fades: True if it fades by the object's colour (fading.py)."""
+    result of looks_of(). fades: True if it fades by the object's colour."""
     mark = (f"{role} {kind}" + (" own" if own else "") +
             ("" if hatching is None else " hatched {:g} {:g}".format(*hatching)))
     mark += "".join(f" {key} {value:g}" for key, value in looks) + (" fading" if fades else "")
@@ -73,7 +75,7 @@ def find_or_make(role, kind, new_materials, own=False, hatching=None, looks=(), 
     material[MARK] = mark
     _fill(material, kind, hatching, dict(looks))
     if fades:
-        fading.add(material)
+        add_fade(material)
     return material
 
 
@@ -122,19 +124,14 @@ def opacity_of(tree, kind, near):
 def let_through(tree, kind, surface, near):
     """Returns the output of a shader that mixes `surface` with transparency according to its opacity, like Alpha in a
     Principled shader."""
-    mix = tree.nodes.new("ShaderNodeMixShader")
-    mix.location = (near.location[0] + 200, near.location[1] - 200)
-    tree.links.new(opacity_of(tree, kind, near), mix.inputs[0])
-    tree.links.new(tree.nodes.new("ShaderNodeBsdfTransparent").outputs[0], mix.inputs[1])
-    tree.links.new(surface, mix.inputs[2])
-    return mix.outputs[0]
+    clear = tree.nodes.new("ShaderNodeBsdfTransparent").outputs[0]
+    return compat.add_node(tree, "ShaderNodeMixShader", opacity_of(tree, kind, near), clear, surface,
+                           location=(near.location[0] + 200, near.location[1] - 200)).outputs[0]
 
 
 def _attribute(tree, name, near, down):
-    node = tree.nodes.new("ShaderNodeAttribute")
-    node.attribute_name = name
-    node.location = (near.location[0] - 220, near.location[1] + down)
-    return node
+    return compat.add_node(tree, "ShaderNodeAttribute", attribute_name=name,
+                           location=(near.location[0] - 220, near.location[1] + down))
 
 
 def _hatched(tree, color, shader, share, light):
@@ -142,19 +139,14 @@ def _hatched(tree, color, shader, share, light):
     lines. light: the relative brightness of the lines."""
     stripe = compat.math_node(tree, "FRACT", _attribute(tree, "cap_stripe", shader, -520).outputs["Fac"])
     dark = compat.math_node(tree, "LESS_THAN", stripe, share)
-    return _scaled(tree, color,
-                   compat.math_node(tree, "SUBTRACT", 1.0, compat.math_node(tree, "MULTIPLY", dark, 1.0 - light)))
+    lines = compat.math_node(tree, "MULTIPLY", dark, 1.0 - light)
+    return _scaled(tree, color, compat.math_node(tree, "SUBTRACT", 1.0, lines))
 
 
 def _scaled(tree, color, factor):
-    scaled = tree.nodes.new("ShaderNodeVectorMath")
-    scaled.operation = "SCALE"
-    tree.links.new(color, scaled.inputs[0])
-    if isinstance(factor, float):
-        scaled.inputs["Scale"].default_value = factor
-    else:
-        tree.links.new(factor, scaled.inputs["Scale"])
-    return scaled.outputs["Vector"]
+    node = compat.add_node(tree, "ShaderNodeVectorMath", color, operation="SCALE")
+    compat.set_socket(tree, node.inputs["Scale"], factor)
+    return node.outputs["Vector"]
 
 
 def set_looks(tree, shader, looks):
@@ -174,8 +166,7 @@ def set_looks(tree, shader, looks):
         rest = _scaled(tree, color, 1.0 - looks["ambient"])
         for socket in [
                 link.to_socket for link in tree.links
-                if link.to_node == shader and link.to_socket.name in ("Base Color", "Subsurface Color")
-        ]:
+                if link.to_node == shader and link.to_socket.name in ("Base Color", "Subsurface Color")]:
             tree.links.new(rest, socket)
 
 
@@ -183,12 +174,70 @@ def _through_a_film(tree, opacity):
     """Returns the socket with the opacity of a film by Bouguer's law: 1 - (1 - opacity)^(1 / c), where c is the cosine
     of the angle between the line of sight and the normal, at least LEAST_COSINE."""
     geometry = tree.nodes.new("ShaderNodeNewGeometry")
-    facing = tree.nodes.new("ShaderNodeVectorMath")
-    facing.operation = "DOT_PRODUCT"
-    tree.links.new(geometry.outputs["Normal"], facing.inputs[0])
-    tree.links.new(geometry.outputs["Incoming"], facing.inputs[1])
-    cosine = compat.math_node(tree, "MAXIMUM", compat.math_node(tree, "ABSOLUTE", facing.outputs["Value"]),
-                              LEAST_COSINE)
-    through = compat.math_node(tree, "SUBTRACT", 1.0, opacity)
-    return compat.math_node(tree, "SUBTRACT", 1.0,
-                            compat.math_node(tree, "POWER", through, compat.math_node(tree, "DIVIDE", 1.0, cosine)))
+    facing = compat.add_node(tree, "ShaderNodeVectorMath", geometry.outputs["Normal"], geometry.outputs["Incoming"],
+                             operation="DOT_PRODUCT")
+    math = functools.partial(compat.math_node, tree)
+    cosine = math("MAXIMUM", math("ABSOLUTE", facing.outputs["Value"]), LEAST_COSINE)
+    return math("SUBTRACT", 1.0, math("POWER", math("SUBTRACT", 1.0, opacity), math("DIVIDE", 1.0, cosine)))
+
+
+#: The node group of materials that fade objects in and out by one number, the alpha of the object's colour: 0 before the
+#: object appears, 1 while it is visible, 2 after it has disappeared.
+FADE = "Meniscus fade"
+#: The number of stripes per pixel, across and down, a share of which is shown. They are finer than any picture and
+#: incommensurable with its rows.
+STRIPES = (7.31, 3.17)
+#: The size in pixels of a picture with this number of stripes per pixel. Larger pictures have wider stripes.
+WIDTH, HEIGHT = 4096.0, 4096.0
+#: A fading object casts no shadow on points nearer than this (Å), because two scenes may have nearly the same surface.
+NEAR = 0.1
+
+
+def add_fade(material):
+    """Makes a material fade. In Cycles, the position of a camera ray in its pixel determines if the ray sees the object
+    or passes it. So a ray meets exactly one of two objects that fade into each other, and the mean of a pixel is the
+    blend of their pictures. For other rays, and in Eevee, the object becomes transparent."""
+    tree = material.node_tree
+    output = compat.find_or_add(tree, "OUTPUT_MATERIAL", "ShaderNodeOutputMaterial")
+    shader = output.inputs["Surface"].links[0].from_socket
+    x, y = output.location
+    fade = compat.add_node(tree, "ShaderNodeGroup", node_tree=_fade_group(), location=(x, y - 200))
+    output.location[0] += 200
+    for_cycles = compat.add_node(tree, "ShaderNodeOutputMaterial", target="CYCLES", location=(x + 200, y - 200))
+    tree.links.new(shader, fade.inputs["Shader"])
+    tree.links.new(fade.outputs["Shader"], output.inputs["Surface"])
+    tree.links.new(fade.outputs["Shader of Cycles"], for_cycles.inputs["Surface"])
+    compat.let_through(material)
+
+
+def _fade_group():
+    """Returns the node group that all fading materials share, and creates it if needed."""
+    found = bpy.data.node_groups.get(FADE)
+    if found is not None and found.bl_idname == "ShaderNodeTree":
+        return found
+    tree = bpy.data.node_groups.new(FADE, "ShaderNodeTree")
+    compat.add_input(tree, "Shader", "NodeSocketShader", None)
+    compat.add_output(tree, "Shader", "NodeSocketShader")
+    compat.add_output(tree, "Shader of Cycles", "NodeSocketShader")
+    math = functools.partial(compat.math_node, tree)
+    inside, outside = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+    there = tree.nodes.new("ShaderNodeObjectInfo").outputs["Alpha"]
+    past = math("SUBTRACT", there, 1.0)
+    opacity = math("SUBTRACT", 1.0, math("MINIMUM", math("ABSOLUTE", past), 1.0))
+    window = tree.nodes.new("ShaderNodeTexCoord").outputs["Window"]
+    place = compat.add_node(tree, "ShaderNodeSeparateXYZ", window).outputs
+    across = math("MULTIPLY", place["X"], STRIPES[0] * WIDTH)
+    stripe = math("FRACT", math("MULTIPLY_ADD", place["Y"], STRIPES[1] * HEIGHT, across))
+    come = math("LESS_THAN", stripe, there)
+    seen = math("MULTIPLY", come, math("SUBTRACT", 1.0, math("LESS_THAN", stripe, past)))
+    path = tree.nodes.new("ShaderNodeLightPath").outputs
+    scale = compat.add_node(tree, "ShaderNodeAttribute", attribute_type="OBJECT", attribute_name="meniscus_scale")
+    far = math("GREATER_THAN", path["Ray Length"], math("MULTIPLY", scale.outputs["Fac"], NEAR))
+    blocks = math("MAXIMUM", far, math("GREATER_THAN", opacity, 0.9999))
+    other = math("MULTIPLY", math("MULTIPLY", opacity, blocks), math("SUBTRACT", 1.0, path["Is Camera Ray"]))
+    of_cycles = math("MULTIPLY_ADD", seen, path["Is Camera Ray"], other)
+    nothing = tree.nodes.new("ShaderNodeBsdfTransparent").outputs[0]
+    for share, name in ((opacity, "Shader"), (of_cycles, "Shader of Cycles")):
+        mix = compat.add_node(tree, "ShaderNodeMixShader", share, nothing, inside.outputs["Shader"])
+        tree.links.new(mix.outputs[0], outside.inputs[name])
+    return tree

@@ -11,41 +11,29 @@ from . import mns_reader
 SLOTS = ("outer", "cavity", "cap")
 #: Attributes of faces, which are not interpolated there, and their arrays. Only joined objects have ses_object.
 FACE_INTEGERS = {
-    "ses_kind": "mesh.kind", "ses_patch": "mesh.patch", "ses_component": "mesh.component", "ses_object": "mesh.object",
-}
+    "ses_kind": "mesh.kind", "ses_patch": "mesh.patch", "ses_component": "mesh.component", "ses_object": "mesh.object"}
 #: Attributes of points with numbers of atoms, as in Molecular Nodes and with its names if it has them: the array of the
 #: atoms, and the type. vdw_radii is in Blender units. Attributes in NAMES are indices into the sorted names.
 POINT_NUMBERS = {
-    "atomic_number": ("atom.atomic_number", "INT"),
-    "res_id": ("atom.res_id", "INT"),
-    "chain_id": ("atom.chain_id", "INT"),
-    "atom_name_id": ("atom.name_id", "INT"),
-    "res_name_id": ("atom.residue_name_id", "INT"),
-    "entity": ("atom.entity", "INT"),
-    "charge": ("atom.charge", "FLOAT"),
-    "hydrophobicity": ("atom.hydrophobicity", "FLOAT"),
-    "b_factor": ("atom.b_factor", "FLOAT"),
-    "vdw_radii": ("atom.radius", "FLOAT"),
-    "atom_area": ("atom.area", "FLOAT"),
-    "accessible_area": ("atom.accessible_area", "FLOAT"),
-    "buried_area": ("atom.buried_area", "FLOAT"),
-}
+    "atomic_number": ("atom.atomic_number", "INT"), "res_id": ("atom.res_id", "INT"),
+    "chain_id": ("atom.chain_id", "INT"), "atom_name_id": ("atom.name_id", "INT"),
+    "res_name_id": ("atom.residue_name_id", "INT"), "entity": ("atom.entity", "INT"),
+    "charge": ("atom.charge", "FLOAT"), "hydrophobicity": ("atom.hydrophobicity", "FLOAT"),
+    "b_factor": ("atom.b_factor", "FLOAT"), "vdw_radii": ("atom.radius", "FLOAT"), "atom_area": ("atom.area", "FLOAT"),
+    "accessible_area": ("atom.accessible_area", "FLOAT"), "buried_area": ("atom.buried_area", "FLOAT")}
 #: Attributes of points with numbers of the surface, and their arrays. Curvatures are in 1/Å and 1/Å² for any scale.
 VERTEX_NUMBERS = {
     name: f"mesh.{name}" for name in ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature",
-                                      "smooth_gaussian_curvature", "open_sky")
-}
+                                      "smooth_gaussian_curvature", "open_sky")}
 #: Attributes that are indices into a list of names: the key of the list in headers, and the custom property with the
 #: sorted list.
 NAMES = {
     "chain_id": ("chain_names", "chain_ids"), "atom_name_id": ("atom_names", "atom_names"),
-    "res_name_id": ("residue_names", "res_names")
-}
+    "res_name_id": ("residue_names", "res_names")}
 #: All attributes that an import makes.
 OURS = {
     "atom_index", "ses_atom", "opacity", "velocity", "Color", "ses_cap", "cap_stripe", "map_value", "map_known",
-    "patch_area", *FACE_INTEGERS, *POINT_NUMBERS, *VERTEX_NUMBERS
-}
+    "patch_area", *FACE_INTEGERS, *POINT_NUMBERS, *VERTEX_NUMBERS}
 
 
 @dataclasses.dataclass

@@ -1,18 +1,97 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads and checks .mns files (FORMAT.md of Meniscus). Uses numpy only, not Blender."""
+"""Reads and checks .mns files (FORMAT.md of Meniscus), and checks values of headers and manifests before they are used.
+Uses numpy only, not Blender."""
 
 import json
 import mmap
 import os
+import reprlib
 import struct
 import zlib
 
 import numpy as np
 
-try:
-    from . import header_values
-except ImportError:  # imported outside of the add-on
-    import header_values
+#: Larger numbers have no finite square, or none that Blender's single precision can hold after scaling.
+TOO_LARGE = 1e30
+#: Returns a shortened text of a value for messages.
+shortened = reprlib.repr
+
+
+def is_number(value, low=-TOO_LARGE, high=TOO_LARGE):
+    """True if a value is a finite number from low to high. Booleans are not numbers."""
+    return type(value) in (int, float) and low <= value <= high
+
+
+def are_numbers(values, count, low=-TOO_LARGE, high=TOO_LARGE):
+    """True if a value is a list of `count` numbers from low to high."""
+    return isinstance(values, list) and len(values) == count and all(is_number(value, low, high) for value in values)
+
+
+def is_text(value):
+    """True if a value is a text that Blender accepts: without zero characters and lone surrogates."""
+    return isinstance(value, str) and not any(each == "\0" or "\ud800" <= each <= "\udfff" for each in value)
+
+
+def _number(low, high, words):
+    return lambda value: is_number(value, low, high), words
+
+
+def _list_of(count, words):
+    return lambda value: isinstance(value, list) and len(value) > 0 and all(are_numbers(each, count)
+                                                                            for each in value), words
+
+
+#: Pairs of a test and a description of the values that pass it.
+TEXT = (is_text, "a text")
+TEXTS = (lambda value: isinstance(value, list) and all(map(is_text, value)), "a list of texts")
+DICT = (lambda value: isinstance(value, dict), "an object")
+NUMBER = _number(-TOO_LARGE, TOO_LARGE, "a number")
+SHARE = _number(0.0, 1.0, "a number from 0 to 1")
+POSITIVE = _number(1e-9, 1e9, "a number above 0")
+SHININESS = _number(1.0, 1000.0, "a number from 1 to 1000")
+VECTOR = (lambda value: are_numbers(value, 3), "three numbers")
+PLANES = _list_of(4, "a list of planes, each a normal and an offset")
+DIRECTIONS = _list_of(3, "a list of directions")
+COLOR = (lambda value: are_numbers(value, 3, 0.0, 1.0), "three numbers from 0 to 1")
+COLORS = (lambda value: isinstance(value, list) and len(value) == 3 and all(map(COLOR[0], value)), "three colours")
+SIZE = (lambda value: are_numbers(value, 2, 1, 65536) and all(type(each) is int
+                                                              for each in value), "two whole numbers from 1 to 65536")
+SOURCE = {"source": DICT, "source.file": TEXT}
+#: The key of a camera's field of view by its projection, the keys of its vectors, and the tests of all keys.
+SIZES = {"perspective": "vertical_fov", "orthographic": "height"}
+VECTORS = ("position", "target", "up")
+CAMERA = {
+    **{key: VECTOR for key in VECTORS}, "size": SIZE, "shadows": SHARE,
+    "shadow_softness": _number(0.0, 90.0, "a number from 0 to 90"),
+    "projection": (lambda value: isinstance(value, str) and value in SIZES, "perspective or orthographic"),
+    "vertical_fov": _number(1e-9, 179.999999, "a number above 0 and below 180"), "height": POSITIVE}
+
+
+def check(header, table, needed=()):
+    """Raises ValueError with one sentence for the first value of a header that fails its test. table: key -> a pair of
+    a test and a description; a dot separates a key from a key inside it. needed: the keys that must exist."""
+    for key, (is_good, words) in table.items():
+        holder = header
+        *outer, last = key.split(".")
+        for each in outer:
+            holder = holder.get(each, {})
+        if last in holder and not is_good(holder[last]):
+            raise ValueError(f"{key} is {shortened(holder[last])}, not {words}")
+        if last not in holder and key in needed:
+            raise ValueError(f"{key} is missing")
+
+
+def check_camera(camera):
+    """Raises ValueError with one sentence if a camera lacks a key or has invalid values."""
+    if not isinstance(camera, dict):
+        raise ValueError(f"it is {shortened(camera)}, not an object")
+    check(camera, CAMERA, (*VECTORS, "projection"))
+    check(camera, CAMERA, (SIZES[camera["projection"]],))
+    position, target, up = (np.array(camera[key], dtype=np.float64) for key in VECTORS)
+    view = target - position
+    if np.linalg.norm(np.cross(view, up)) <= 1e-9 * np.linalg.norm(view) * np.linalg.norm(up):
+        raise ValueError("position equals target, or up points along the view")
+
 
 MAGIC = b"\x89MNS\r\n\x1a\n"
 VERSION = 3
@@ -21,9 +100,8 @@ TYPES = ("<f4", "<f8", "<u4", "<i4", "|u1")
 #: Arrays that a mesh must have, and their columns.
 NEEDED = {
     "mesh.position": 3, "mesh.normal": 3, "mesh.triangle": 3, "mesh.kind": 1, "mesh.patch": 1, "mesh.component": 1,
-    "mesh.atom": 1, "mesh.sharp_corner": 1, "mesh.sharp_corner_normal": 3, "mesh.sharp_edge": 2,
-    "atom.center": 3, "atom.radius": 1, "atom.color": 3,
-}
+    "mesh.atom": 1, "mesh.sharp_corner": 1, "mesh.sharp_corner_normal": 3, "mesh.sharp_edge": 2, "atom.center": 3,
+    "atom.radius": 1, "atom.color": 3}
 #: Optional numbers of atoms and of vertices.
 OF_ATOMS = ("b_factor", "charge", "hydrophobicity", "atomic_number", "res_id", "chain_id", "name_id", "residue_name_id",
             "entity", "area", "accessible_area", "buried_area", "index", "file_index", "opacity", "own_color")
@@ -39,32 +117,20 @@ WHOLE = ("atomic_number", "res_id", "chain_id", "name_id", "residue_name_id", "e
 CAP = 4
 #: Tests of the values of headers. Values of an object are in its own part of the header.
 VALUES = {
-    "generator": header_values.TEXT,
-    **header_values.SOURCE,
-    "name": header_values.TEXT,
-    "mesh": header_values.DICT,
-    "mesh.origin": header_values.VECTOR,
-    "mesh.tolerance": header_values.NUMBER,
-    "kind_colors": header_values.COLORS,
-    **{key: header_values.NUMBER for key in ("probe_radius", "area", "volume")},
-    **{key: header_values.TEXTS for key in ("chain_names", "atom_names", "residue_names")},
-    "material": header_values.DICT,
-    **{f"material.{key}": header_values.SHARE for key in ("ambient", "roughness", "specular")},
-    "material.shininess": header_values.SHININESS,
-    "caps": header_values.DICT,
-    "caps.planes": header_values.PLANES,
-    "caps.color": header_values.COLOR,
-    "caps.hatching": header_values.DICT,
-    "caps.hatching.across": header_values.DIRECTIONS,
-    "caps.hatching.distance": header_values.POSITIVE,
-    "caps.hatching.share": header_values.SHARE,
-    "caps.hatching.light": header_values.SHARE,
-}
+    "generator": TEXT, **SOURCE, "name": TEXT, "mesh": DICT,
+    "mesh.origin": VECTOR, "mesh.tolerance": NUMBER, "kind_colors": COLORS,
+    **{key: NUMBER for key in ("probe_radius", "area", "volume")},
+    **{key: TEXTS for key in ("chain_names", "atom_names", "residue_names")},
+    "material": DICT,
+    **{f"material.{key}": SHARE for key in ("ambient", "roughness", "specular")},
+    "material.shininess": SHININESS, "caps": DICT, "caps.planes": PLANES,
+    "caps.color": COLOR, "caps.hatching": DICT,
+    "caps.hatching.across": DIRECTIONS, "caps.hatching.distance": POSITIVE,
+    "caps.hatching.share": SHARE, "caps.hatching.light": SHARE}
 #: Tests of the values of an entry of the components.
 COMPONENT = {
-    "components": header_values.DICT, "components.kind": header_values.TEXT, "components.area": header_values.NUMBER,
-    "components.volume": header_values.NUMBER
-}
+    "components": DICT, "components.kind": TEXT, "components.area": NUMBER,
+    "components.volume": NUMBER}
 
 
 class MnsError(Exception):
@@ -92,18 +158,18 @@ def read_json(path, what=""):
 
 def read_manifest(path, kind, words, version, values, needed, what=""):
     """Returns the checked header of a JSON file that belongs to .mns files. kind: its format. words: its description
-    for messages. version: the newest known version. values, needed: arguments of header_values.check(). what: a note on
+    for messages. version: the newest known version. values, needed: arguments of check(). what: a note on
     its origin. Raises MnsError or OSError."""
     header = read_json(path, what)
     if not isinstance(header, dict) or header.get("format") != kind:
         raise MnsError(f"{path}: not {words}")
     found = header.get("version")
     if type(found) is not int or found < 1:
-        raise MnsError(f"{path}: version {header_values.shortened(found)} does not exist")
+        raise MnsError(f"{path}: version {shortened(found)} does not exist")
     if found > version:
         raise MnsError(f"{path}: version {found} is newer than this add-on knows ({version}); update it")
     try:
-        header_values.check(header, values, needed)
+        check(header, values, needed)
     except ValueError as error:
         raise MnsError(f"{path}: {error}") from None
     return header
@@ -159,7 +225,7 @@ def read(path):
         raise MnsError(f"{path}: it holds atoms, not a surface")
     try:
         if "camera" in header:
-            header_values.check_camera(header["camera"])
+            check_camera(header["camera"])
     except ValueError as error:
         raise MnsError(f"{path}: camera: {error}") from None
     return File(header, _objects(path, header, arrays))
@@ -205,7 +271,7 @@ def _check_copies(path, entry):
     """Raises MnsError if a copy is not a rotation and a translation, because Blender would show a mirrored or sheared
     molecule without a warning."""
     copies = entry.get("copies", [IDENTITY])
-    if not isinstance(copies, list) or not all(header_values.are_numbers(copy, 12) for copy in copies):
+    if not isinstance(copies, list) or not all(are_numbers(copy, 12) for copy in copies):
         raise MnsError(f"{path}: copies are not lists of twelve numbers")
     matrices = np.array(copies, dtype=np.float64).reshape(-1, 3, 4)
     turns = matrices[:, :, :3]
@@ -299,19 +365,13 @@ def _check(surface):
         "mesh.component": triangles, "mesh.atom": triangles, "mesh.cap_plane": triangles, "mesh.patch_area": triangles,
         "mesh.map_color": vertices, "atom.radius": atoms, "atom.color": atoms,
         **{f"mesh.{name}": vertices for name in OF_VERTICES}, **{f"atom.{name}": atoms for name in OF_ATOMS},
-        "mesh.sharp_corner_normal": len(arrays["mesh.sharp_corner"]),
-    }
+        "mesh.sharp_corner_normal": len(arrays["mesh.sharp_corner"])}
     for name, rows in lengths.items():
         if name in arrays and len(arrays[name]) != rows:
             raise MnsError(f"{path}: array {name} has {len(arrays[name])} rows instead of {rows}")
     limits = {
-        "mesh.triangle": vertices,
-        "mesh.sharp_edge": vertices,
-        "mesh.sharp_corner": 3 * triangles,
-        "mesh.kind": CAP + 1 if "caps" in surface.header else 3,
-        "mesh.component": components,
-        "mesh.atom": atoms,
-    }
+        "mesh.triangle": vertices, "mesh.sharp_edge": vertices, "mesh.sharp_corner": 3 * triangles,
+        "mesh.kind": CAP + 1 if "caps" in surface.header else 3, "mesh.component": components, "mesh.atom": atoms}
     for name in [f"atom.{name}" for name in WHOLE if f"atom.{name}" in arrays]:
         if arrays[name].dtype.kind not in "iu":
             raise MnsError(f"{path}: array {name} does not hold whole numbers")
@@ -327,14 +387,14 @@ def _check_values(surface):
     header = surface.header
     needed = ["mesh", "mesh.origin", *(["caps.planes"] if "caps" in header else ())]
     try:
-        header_values.check(header, VALUES, needed)
+        check(header, VALUES, needed)
         if "hatching" in header.get("caps", ()):
-            header_values.check(header, VALUES, [key for key in VALUES if key.startswith("caps.hatching.")])
+            check(header, VALUES, [key for key in VALUES if key.startswith("caps.hatching.")])
         listed = header.get("components", [])
         if not isinstance(listed, list):
-            raise ValueError(f"components is {header_values.shortened(listed)}, not a list")
+            raise ValueError(f"components is {shortened(listed)}, not a list")
         for component in listed:
-            header_values.check({"components": component}, COMPONENT, ("components", "components.kind"))
+            check({"components": component}, COMPONENT, ("components", "components.kind"))
     except ValueError as error:
         raise MnsError(f"{surface.path}: {error}") from None
 

@@ -42,8 +42,7 @@ def frames_of(item):
     collection = bpy.data.collections.get(f".data_{item.name}_frames")
     count = len(item.data.vertices)
     frames = [] if collection is None else [
-        other for other in collection.objects if other.type == "MESH" and len(other.data.vertices) == count
-    ]
+        other for other in collection.objects if other.type == "MESH" and len(other.data.vertices) == count]
     return sorted(
         frames,
         key=lambda other: int("0" + "".join(c for c in other.name.rpartition("_")[2].split(".")[0] if c.isdigit())))
@@ -62,8 +61,7 @@ def read(item, scale, selection="", place=0):
     index = np.flatnonzero(chosen).astype(np.uint32)
     numbers = {
         array: _values(mesh, name)[chosen].astype(kind) for name, (array, kind) in ARRAYS.items()
-        if _is_number(mesh, name)
-    }
+        if _is_number(mesh, name)}
     names = [str(name) for name in item.get("chain_ids", [])]
     chains = numbers.get("atom.chain_id")
     if chains is not None and not 0 <= chains.min() <= chains.max() < len(names):
@@ -121,5 +119,4 @@ def _others(mesh, chosen):
              and not attribute.name.startswith(".")]
     return [
         attributes.Kept(name, mesh.attributes[name].data_type, "POINT",
-                        attributes.read(mesh, name, mesh.attributes[name].data_type), chosen.copy()) for name in names
-    ]
+                        attributes.read(mesh, name, mesh.attributes[name].data_type), chosen.copy()) for name in names]

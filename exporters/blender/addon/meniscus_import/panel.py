@@ -343,11 +343,4 @@ CLASSES = (OBJECT_OT_meniscus_from_file, OBJECT_OT_meniscus_from_atoms, OBJECT_O
            VIEW3D_PT_meniscus_time, VIEW3D_PT_meniscus_look)
 
 
-def register():
-    for item in CLASSES:
-        bpy.utils.register_class(item)
-
-
-def unregister():
-    for item in reversed(CLASSES):
-        bpy.utils.unregister_class(item)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -49,8 +49,7 @@ class Placement:
             if len(mesh.polygons) != prepared.triangles:
                 raise mns_reader.MnsError(
                     f"{self.sequence.frames[scene_frame - 1].path}: {len(mesh.polygons)} triangles of "
-                    f"{prepared.triangles}"
-                )
+                    f"{prepared.triangles}")
         except BaseException:
             build.clear_geometry(mesh)
             raise
@@ -92,8 +91,7 @@ class Ahead:
             return
         about = {
             "path": os.path.abspath(placement.sequence.path), "scene_frame": scene_frame, "origin": placement.origin,
-            "scale": placement.scale, "crisp": placement.crisp_colors
-        }
+            "scale": placement.scale, "crisp": placement.crisp_colors}
         try:
             self.waiting[key] = self.process.submit(key, key, "frame", about)
         except mns_reader.MnsError:

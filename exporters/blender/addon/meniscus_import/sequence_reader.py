@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads and checks the manifest of a sequence of .mns files (FORMAT.md), and cameras that --save-camera writes. Uses
-numpy only, not Blender."""
+"""Reads and checks manifests of sequences of .mns files and storyboards (FORMAT.md), and cameras that --save-camera
+writes. Uses numpy only, not Blender."""
 
 import math
 import os
@@ -8,20 +8,15 @@ import re
 
 import numpy as np
 
-try:
-    from . import header_values, mns_reader
-except ImportError:  # imported outside of the add-on
-    import header_values
-    import mns_reader
+from . import mns_reader
 
 VERSION = 1
 #: The greatest number of frames, which is longer than any film.
 MOST_FRAMES = 10_000_000
 #: Tests of the values of a manifest. The first four are needed.
 VALUES = {
-    "run": header_values.TEXT, "origin": header_values.VECTOR, "scale": header_values.POSITIVE,
-    "fps": header_values.POSITIVE, "atoms": header_values.NUMBER, **header_values.SOURCE
-}
+    "run": mns_reader.TEXT, "origin": mns_reader.VECTOR, "scale": mns_reader.POSITIVE,
+    "fps": mns_reader.POSITIVE, "atoms": mns_reader.NUMBER, **mns_reader.SOURCE}
 #: The choices for times before and after a run.
 OUTSIDE = ("EMPTY", "HOLD", "LOOP", "PINGPONG")
 
@@ -127,16 +122,20 @@ def read(path):
     return Sequence(path, header, frames)
 
 
+def is_plain(name):
+    """True if a value is the name of a file in the folder of its manifest."""
+    return (isinstance(name, str) and name == os.path.basename(name) and "\\" not in name and
+            name not in ("", ".", ".."))
+
+
 def _frame(path, header, entry):
     try:
         number, name = entry["frame"], entry["file"]
-        plain = isinstance(name,
-                           str) and name == os.path.basename(name) and "\\" not in name and name not in ("", ".", "..")
-        if not plain or isinstance(number, bool) or not isinstance(number, int) or number < 0:
-            raise ValueError(f"no frame is {header_values.shortened(number)} in a file {header_values.shortened(name)}")
+        if not is_plain(name) or isinstance(number, bool) or not isinstance(number, int) or number < 0:
+            raise ValueError(f"no frame is {mns_reader.shortened(number)} in a file {mns_reader.shortened(name)}")
         camera = entry.get("camera", header.get("camera"))
         if camera is not None:
-            header_values.check_camera(camera)
+            mns_reader.check_camera(camera)
     except (KeyError, TypeError, ValueError) as error:
         raise mns_reader.MnsError(f"{path}: an entry of the list of frames is not valid: {error}") from None
     return Frame(number, os.path.join(os.path.dirname(path), name), camera)
@@ -166,13 +165,81 @@ def parse_frames(text, known):
 def read_camera(path):
     """Returns the camera of a file as a dict with the keys of a .mns header. Raises MnsError or OSError."""
     camera = mns_reader.read_json(path, ", such as --save-camera writes")
-    if not isinstance(camera, dict) or str(camera.get("projection")) not in header_values.SIZES:
+    if not isinstance(camera, dict) or str(camera.get("projection")) not in mns_reader.SIZES:
         raise mns_reader.MnsError(f"{path}: no camera: its projection is neither perspective nor orthographic")
-    unknown = set(camera) - {*header_values.VECTORS, "projection", header_values.SIZES[camera["projection"]]}
+    unknown = set(camera) - {*mns_reader.VECTORS, "projection", mns_reader.SIZES[camera["projection"]]}
     if unknown:
         raise mns_reader.MnsError(f"{path}: camera: '{min(unknown)}' is not a key of a camera of this projection")
     try:
-        header_values.check_camera(camera)
+        mns_reader.check_camera(camera)
     except ValueError as error:
         raise mns_reader.MnsError(f"{path}: camera: {error}") from None
     return camera
+
+
+#: Tests of the values of a storyboard, all of which are needed, and of a scene, of which title and background are
+#: optional.
+OF_STORYBOARD = {
+    "origin": mns_reader.VECTOR, "scale": mns_reader.POSITIVE, "fps": mns_reader.POSITIVE,
+    "ease": (lambda value: value in ("smooth", "even"), "smooth or even")}
+OF_SCENE = {
+    "name": mns_reader.TEXT, "title": mns_reader.TEXT, "file": mns_reader.TEXT, "camera": mns_reader.DICT,
+    "background": (lambda value: value is None or mns_reader.COLOR[0](value), mns_reader.COLOR[1])}
+
+
+class Scene:
+    """A scene of a storyboard. name, title: texts. path: its .mns file. first, last: the range of frames that show it.
+    camera: a dict with the keys of a .mns header. background: sRGB, or None."""
+
+    def __init__(self, name, title, path, first, last, camera, background):
+        self.name, self.title, self.path = name, title, path
+        self.first, self.last = first, last
+        self.camera, self.background = camera, background
+
+
+class Storyboard:
+    """A storyboard. scenes: list of two or more Scene. origin: Å. scale: Blender units per Å. fps: frames per second.
+    is_smooth: True if transitions start and end slowly."""
+
+    def __init__(self, path, header, scenes):
+        self.path, self.scenes = path, scenes
+        self.origin = np.array(header["origin"], dtype=np.float64)
+        self.scale, self.fps = float(header["scale"]), float(header["fps"])
+        self.is_smooth = header["ease"] == "smooth"
+
+    def share(self, time):
+        """Returns the progress of a transition, from 0 to 1, after a share of its time."""
+        return time * time * (3.0 - 2.0 * time) if self.is_smooth else time
+
+
+def read_storyboard(path):
+    """Returns the storyboard that a file describes. Its .mns files need not exist yet. Raises MnsError or OSError."""
+    header = mns_reader.read_manifest(path, "meniscus storyboard", "a storyboard of Meniscus", VERSION, OF_STORYBOARD,
+                                      OF_STORYBOARD, ", such as meniscus film --to blender writes")
+    entries = header.get("scenes")
+    if not isinstance(entries, list) or len(entries) < 2:
+        raise mns_reader.MnsError(f"{path}: it lists fewer than two scenes")
+    scenes = [_scene(path, entry, number) for number, entry in enumerate(entries, 1)]
+    for number, (before, after) in enumerate(zip(scenes, scenes[1:]), 2):
+        if after.first <= before.last:
+            raise mns_reader.MnsError(
+                f"{path}: scene {number} begins at frame {after.first}, before the one before it has ended")
+    return Storyboard(path, header, scenes)
+
+
+def _scene(path, entry, number):
+    try:
+        mns_reader.check(entry, OF_SCENE, ("name", "file", "camera"))
+        name, file, first, last = (entry[key] for key in ("name", "file", "first", "last"))
+        title, background = entry.get("title", ""), entry.get("background")
+        if not is_plain(file):
+            raise ValueError(f"file is {mns_reader.shortened(file)}, not a name in the storyboard's folder")
+        if type(first) is not int or type(last) is not int or not 1 <= first <= last <= MOST_FRAMES:
+            raise ValueError(
+                f"it cannot last from frame {mns_reader.shortened(first)} to {mns_reader.shortened(last)}")
+        mns_reader.check_camera(entry["camera"])
+    except KeyError as error:
+        raise mns_reader.MnsError(f"{path}: scene {number}: {error} is missing or unknown") from None
+    except (TypeError, ValueError) as error:
+        raise mns_reader.MnsError(f"{path}: scene {number}: {error}") from None
+    return Scene(name, title, os.path.join(os.path.dirname(path), file), first, last, entry["camera"], background)

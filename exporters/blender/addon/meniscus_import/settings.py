@@ -64,6 +64,19 @@ def _field(row):
     return bpy.props.StringProperty(**common)
 
 
+def timing_fields(outside):
+    """Returns the properties of a sequence_reader.Timing by name. outside: the default for times outside of the run."""
+    return {
+        "start": bpy.props.FloatProperty(
+            name="Start", description="The frame of the scene that shows the first of the run", default=1.0),
+        "speed": bpy.props.FloatProperty(name="Speed", description="Frames of the run in a frame of the scene",
+                                         default=1.0, min=1e-4, soft_max=10.0),
+        "outside": bpy.props.EnumProperty(
+            name="Outside", default=outside, description="What shows before and behind the run",
+            items=(("EMPTY", "Nothing", "Nothing shows"), ("HOLD", "Hold", "The first and the last frame stay"),
+                   ("LOOP", "Loop", "The run begins anew"), ("PINGPONG", "To and fro", "The run goes back and forth")))}
+
+
 class MeniscusSettings(bpy.types.PropertyGroup):
     """The settings of an object that shows a computed surface. All of them except the timing are its stored request."""
 
@@ -127,14 +140,6 @@ class MeniscusSettings(bpy.types.PropertyGroup):
         "import put it", default=True)
     crisp: bpy.props.BoolProperty(name="Crisp colours", description="Colours change at edges; otherwise they blend",
                                   default=False, update=on_change)
-    start: bpy.props.FloatProperty(name="Start", description="The frame of the scene that shows the first of the run",
-                                   default=1.0)
-    speed: bpy.props.FloatProperty(name="Speed", description="Frames of the run in a frame of the scene", default=1.0,
-                                   min=1e-4, soft_max=10.0)
-    outside: bpy.props.EnumProperty(
-        name="Outside", default="HOLD", description="What shows before and behind the run",
-        items=(("EMPTY", "Nothing", "Nothing shows"), ("HOLD", "Hold", "The first and the last frame stay"),
-               ("LOOP", "Loop", "The run begins anew"), ("PINGPONG", "To and fro", "The run goes back and forth")))
     by_hand: bpy.props.BoolProperty(name="By hand", description="Show the frame below, which can be keyed",
                                     default=False)
     frame: bpy.props.FloatProperty(name="Frame", description="Place in the run, from 1", default=1.0)
@@ -177,6 +182,7 @@ class MeniscusSettings(bpy.types.PropertyGroup):
             density=short(self.density) if self.has_proxy(in_motion) else 0.0, cavities=self.cavities)
 
 
+MeniscusSettings.__annotations__.update(timing_fields("HOLD"))
 MeniscusSettings.__annotations__.update({preparation.name_of(row): _field(row) for row in preparation.ROWS})
 for each in MeniscusSettings.__annotations__.values():
     each.keywords["override"] = {"LIBRARY_OVERRIDABLE"}
@@ -211,16 +217,14 @@ class MeniscusPreferences(bpy.types.AddonPreferences):
             self.layout.label(text=line)
 
 
-CLASSES = (MeniscusSettings, MeniscusPreferences)
+_register, _unregister = bpy.utils.register_classes_factory((MeniscusSettings, MeniscusPreferences))
 
 
 def register():
-    for item in CLASSES:
-        bpy.utils.register_class(item)
+    _register()
     bpy.types.Object.meniscus = bpy.props.PointerProperty(type=MeniscusSettings, override={"LIBRARY_OVERRIDABLE"})
 
 
 def unregister():
     del bpy.types.Object.meniscus
-    for item in reversed(CLASSES):
-        bpy.utils.unregister_class(item)
+    _unregister()

@@ -9,7 +9,7 @@ import os
 import bpy
 import numpy as np
 
-from . import build, camera_rig, compat, frames, keys, mesh_arrays, mns_reader, storyboard_reader
+from . import build, camera_rig, compat, frames, mesh_arrays, mns_reader, sequence_reader
 from .mesh_arrays import names_of
 
 #: The keys of a surface's header that affect its look.
@@ -32,7 +32,7 @@ def import_file(path, context=None, scale=None, center=False, import_camera=True
     None for that of the file. set_background: True for key frames of the background. Other arguments are those of
     build.Options and sequence.Run. After MnsError or OSError nothing is left in the scene."""
     context = context or bpy.context
-    board = storyboard_reader.read(path)
+    board = sequence_reader.read_storyboard(path)
     options = build.Options(scale=board.scale if scale is None else scale, **options)
     files = {each: mns_reader.read(each) for each in {scene.path: None for scene in board.scenes}}
     story = _Story(path, board, files, options, _origin(context.scene, board, files, center))
@@ -84,12 +84,9 @@ def set_up_background(scene, board, name):
         if shown is not None:
             for socket in ("Color", "Strength"):
                 light.inputs[socket].default_value = shown.inputs[socket].default_value
-    seen = tree.nodes.new("ShaderNodeBackground")
-    seen.name = seen.label = "Seen"
-    mix = tree.nodes.new("ShaderNodeMixShader")
-    tree.links.new(tree.nodes.new("ShaderNodeLightPath").outputs["Is Camera Ray"], mix.inputs[0])
-    tree.links.new(light.outputs[0], mix.inputs[1])
-    tree.links.new(seen.outputs[0], mix.inputs[2])
+    seen = compat.add_node(tree, "ShaderNodeBackground", name="Seen", label="Seen")
+    mix = compat.add_node(tree, "ShaderNodeMixShader", tree.nodes.new("ShaderNodeLightPath").outputs["Is Camera Ray"],
+                          light.outputs[0], seen.outputs[0])
     tree.links.new(mix.outputs[0], compat.find_or_add(tree, "OUTPUT_WORLD", "ShaderNodeOutputWorld").inputs["Surface"])
     linear = [mesh_arrays.linear(color or (1.0, 1.0, 1.0)) for color in colors]
     camera_rig.key(board, tree, 'nodes["Seen"].inputs[0].default_value', linear, seen.inputs[0].default_value)
@@ -117,7 +114,7 @@ def digest_of(surface):
 class _Story:
     def __init__(self, path, board, files, options, origin):
         self.path, self.board, self.files, self.options, self.origin = path, board, files, options, origin
-        self.name = os.path.basename(os.path.dirname(os.path.abspath(path))) or board.stem
+        self.name = os.path.basename(os.path.dirname(os.path.abspath(path))) or build.stem_of(path)
         self.made = {}  # digest of a surface -> its objects, one for each copy
         self.new_materials = []
 
@@ -130,8 +127,7 @@ class _Story:
             parent.children.link(collection)
             items = [
                 item for surface in self.files[scene.path].objects
-                for item in self.objects_of(surface, f"{self.name}.{number}", scene)
-            ]
+                for item in self.objects_of(surface, f"{self.name}.{number}", scene)]
             for item in items:
                 collection.objects.link(item)
             shown.append(items)
@@ -151,8 +147,7 @@ class _Story:
                                 names_of(*file.objects), fades=True)
         nudge(mesh, surface["mesh.normal"], NUDGE * len(self.made) * self.options.scale)
         self.made[key] = [
-            build.add_copy(mesh, copy, surface, scene.path, file, self.options, self.origin) for copy in surface.copies
-        ]
+            build.add_copy(mesh, copy, surface, scene.path, file, self.options, self.origin) for copy in surface.copies]
         return self.made[key]
 
 def nudge(mesh, normals, distance):
@@ -167,13 +162,13 @@ def nudge(mesh, normals, distance):
 def fade(item, board, shows):
     """Adds key frames to the alpha of an object's colour: from 0 to 1 in a transition to a scene that shows it, and to
     2 in a transition to one that does not. shows: True for each scene that shows the object."""
-    easing = keys.SMOOTH if board.is_smooth else keys.EVEN
-    way = keys.Way(board.scenes[0].first, float(shows[0]))
+    easing = camera_rig.SMOOTH if board.is_smooth else camera_rig.EVEN
+    way = camera_rig.Way(board.scenes[0].first, float(shows[0]))
     for number, (before, after, dissolves) in enumerate(camera_rig.transitions(board), 1):
         if shows[number] != shows[number - 1]:
             start = float(shows[number - 1])
-            way.append(before.last, start, keys.LINEAR if way.points[-1][1] == start else keys.CONSTANT)
-            way.append(after.first, 1.0 if shows[number] else 2.0, easing if dissolves else keys.CONSTANT)
+            way.append(before.last, start, camera_rig.LINEAR if way.points[-1][1] == start else camera_rig.CONSTANT)
+            way.append(after.first, 1.0 if shows[number] else 2.0, easing if dissolves else camera_rig.CONSTANT)
     item.color[3] = way.points[0][1]
     if len(way.points) > 1:
         way.insert(item, "color", 3)
@@ -184,11 +179,11 @@ def hide(item, board, shows):
     transition from it. shows: True for each scene that shows the object."""
     if all(shows):
         return
-    way = keys.Way(board.scenes[0].first, float(not shows[0]))
+    way = camera_rig.Way(board.scenes[0].first, float(not shows[0]))
     for number, (before, after, _) in enumerate(camera_rig.transitions(board), 1):
         if shows[number] and not shows[number - 1]:
-            way.append(before.last + 1, 0.0, keys.CONSTANT)
+            way.append(before.last + 1, 0.0, camera_rig.CONSTANT)
         elif shows[number - 1] and not shows[number]:
-            way.append(after.first, 1.0, keys.CONSTANT)
+            way.append(after.first, 1.0, camera_rig.CONSTANT)
     for path in ("hide_render", "hide_viewport"):
         way.insert(item, path)

@@ -464,6 +464,29 @@ TEST(Mmcif, TakesAuthorNamesEntitiesAndTheFirstModel) {
   EXPECT_TRUE(std::isnan(structure.atoms[0].b_factor));
 }
 
+TEST(Mmcif, TakesPartialChargesAndSegmentsWhereTheyAre) {
+  const Structure structure = read_named("a.cif", R"(data_charged
+loop_
+_atom_site.id
+_atom_site.type_symbol
+_atom_site.Cartn_x
+_atom_site.Cartn_y
+_atom_site.Cartn_z
+_atom_site.charge
+_atom_site.auth_segid
+1 C 0 0 0 -0.25 PROA
+2 O 3 0 0 0.5(1) .
+3 N 6 0 0 ? ?
+)",
+                                         with_ligands());
+  ASSERT_EQ(structure.atoms.size(), 3u);
+  EXPECT_EQ(structure.atoms[0].charge, -0.25f);
+  EXPECT_EQ(structure.atoms[1].charge, 0.5f);
+  EXPECT_TRUE(std::isnan(structure.atoms[2].charge));
+  EXPECT_EQ(structure.atoms[0].segment, "PROA");
+  EXPECT_EQ(structure.atoms[1].segment + structure.atoms[2].segment, "");
+}
+
 TEST(Mmcif, ModelsAreToldApartAndMissingSymbolsCounted) {
   std::string text = kMmcif;
   text.replace(text.find("ATOM C CA"), 9, "ATOM ? CA");

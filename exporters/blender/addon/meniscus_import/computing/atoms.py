@@ -162,8 +162,7 @@ def _atoms(structure, color):
     numbers = {
         "atom.file_index": structure.indices, "atom.b_factor": np.nan_to_num(structure.b_factors),
         "atom.atomic_number": elements.astype(np.int32), "atom.res_id": structure.residue_numbers,
-        "atom.chain_id": chain
-    }
+        "atom.chain_id": chain}
     names = {}
     for key, array, texts in (("atom_names", "atom.name_id", structure.names),
                               ("residue_names", "atom.residue_name_id", structure.residue_names)):

@@ -16,7 +16,7 @@ import numpy as np
 
 from .. import joined, mns_reader
 from . import atoms as atom_files
-from . import measures, preparation
+from . import preparation
 
 #: The kind of a surface in a request -> the value of the program's option.
 SURFACES = {"SES": "ses", "SAS": "sas", "VDW": "vdw"}
@@ -25,19 +25,10 @@ POLL = 0.05  # s between two checks if the program has ended and if its result i
 
 #: Options of the program -> labels of fields of the panel, or of values of fields.
 FIELDS = {
-    "--select": "Selection",
-    "--color": "Colour",
-    "--surface": "Surface",
-    "--probe": "Probe",
-    "--tolerance": "Tolerance",
-    "--density": "Density",
-    "--trajectory": "Trajectory",
-    "--trajectory-atoms": "Trajectory's atoms",
-    "--frames": "Frames",
-    "--cavities": "Cavities",
-    "--color-by-file": "Numbers",
-    **{preparation.option_of(row): preparation.label_of(row) for row in preparation.ROWS},
-}
+    "--select": "Selection", "--color": "Colour", "--surface": "Surface", "--probe": "Probe",
+    "--tolerance": "Tolerance", "--density": "Density", "--trajectory": "Trajectory",
+    "--trajectory-atoms": "Trajectory's atoms", "--frames": "Frames", "--cavities": "Cavities",
+    "--color-by-file": "Numbers", **{preparation.option_of(row): preparation.label_of(row) for row in preparation.ROWS}}
 #: Options in the spelling of libmeniscus.
 OF_LIBRARY = re.compile(r"\A(?:select|%s)(?=: )|\b(?:keep_water|keep_ions|unknown_element)\b|(?<=another )color\b" %
                         "|".join(map(preparation.name_of, preparation.OF_MOLECULE)))
@@ -88,8 +79,7 @@ class Tools:
         if self.program is None:
             raise EngineError(
                 f"{purpose} needs the program meniscus, which is not found; name it in the add-on's "
-                f"preferences{instead}"
-            )
+                f"preferences{instead}")
         return self.program
 
     def program_for_files(self):
@@ -157,18 +147,11 @@ def _shape(library, atoms, request, task):
     vertices = mesh.vertices
     origin = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
     arrays = {
-        "mesh.position": (vertices - origin).astype(np.float32),
-        "mesh.normal": mesh.normals.astype(np.float32),
-        "mesh.triangle": mesh.triangles,
-        "mesh.kind": mesh.triangle_kinds,
-        "mesh.patch": mesh.triangle_patches,
-        "mesh.component": mesh.triangle_components,
-        "mesh.atom": mesh.triangle_atoms,
-        "mesh.sharp_corner": mesh.sharp_corners,
-        "mesh.sharp_corner_normal": mesh.sharp_normals.astype(np.float32),
-        "mesh.sharp_edge": np.empty((0, 2), np.uint32),
-        **measures.of_surface(library, made, mesh),
-    }
+        "mesh.position": (vertices - origin).astype(np.float32), "mesh.normal": mesh.normals.astype(np.float32),
+        "mesh.triangle": mesh.triangles, "mesh.kind": mesh.triangle_kinds, "mesh.patch": mesh.triangle_patches,
+        "mesh.component": mesh.triangle_components, "mesh.atom": mesh.triangle_atoms,
+        "mesh.sharp_corner": mesh.sharp_corners, "mesh.sharp_corner_normal": mesh.sharp_normals.astype(np.float32),
+        "mesh.sharp_edge": np.empty((0, 2), np.uint32), **measures_of(library, made, mesh)}
     header = {
         "generator": f"libmeniscus {library.version()}",
         "device": made.device,
@@ -179,14 +162,62 @@ def _shape(library, atoms, request, task):
         "volume": made.volume,
         "mesh": {
             "origin": [float(value) for value in origin], "vertices": len(vertices), "triangles": len(mesh.triangles),
-            "closed": True, "tolerance": 0.0 if request.density else request.tolerance
-        },
+            "closed": True, "tolerance": 0.0 if request.density else request.tolerance},
         "components": [{
             "kind": "cavity" if part["kind"] else "outer", "area": float(part["area"]), "volume": float(part["volume"]),
-            "euler": int(part["euler"])
-        } for part in made.components],
-    }
+            "euler": int(part["euler"])} for part in made.components]}
     return header, arrays
+
+
+#: Points nearer than this (Å) to the axis of a spindle torus get the curvature at this distance, as in Meniscus.
+CORE = 0.001
+
+
+def measures_of(library, made, mesh):
+    """Returns arrays by their names in .mns files. made, mesh: a surface and a mesh of the package `library`."""
+    mean, gaussian = curvatures(made, mesh)
+    arrays = {"mesh.mean_curvature": mean, "mesh.gaussian_curvature": gaussian}
+    try:
+        arrays["atom.area"] = made.atom_areas.astype(np.float32)
+        arrays["atom.accessible_area"] = (made.atom_sas_areas.astype(np.float32) if made.kind == "ses" else
+                                          arrays["atom.area"])
+    except library.Error:
+        pass  # the areas of the atoms do not add up, so they are left out rather than wrong
+    return arrays
+
+
+def curvatures(made, mesh):
+    """Returns the mean and the Gaussian curvature at vertices, in 1/Å and 1/Å². Among the patches of a vertex's
+    triangles, the one that it lies on counts."""
+    corner, x = mesh.triangles.ravel(), mesh.vertices
+    kind, patch = np.repeat(mesh.triangle_kinds, 3), np.repeat(mesh.triangle_patches, 3)
+    # The principal curvatures, and the distance from the surface of the patch in Å.
+    along, around, off = (np.zeros(len(corner)) for _ in range(3))
+    patches, balls = made.patches, made.balls
+    convex, torus, concave = (np.flatnonzero(kind == which) for which in range(3))
+    if len(convex):
+        atom = patches.convex["atom"][patch[convex]]
+        radius = balls["radius"][atom]
+        along[convex] = around[convex] = 1.0 / radius
+        off[convex] = np.abs(np.linalg.norm(x[corner[convex]] - balls["center"][atom], axis=1) - radius)
+    if len(torus):
+        rows = patches.toroidal[patch[torus]]
+        offset = x[corner[torus]] - rows["center"]
+        height = np.einsum("nx,nx->n", offset, rows["axis"])
+        out = np.linalg.norm(offset - height[:, None] * rows["axis"], axis=1)
+        along[torus] = -1.0 / made.probe
+        around[torus] = (rows["radius"] - out) / made.probe / np.maximum(out, CORE)
+        off[torus] = np.abs(np.hypot(rows["radius"] - out, height) - made.probe)
+    if len(concave):
+        along[concave] = around[concave] = -1.0 / made.probe
+        off[concave] = np.abs(
+            np.linalg.norm(x[corner[concave]] - patches.concave["center"][patch[concave]], axis=1) - made.probe)
+    # The last assignment to a vertex counts: that of the nearest patch, and of equally near ones the first.
+    order = np.lexsort((-np.arange(len(corner)), -np.round(off, 6)))
+    mean, gaussian = (np.zeros(len(x), dtype=np.float32) for _ in range(2))
+    mean[corner[order]] = 0.5 * (along + around)[order]
+    gaussian[corner[order]] = (along * around)[order]
+    return mean, gaussian
 
 
 def _painted(shape, atoms):
@@ -198,8 +229,7 @@ def _painted(shape, atoms):
     arrays = {
         **arrays, "atom.center": np.asarray(atoms.positions,
                                             np.float64), "atom.radius": np.asarray(atoms.radii, np.float64),
-        "atom.color": np.asarray(atoms.colors, np.float32), "atom.index": np.asarray(atoms.index), **atoms.numbers
-    }
+        "atom.color": np.asarray(atoms.colors, np.float32), "atom.index": np.asarray(atoms.index), **atoms.numbers}
     surface = mns_reader.Surface(f"{atoms.source or 'atoms'} in memory", header, arrays)
     surface.known_closed = True  # surfaces of the library are always closed
     return surface
@@ -216,8 +246,7 @@ def surface_by_program(tools, request, folder, task):
             program, "export", "blender", request.file, *_atom_options(request), "--surface", SURFACES[request.kind],
             f"--probe={request.probe!r}",
             f"--density={request.density!r}" if request.density else f"--tolerance={request.tolerance!r}", "--force",
-            "-q", "-o", target
-        ]
+            "-q", "-o", target]
         if request.kind == "VDW":
             words.remove(f"--probe={request.probe!r}")
         if request.place:

@@ -50,7 +50,7 @@ class Process:
         self._number = 0
 
     def submit(self, owner, key, kind, about, urgency=NOW):
-        """Sends a request and returns its Job. kind: the name of a function of works.Tools; about: its arguments.
+        """Sends a request and returns its Job. kind: the name of a function of jobs.Tools; about: its arguments.
         Waiting jobs of the same owner are dropped. A running one continues, so that surfaces show while a slider keeps
         moving. Raises engines.EngineError if the process does not start."""
         self._start()
@@ -111,7 +111,7 @@ class Process:
         return done
 
     def describe_tools(self):
-        """Returns the result of works.Tools.describe_tools() in the process. Raises engines.EngineError if the process
+        """Returns the result of jobs.Tools.describe_tools() in the process. Raises engines.EngineError if the process
         does not start."""
         if self._tools is None:
             job = self.submit(None, None, "describe_tools", {})

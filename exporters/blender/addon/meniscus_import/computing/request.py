@@ -60,8 +60,7 @@ class Request:
         """Returns a text that is equal for requests about the same atoms of the same files."""
         return json.dumps([
             self.selection, self.color, self.frames, self.trajectory_atoms, self.preparation,
-            *(stamp(path) for path in (self.file, self.trajectory, self.numbers))
-        ])
+            *(stamp(path) for path in (self.file, self.trajectory, self.numbers))])
 
     def key(self, atoms=None, others=()):
         """Returns a text that is equal for requests with equal surfaces. atoms: the atoms that come from Blender, or

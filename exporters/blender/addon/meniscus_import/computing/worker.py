@@ -23,9 +23,9 @@ def main(descriptor=""):
 
     connection = messages.of_descriptor(int(descriptor)) if descriptor else messages.of_share(sys.stdin.buffer.read())
     _, sys.path[:], package, program, folder = connection.receive()
-    from meniscus_import.computing import jobs, works  # these need sys.path to find numpy
+    from meniscus_import.computing import jobs  # which needs sys.path to find numpy
 
-    tools = works.Tools(package, program, folder)
+    tools = jobs.Tools(package, program, folder)
     worker = jobs.Worker(lambda task: send(connection, *outcome(task)), THREADS)
     while True:
         try:
