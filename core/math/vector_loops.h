@@ -74,19 +74,6 @@ inline void write_eight(std::uint32_t at, const std::array<std::uint8_t, 8>& pla
 }  // namespace detail
 
 /// Returns a byte of which bit n is set if the n-th of these eight numbers is negative.
-inline unsigned negative_of_eight(const std::int32_t* numbers) {
-#if defined(__SSE2__)
-  const auto four = [&](std::size_t n) {
-    return _mm_castsi128_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(numbers + n)));
-  };
-  return static_cast<unsigned>(_mm_movemask_ps(four(0)) | _mm_movemask_ps(four(4)) << 4);
-#else
-  unsigned bits = 0;
-  for (unsigned n = 0; n < 8; ++n) bits |= static_cast<unsigned>(numbers[n] < 0) << n;
-  return bits;
-#endif
-}
-
 inline unsigned negative_of_eight(const std::int16_t* numbers) {
 #if defined(__SSE2__)
   const __m128i eight = _mm_loadu_si128(reinterpret_cast<const __m128i*>(numbers));

@@ -4,6 +4,7 @@
 #include "core/reduced_surface/contour/sphere_cover.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -22,16 +23,18 @@ constexpr std::size_t kBlock = 32;  // directions that are tested together
 static_assert(kPadded % kBlock == 0);
 constexpr double kRoom = 1e-4;  // radians, for rounding in double and single precision
 
-// Axes of caps and directions are vectors of whole numbers of 16 bits, of which vector units multiply the most at once.
-// An axis of a cap has the length kAxisLength, but for half a unit in each number. A direction has the length
-// kLength, but for kLengthError, and exactly the numbers that are stored.
+// Axes of caps and directions are vectors of whole numbers of 16 bits, because vector units multiply the most of these
+// at once. An axis of a cap is rounded to the length kAxisLength, by half a unit in each number. A direction has
+// exactly the stored numbers, and a length within kLengthError of kLength.
 constexpr float kAxisLength = 256, kLength = 127, kLengthError = 0.25f;
 constexpr float kProduct = kAxisLength * kLength;  // the dot product of an axis and the same direction
-// The largest error of a dot product: of the axis, of the direction's length, and of the number that it is compared to.
+// A bound on the error of a dot product beside kProduct times the cosine. The axis is off by 0.87 units, the length of
+// the direction by kLengthError. The last term is for the numbers that products are compared to: they are rounded, and
+// near a cosine of 1 a root in single precision is off by as much as three units.
 constexpr float kProductError = 0.9f * (kLength + kLengthError) + kAxisLength * kLengthError + 5;
-constexpr float kBeyond = 1.002f;  // as a cosine: larger than any product, with its error
+constexpr float kBeyond = 1.002f;  // in place of a cosine: the number to compare to is larger than any product
 static_assert(kBeyond * kProduct + kProductError < 0x7fff);
-static_assert((kBeyond - 1) * kProduct + kProductError > 0.87 * (kLength + kLengthError) + kAxisLength * kLengthError);
+static_assert(kBeyond * kProduct + kProductError - 1 > (kAxisLength + 0.9f) * (kLength + kLengthError));
 
 // The directions, and the largest angle from any point of the sphere to the nearest of them: the largest circumradius
 // of a triangle between them.
@@ -60,6 +63,7 @@ struct WatchedDirections {
             smallest = std::min(smallest, divide(corners[a], corners[b], corners[c], points));
     std::ranges::sort(points, {}, [](const glm::dvec3& p) { return std::array{p.x, p.y, p.z}; });
     points.erase(std::unique(points.begin(), points.end()), points.end());
+    assert(points.size() == kDirections);
     const double angle = std::acos(smallest) + kRoom;
     cos_angle = std::cos(angle);
     sin_angle = std::sin(angle);
@@ -144,8 +148,8 @@ constexpr std::size_t whole_blocks(std::size_t count) { return (count + kCircles
 struct Points {
   const std::int16_t *x, *y, *z;
 };
-// Axes, and products with them: from `limit` on a direction is in the narrowed cap; from `low` to there it may be near
-// the circle.
+// Axes of caps, and limits of products of these with directions. A direction is surely in the narrowed cap from
+// `limit` on, and may be near the circle from `low` to `limit`.
 struct Caps {
   const std::int16_t *x, *y, *z, *limit, *low;
 };

@@ -49,7 +49,7 @@ struct BallColumns {
   const double *x, *y, *z, *radius;
 };
 
-// Copies whole vectors of balls: up to seven more than `count`.
+// Copies balls and their places in whole vectors, which may be up to seven balls more than `count`.
 MENISCUS_VECTOR_CLONES
 void copy_balls(const BallColumns& from, std::uint32_t first, std::size_t count, const std::array<double*, 4>& columns,
                 std::uint32_t* places) {
@@ -101,7 +101,7 @@ NeighborSearch::NeighborSearch(std::span<const Ball> atoms, double probe_radius,
   });
 }
 
-// Takes the balls from `first` on while they are as close as those of a cell.
+// Finds the balls around those from `first` on that are as close to each other as the balls of one cell.
 void NeighborSearch::surround(std::size_t first, Surroundings& around) const {
   glm::dvec3 low = center(first), high = low;
   double heaviest = weight(first);
@@ -116,28 +116,18 @@ void NeighborSearch::surround(std::size_t first, Surroundings& around) const {
   }
   around.first_ = first;
   around.past_ = past;
-  around.rows_.clear();
-  std::size_t count = 0;
+  around.count_ = 0;
   const glm::dvec3 middle = 0.5 * (low + high), half = high - middle;
   const double reach = std::sqrt(heaviest) + largest_radius_ + 1.001 * std::max({half.x, half.y, half.z});
-  grid_.for_each_row_near(middle, reach, [&](std::uint32_t row, std::uint32_t row_end) {
-    if (row == row_end) return;
-    around.rows_.push_back({row, row_end});
-    count += row_end - row;
-  });
-  around.table_.make_room(count + kLanes);
-  around.places_.resize(count + kLanes);
-  around.overlaps_.resize(count + kLanes);
-  around.listed_.resize(count + kLanes);
   const BallColumns from{table_.column(kX), table_.column(kY), table_.column(kZ), table_.column(kRadius)};
-  std::size_t at = 0;
-  for (const auto& [row, row_end] : around.rows_) {
+  grid_.for_each_row_near(middle, reach, [&](std::uint32_t row, std::uint32_t row_end) {
+    const std::size_t at = around.count_, count = row_end - row;
+    around.make_room(at + count + kLanes);
     const auto to = [&](Surroundings::Column c) { return around.table_.column(c) + at; };
-    copy_balls(from, row, row_end - row, {to(around.kX), to(around.kY), to(around.kZ), to(around.kRadius)},
+    copy_balls(from, row, count, {to(around.kX), to(around.kY), to(around.kZ), to(around.kRadius)},
                around.places_.data() + at);
-    at += row_end - row;
-  }
-  around.count_ = count;
+    around.count_ += count;
+  });
 }
 
 void NeighborSearch::append_neighbors(std::size_t place, Surroundings& around,

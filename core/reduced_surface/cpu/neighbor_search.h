@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/math/ball.h"
@@ -30,11 +29,17 @@ class NeighborSearch {
     friend class NeighborSearch;
     enum Column : std::size_t { kX, kY, kZ, kRadius, kColumnCount };
 
-    std::size_t first_ = 0, past_ = 0;  // these few
-    std::vector<std::pair<std::uint32_t, std::uint32_t>>
-        rows_;                           // places: the first of a row of cells, one past its last
-    std::size_t count_ = 0;              // of the balls around
-    std::vector<std::uint32_t> places_;  // their places
+    void make_room(std::size_t count) {
+      if (count <= table_.room()) return;
+      table_.make_room(count, count_);
+      places_.resize(table_.room());
+      overlaps_.resize(table_.room());
+      listed_.resize(table_.room());
+    }
+
+    std::size_t first_ = 0, past_ = 0;   // places of these few
+    std::size_t count_ = 0;              // of the balls around them
+    std::vector<std::uint32_t> places_;  // per ball around them
     ColumnTable<kColumnCount> table_;
     std::vector<std::int64_t> overlaps_;  // scratch
     std::vector<std::uint32_t> listed_;
