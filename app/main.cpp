@@ -65,9 +65,8 @@ std::string libraries_line() {
       "oneTBB {}, fmt {}.{}.{}, zlib {}, libdeflate {}, GLM {}.{}.{}, CLI11 {}, JSON for Modern C++ "
       "{}.{}.{}",
       TBB_runtime_version(), FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100, ::zlibVersion(),
-      LIBDEFLATE_VERSION_STRING, GLM_VERSION_MAJOR, GLM_VERSION_MINOR,
-      GLM_VERSION_PATCH, CLI11_VERSION, NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
-      NLOHMANN_JSON_VERSION_PATCH);
+      LIBDEFLATE_VERSION_STRING, GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH, CLI11_VERSION,
+      NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH);
 }
 
 std::string gl_line() {
@@ -134,7 +133,7 @@ constexpr Heading kHeadings[] = {{"Output", "Output"},
                                  {"Picture", "Output"},
                                  {"Mesh", "Output"},
                                  {"Figure", "Figure"},
-                                 {"Beside the surface", "Figure"},
+                                 {"Shapes", "Figure"},
                                  {"Colour", "Colour and light"},
                                  {"Light", "Colour and light"},
                                  {"Lines", "Colour and light"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Samples a sphere at the vertices of a subdivided icosahedron, and tests sums of angles by products of cosines, in whole
-// numbers.
+// Samples a sphere at the vertices of a subdivided icosahedron, and tests sums of angles by products of cosines, in
+// whole numbers.
 #include "core/reduced_surface/contour/sphere_cover.h"
 
 #include <algorithm>
@@ -79,7 +79,9 @@ struct WatchedDirections {
   static double divide(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, std::vector<glm::dvec3>& points) {
     constexpr std::size_t kSide = 5;
     const double arc = std::acos(glm::dot(a, b)) / kSide;
-    const auto part = [&](std::size_t n) { return std::sin(static_cast<double>(n) * arc); };  // equal steps on the sides
+    const auto part = [&](std::size_t n) {
+      return std::sin(static_cast<double>(n) * arc);
+    };  // equal steps on the sides
     std::array<std::array<glm::dvec3, kSide + 1>, kSide + 1> at;
     for (std::size_t i = 0; i <= kSide; ++i)
       for (std::size_t j = 0; i + j <= kSide; ++j)
@@ -269,8 +271,8 @@ void SphereCover::list_caps(const std::int16_t* limit, std::size_t count) {
 }
 
 // Keeps the directions with a negative sign. They may be in the list already, because none moves to a later place.
-void SphereCover::list_uncovered(const std::int16_t* x, const std::int16_t* y, const std::int16_t* z,
-                                 std::size_t count, std::uint32_t* list) {
+void SphereCover::list_uncovered(const std::int16_t* x, const std::int16_t* y, const std::int16_t* z, std::size_t count,
+                                 std::uint32_t* list) {
   uncovered_count_ = static_cast<std::size_t>(list_negative(signs_.data(), count, 0, list) - list);
   for (std::size_t n = 0; n < uncovered_count_; ++n) {
     const std::uint32_t direction = list[n];
@@ -295,7 +297,8 @@ bool SphereCover::test(const Blockers& blockers) {
     caps_.resize(2 * most + kLanes);
   }
   narrow_caps(blockers.columns(), whole_vectors(count), static_cast<float>(1 / std::sqrt(blockers.first_weight())),
-              static_cast<float>(w.cos_angle), static_cast<float>(w.sin_angle), products_.data(), circles_.data(), room);
+              static_cast<float>(w.cos_angle), static_cast<float>(w.sin_angle), products_.data(), circles_.data(),
+              room);
   const std::int16_t* column = circles_.data();
   const Caps caps{column, column + room, column + 2 * room, column + 3 * room, column + 4 * room};
   list_caps(caps.limit, count);

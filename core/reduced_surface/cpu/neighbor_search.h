@@ -31,9 +31,10 @@ class NeighborSearch {
     enum Column : std::size_t { kX, kY, kZ, kRadius, kColumnCount };
 
     std::size_t first_ = 0, past_ = 0;  // these few
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> rows_;  // places: the first of a row of cells, one past its last
-    std::size_t count_ = 0;                                      // of the balls around
-    std::vector<std::uint32_t> places_;                          // their places
+    std::vector<std::pair<std::uint32_t, std::uint32_t>>
+        rows_;                           // places: the first of a row of cells, one past its last
+    std::size_t count_ = 0;              // of the balls around
+    std::vector<std::uint32_t> places_;  // their places
     ColumnTable<kColumnCount> table_;
     std::vector<std::int64_t> overlaps_;  // scratch
     std::vector<std::uint32_t> listed_;
