@@ -31,10 +31,10 @@ std::set<fs::path> names_in(const fs::path& folder) {
   return names;
 }
 
-using Words = std::array<std::uint32_t, 8>;
+using HashWords = std::array<std::uint32_t, 8>;
 
 /// Adds 64 bytes to a SHA-256 (FIPS 180-4, 6.2.2).
-void add_block(Words& hash, const char* bytes) {
+void add_block(HashWords& hash, const char* bytes) {
   static constexpr std::array<std::uint32_t, 64> kConstants = {
       0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4, 0xab1c5ed5,
       0xd807aa98, 0x12835b01, 0x243185be, 0x550c7dc3, 0x72be5d74, 0x80deb1fe, 0x9bdc06a7, 0xc19bf174,
@@ -60,12 +60,12 @@ void add_block(Words& hash, const char* bytes) {
     h = g, g = f, f = e, e = d + first;
     d = c, c = b, b = a, a = first + second;
   }
-  const Words step = {a, b, c, d, e, f, g, h};
+  const HashWords step = {a, b, c, d, e, f, g, h};
   for (std::size_t n = 0; n < 8; ++n) hash[n] += step[n];
 }
 
 std::string digest_of(std::istream& bytes) {
-  Words hash = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+  HashWords hash = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   std::array<char, 64> block{};
   std::uint64_t bits = 0;
   for (; bytes.read(block.data(), block.size()); bits += 512) add_block(hash, block.data());
