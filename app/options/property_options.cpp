@@ -36,8 +36,8 @@ bool is_film(const GivenScene& given) { return is_film_path(given.scene.output);
 /// Returns the properties of figures, as pictures or for other programs.
 TakenProperties shown_properties() {
   return run_properties().with({"Surface", "-surface.patches", "-surface.min_patch", "Colour", "Figure",
-                                "-surface.clip_all", "Beside the surface", "Camera", "image.size", "image.width",
-                                "image.height", "image.dpi", "output.file", "scene.save"});
+                                "-surface.clip_all", "Shapes", "Camera", "image.size", "image.width", "image.height",
+                                "image.dpi", "output.file", "scene.save"});
 }
 
 }  // namespace

@@ -273,7 +273,7 @@ Outcome set_property(const CommandReader& command, PreviewState state, const Sur
       Texts list = value_texts(state, property);
       std::optional<int> index;
       if (word != "add") index = command.integer("index", 0, static_cast<int>(list.size()) - 1);
-      if (!index && texts.empty()) throw RequestError("null is no value to add");
+      if (!index && texts.empty()) throw RequestError("null is not a value to add");
       if (texts.size() > 1) throw RequestError("is a list; give one entry");
       entry = put_entry(index, std::move(texts), property, list);
       texts = std::move(list);

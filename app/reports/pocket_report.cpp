@@ -124,7 +124,7 @@ std::string pocket_table(const PocketReport& report) {
   fmt::format_to(out, "atoms         {}", report.structure.report.sentence());
   if (const std::size_t taken_out = report.structure.atoms.size() - report.pockets.atom_count; taken_out > 0)
     fmt::format_to(out, "; {} of them taken out as ligands", with_thousands(taken_out));
-  fmt::format_to(out, "\npockets       what a probe of {} Å fills, {} Å or more below the surface of one of {} Å\n",
+  fmt::format_to(out, "\npockets       space for a {} Å probe, at least {} Å below the surface of a {} Å probe\n",
                  request.probe_radius, request.trim, request.large_probe_radius);
   fmt::format_to(out,
                  "between       {:.3f} Å³ between the solids of both probes; {:.3f} in {} pockets of {} Å³ or more\n",
@@ -144,10 +144,12 @@ std::string pocket_table(const PocketReport& report) {
     std::string places;
     for (std::size_t n = 0; n < residue.in_pocket.size(); ++n)
       if (residue.in_pocket[n] > 0)
-        places += fmt::format("{}{} in pocket {}", places.empty() ? "" : ", ", residue.in_pocket[n], n + 1);
-    fmt::format_to(out, "{}{}: of {} atoms {}\n", &residue == &report.pockets.left_out.front() ? "\n" : "",
-                   escaped(left_out_name(report, residue)), residue.atoms,
-                   places.empty() ? "none in a pocket" : places);
+        places += places.empty()
+                      ? fmt::format("{} of {} atoms in pocket {}", residue.in_pocket[n], residue.atoms, n + 1)
+                      : fmt::format(", {} in pocket {}", residue.in_pocket[n], n + 1);
+    if (places.empty()) places = fmt::format("none of {} atoms in a pocket", residue.atoms);
+    fmt::format_to(out, "{}ligand {}: {}\n", &residue == &report.pockets.left_out.front() ? "\n" : "",
+                   escaped(left_out_name(report, residue)), places);
   }
   return text;
 }

@@ -41,7 +41,7 @@ constexpr auto kTable = std::to_array<Property>({
         .from(1, 1000)
         .in(kLight, kLook | of_objects),
     number("look.ambient_occlusion", "--ambient-occlusion", "F",
-           "Shade in pockets and clefts, 0 (none) to 1. All that is drawn casts shade; what is seen through casts less")
+           "Shade in pockets and clefts, 0 (none) to 1. Everything drawn casts shade; transparent parts cast less")
         .from(0, 1)
         .slider("Shade", 1)
         .in(kLight, kLook | in_short_help),
@@ -50,12 +50,12 @@ constexpr auto kTable = std::to_array<Property>({
         .from(0.1, 1000)
         .in(kLight, kLook),
     number("look.ambient_occlusion_rays", "--ambient-occlusion-rays", "N",
-           "Rays a pixel that find shade and shadows, such as 64: exact, but slow. 0: maps of the light find them")
+           "Rays per pixel for shade and shadows, such as 64: exact, but slow. 0: maps, which are fast")
         .from(0, 4096)
         .initially("0")
         .in(kLight, kLook),
     number("look.shadows", "--shadows", "F",
-           "Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts less")
+           "Darkness of shadows that the lamp casts, 0 (none) to 1. Transparent parts cast less")
         .from(0, 1)
         .slider("Shadows", 1)
         .in(kLight, kLook | in_short_help),
@@ -64,8 +64,8 @@ constexpr auto kTable = std::to_array<Property>({
         .from(0, 45)
         .in(kLight, kLook),
     text("look.silhouettes", "--silhouettes", "WIDTH",
-         "Width of black outlines: pixels, 0.5pt or 0.2mm; 0: no lines. They are drawn around whatever is in "
-         "front, and between chains")
+         "Width of black outlines: pixels, 0.5pt or 0.2mm; 0: no lines. They surround everything in front, and "
+         "separate chains")
         .from(0, 16)
         .slider("Lines", 6)
         .in(kLines, kLook | in_short_help),
@@ -90,8 +90,8 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kLines, kLook),
     number("look.depth_cue", "--depth-cue", "F",
            "Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white. "
-           "Presets do not fade where the background is transparent, colours show numbers, or a surface is seen "
-           "through or cut for atoms to be seen (@look-into@)")
+           "Presets do not fade if the background is transparent, colours show numbers, the surface is transparent, or "
+           "with @look-into@")
         .from(0, 1)
         .slider("Depth", 1)
         .in(kLight, kLook),
@@ -103,12 +103,12 @@ constexpr auto kTable = std::to_array<Property>({
     flag("look.comments", "--comments", "Write a comment before each patch: its kind and its atoms")
         .in("Output", kShared),
     word("povray.material", "--material", "WORD",
-         "Material at first: opaque, ghost, glass, wax or flat. The scene contains all of them")
+         "First material: opaque, ghost, glass, wax or flat. The scene contains all of them")
         .one_of("opaque|ghost|glass|wax|flat")
         .initially("opaque")
         .in(kLight),
     word("path_tracers.material", "--material", "WORD",
-         "Material of the surface: matte, plastic, glass or wax. Shapes beside it are matte")
+         "Material of the surface: matte, plastic, glass or wax. Shapes are matte")
         .one_of("matte|plastic|glass|wax")
         .initially("matte")
         .in(kLight),
@@ -148,7 +148,7 @@ constexpr auto kAnnotationTable = std::to_array<Property>({
         .in(kLegend, kShared | live),
     text("legend.size", "--legend-size", "SIZE", "Height of the letters: pixels, 8pt or 3mm")
         .from(6, 1000)
-        .initially("that of @letter-size@, or a thirtieth of the shorter side")
+        .initially("as @letter-size@, or a thirtieth of the shorter side")
         .in(kLegend, kShared | live),
     text("legend.names", "--legend-name", "ENTRY=TEXT",
          "Write TEXT instead of an entry of the legend, as in 'A=Alpha' for chain A. Repeatable")
@@ -181,12 +181,12 @@ constexpr auto kAnnotationTable = std::to_array<Property>({
         .excludes("annotations.font"),
     text("annotations.label_size", "--label-size", "SIZE", "Height of the letters of labels")
         .from(6, 1000)
-        .initially("that of @letter-size@")
+        .initially("as @letter-size@")
         .in(kLabels, kShared)
         .needs("annotations.labels"),
     text("annotations.scale_bar_size", "--scale-bar-size", "SIZE", "Height of the letters of the scale bar")
         .from(6, 1000)
-        .initially("that of @letter-size@")
+        .initially("as @letter-size@")
         .in(kLabels, kShared)
         .needs("annotations.scale_bar"),
     text("annotations.panel_size", "--panel-size", "SIZE", "Height of the letter of the panel")
@@ -201,7 +201,7 @@ constexpr auto kAnnotationTable = std::to_array<Property>({
         .initially("auto")
         .in(kLabels, kShared | live),
     text("annotations.labels", "--label", "EXPR=TEXT",
-         "Write TEXT at these atoms, with a line to their centre. Repeatable")
+         "Write TEXT next to these atoms, with a line to their centre. Repeatable")
         .in(kLabels, kShared | live | repeatable | in_short_help),
     flag("annotations.lengths", "--hide-lengths", "Write no lengths next to dashed lines")
         .in(kLabels, kShared | live | negated),

@@ -24,14 +24,14 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("1")
         .in(kInput, kShared),
     text("molecule.altloc", "--altloc", "WORD",
-         "Alternate location to keep: best, first, a letter, or all. best: that of the highest occupancy in each "
+         "Alternate location to keep: best, first, a letter, or all. best: the one of highest occupancy in each "
          "residue")
         .proposes("best|first|all")
         .initially("best")
         .in(kInput, kShared),
     text("molecule.select", "--select", "EXPR",
-         "Use these atoms, such as 'chain A and resid 10-50' or all. Default: the polymers of FILE, or all of a file "
-         "without one. See meniscus help selections")
+         "Use these atoms, such as 'chain A and resid 10-50' or all. Default: the polymers of FILE, or all atoms if it "
+         "has none. See meniscus help selections")
         .in(kInput, kShared | in_short_help),
     flag("molecule.keep_water", "--keep-water", "Use water molecules, too").in(kInput, kShared),
     flag("molecule.keep_ions", "--keep-ions", "Use free ions, too: lone metal and halogen atoms").in(kInput, kShared),
@@ -56,10 +56,9 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kRadii, kShared),
     text("molecule.radii", "--radii", "SET",
          "Van der Waals radii: bondi, united, protor, martini2, martini3 or file. bondi: by element; united "
-         "(Chothia "
-         "1976) and protor (Tsai et al. 1999) include hydrogens; martini2 and martini3: of beads; file: those of "
-         "FILE")
-        .initially("file if it has radii, else bondi; of Martini's beads those of its version")
+         "(Chothia 1976) and protor (Tsai et al. 1999) include hydrogens; martini2 and martini3: for beads; file: "
+         "those in FILE")
+        .initially("file if it has radii, else bondi; for Martini's beads by its version")
         .in(kRadii, kShared),
     file("molecule.radii_file", "--radii-file", "FILE",
          "File of radii by residue and atom, used before @radii@. Formats: atmtypenumbers of MSMS, FreeSASA "

@@ -27,8 +27,8 @@ constexpr auto kTable = std::to_array<Property>({
          "Side that faces the viewer, such as front, top or left. front: the broad side that shows more; back, bottom, "
          "right; x, y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of "
          "@assembly@; "
-         "symmetry-side: with that axis upright; open: from where the atoms of @zoom-to@ are hidden least; "
-         "channel: along a channel through them. A minus sign before it shows the opposite side")
+         "symmetry-side: with that axis upright; open: the best view of the atoms of @zoom-to@; "
+         "channel: along a channel through them. A minus sign shows the opposite side")
         .initially("front")
         .in(kCamera, kShared | in_short_help)
         .excludes("camera.from"),
@@ -37,15 +37,15 @@ constexpr auto kTable = std::to_array<Property>({
          "Repeatable, applied in this order")
         .in(kCamera, kShared | repeatable | in_short_help),
     text("camera.zoom_to", "--zoom-to", "EXPR", "Fill the picture with these atoms")
-        .initially("all that @show@ leaves")
+        .initially("everything shown")
         .in(kCamera, kShared | in_short_help),
     text("camera.look_into", "--look-into", "EXPR",
-         "Look at these atoms from the open side, with the surface cut before them. Of several places the first is "
-         "shown. Short for @zoom-to 'first EXPR'@ @view open@ @clip 'before first EXPR'@")
+         "Look at these atoms from the open side, with the surface cut open. If they are at several places, the first "
+         "is shown. Short for @zoom-to 'first EXPR'@ @view open@ @clip 'before first EXPR'@")
         .in(kCamera, in_bundle | in_short_help)
         .excludes("camera.from|camera.view|camera.zoom_to"),
     text("camera.named_views", "--named-view", "NAME=FILE",
-         "View that readers of the page choose by its name. FILE: a camera as for @camera@, or a scene or picture, "
+         "View that readers of the page choose by name. FILE: a camera as for @camera@, or a scene or picture, "
          "with its cuts and opacity. Repeatable")
         .in(kCamera, repeatable),
     file("camera.path", "--camera-path", "FILE", "JSON file of key frames (frame, camera) of a moving camera")
@@ -65,7 +65,7 @@ constexpr auto kTable = std::to_array<Property>({
     text("image.width", "--width", "LENGTH", "Width of the picture: 85mm, 8.5cm, 3.5in or 1000px")
         .in(kPicture, kShared | live | in_short_help)
         .excludes("image.size"),
-    text("image.height", "--height", "LENGTH", "Height of the picture in the same units; auto: that of the molecule")
+    text("image.height", "--height", "LENGTH", "Height of the picture in the same units; auto: as high as the molecule")
         .in(kPicture, kShared | live)
         .excludes("image.size"),
     text("image.margin", "--margin", "LENGTH", "Margin around the molecule of @size auto@ and @height auto@")
@@ -95,7 +95,7 @@ constexpr auto kTable = std::to_array<Property>({
          "Layers: CryptoChain, CryptoResidue and CryptoAtom")
         .in(kPicture, kShared),
     word("image.color_space", "--color-space", "WORD",
-         "Primaries of the colours of an .exr: rec709, those of sRGB, or acescg")
+         "Primaries of the colours of an .exr: rec709 (as in sRGB) or acescg")
         .one_of("rec709|acescg")
         .initially("rec709")
         .in(kPicture, kShared),
@@ -121,8 +121,8 @@ constexpr auto kTable = std::to_array<Property>({
     flag("picture.any_cost", "--any-cost", "Make a picture of more than 10^10 rays, too, which takes hours")
         .in(kPicture, in_bundle | rare),
     flag("picture.resume", "--resume",
-         "Keep the picture, or those of a run, if they are there, and make the rest. Give it from the start: "
-         "pictures then say of what they were made")
+         "Keep finished pictures and make the rest. Use it from the start, because pictures then state what they were "
+         "made of")
         .in(kFramesOfPicture),
     flag("picture.provenance", "--provenance", "Store the command line in the picture (.png, .tif, .jpg, .exr)")
         .in(kPicture, in_bundle),
@@ -168,22 +168,20 @@ constexpr auto kRunTable = std::to_array<Property>({
         .initially("1")
         .in(kFrames, kShared),
     count("frames.interpolate", "--interpolate", "N",
-          "Make N frames of each: itself, and N - 1 on the way to the next. Atoms go along smooth curves; the "
-          "files are numbered as with @repeat@")
+          "Insert N - 1 frames between each two. Atoms go along smooth curves; files are numbered as with @repeat@")
         .from(1, 1e6)
         .initially("1")
         .in(kFrames, kShared | in_short_help)
         .excludes("frames.repeat"),
     text("frames.only", "--only", "LIST",
-         "Make only these frames, as one part of the whole run. Camera, colours and scene stay those of the whole "
-         "run")
+         "Make only these frames of the run. Camera, colours and scene stay those of the whole run")
         .in(kFrames),
     flag("frames.select_once", "--select-once",
          "Evaluate selections in the first frame only, not in each. This matters for distances, coordinates and "
          "secondary structure")
         .in(kFrames, kShared),
     text("frames.whole", "--whole", "WORD",
-         "Make molecules whole that the periodic box cuts, and gather them. bonds: by those of FILE and of "
+         "Make molecules whole that the periodic box cuts, and gather them. bonds: by bonds of FILE and of "
          "standard residues; guess: by distance")
         .proposes("bonds|guess")
         .initially("bonds")

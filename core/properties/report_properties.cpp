@@ -14,7 +14,7 @@ constexpr auto kTable = std::to_array<Property>({
     new_file("report.csv_atoms", "--csv", "FILE", "Write areas, one row per atom. -: to standard output")
         .in(kOutput, in_short_help),
     flag("report.open_sky", "--open-sky",
-         "Add the share of the sky that each atom sees to @csv@, 0 to 1. It is what ambient occlusion leaves")
+         "Add the share of the sky that each atom sees to @csv@, 0 to 1. It is 1 minus ambient occlusion")
         .in(kOutput),
     new_file("report.csv_residues", "--csv-residues", "FILE",
              "Write areas, one row per residue, with its relative accessibility. -: to standard output")
@@ -36,8 +36,8 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kOutput),
     new_file(
         "report.csv_summary", "--csv-summary", "FILE",
-        "Write numbers of many molecules, one row per file. All files given are molecules then; those that cannot be "
-        "computed have a row that says why")
+        "Write numbers of many molecules, one row per file. All files given are then molecules. A file that cannot be "
+        "computed has a row that says why")
         .in(kOutput),
     flag("report.resume", "--resume",
          "Continue a @csv-summary@ that was stopped. Files that failed or have changed are computed again")
@@ -88,9 +88,10 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("upper")
         .in(kPanels, in_short_help),
     flag("panels.one_camera", "--one-camera",
-         "See all panels with the camera of the first. Unless its scene names a camera, it shows what is in any panel")
+         "Show all panels with the camera of the first. Unless its scene names a camera, nothing of any panel is cut "
+         "off")
         .in(kPanels, in_short_help),
-    flag("panels.one_scale", "--one-scale", "Colour all panels by one range, from the least number to the greatest")
+    flag("panels.one_scale", "--one-scale", "Colour all panels by one range, from the smallest to the largest number")
         .in(kPanels, in_short_help),
 
     file(
@@ -107,8 +108,8 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("2")
         .in(kStoryboard, in_short_help),
     word("storyboard.to", "--to", "WORD",
-         "What is made. pictures: a film, or numbered pictures; povray: a folder with a scene for POV-Ray whose frames "
-         "are the film's; blender: a folder that Blender imports as scenes and keys")
+         "Output. pictures: a film, or numbered pictures; povray: a folder with a scene for POV-Ray that renders the "
+         "film; blender: a folder that Blender imports as scenes and keys")
         .one_of("pictures|povray|blender")
         .initially("pictures")
         .in(kStoryboard, in_short_help),
@@ -117,7 +118,7 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("smooth")
         .in(kStoryboard, in_short_help),
 
-    file("morph.files", "MOLECULE", "", "Structures of one molecule, or of alike ones, in the order of the path")
+    file("morph.files", "MOLECULE", "", "Structures of one molecule, or of similar ones, in the order of the path")
         .in("Path"),
     count("morph.steps", "--steps", "N", "Number of steps from each structure to the next")
         .from(1, 100000)

@@ -11,11 +11,11 @@ namespace {
 
 constexpr unsigned kShared = in_scene | in_bundle;
 constexpr unsigned kSeen = in_scene | in_bundle | needs_support;
-constexpr std::string_view kSurface = "Surface", kColour = "Colour", kFigure = "Figure", kBeside = "Beside the surface",
+constexpr std::string_view kSurface = "Surface", kColour = "Colour", kFigure = "Figure", kShapes = "Shapes",
                            kDevice = "Computing";
 
 constexpr auto kTable = std::to_array<Property>({
-    flag("surface.shown", "--hide-surface", "Hide the surface; show only what is beside it")
+    flag("surface.shown", "--hide-surface", "Hide the surface; draw only sticks, tubes and other shapes")
         .with<&Property::label>("Surface")
         .in(kFigure, kSeen | live | negated),
     text("surface.interface", "--interface", "A:B",
@@ -35,8 +35,8 @@ constexpr auto kTable = std::to_array<Property>({
     text("surface.show", "--show", "EXPR", "Show only the surface of these atoms. It is still computed with all atoms")
         .in(kSurface, kShared | live | of_surfaces | in_short_help),
     text("surface.patches", "--patches", "EXPR",
-         "Contiguous areas of these atoms, as a table or outlined in pictures. Such as "
-         "'hydrophobicity > 1.5' or 'charge < -0.3'")
+         "Contiguous areas of these atoms, as a table or outlined in pictures. For "
+         "example 'hydrophobicity > 1.5' or 'charge < -0.3'")
         .in(kSurface, kSeen | live | in_short_help),
     number("surface.min_patch", "--min-patch", "Å²", "Smallest area of a patch that is listed or outlined")
         .from(0, 1e9)
@@ -49,7 +49,7 @@ constexpr auto kTable = std::to_array<Property>({
         .proposes("chain|model|class|residue|component")
         .in(kSurface, kSeen | in_short_help),
     word("surface.cavities", "--cavities", "WORD",
-         "Cavities: keep, drop or only. drop: leave out what cannot be reached from outside; only: cavities and "
+         "Cavities: keep, drop or only. drop: leave out what cannot be reached from outside; only: keep cavities and "
          "what lies in them")
         .one_of("keep|drop|only")
         .initially("keep")
@@ -133,13 +133,13 @@ constexpr auto kTable = std::to_array<Property>({
     text("surface.clip", "--clip", "PLANE",
          "Cut by a plane with exact caps: x<20, 1,1,0>35 or depth>0.5. The part where this holds is kept. depth "
          "runs along the line of sight from 0 (nearest) to 1 (farthest). 'through EXPR' goes through the middle of "
-         "these atoms, 'before EXPR' is as deep as it must be for them to be seen. Repeatable; all apply")
+         "these atoms, 'before EXPR' cuts just deep enough to show them. Repeatable; all apply")
         .with<&Property::label>("Cuts")
         .in(kFigure, kSeen | live | repeatable | of_surfaces | in_short_help),
-    flag("surface.clip_all", "--clip-all", "Cut sticks, balls, tubes and all else beside the surface by @clip@, too")
+    flag("surface.clip_all", "--clip-all", "Cut sticks, balls, tubes and all other objects by @clip@, too")
         .in(kFigure, kSeen | live),
     text("surface.cap_color", "--cap-color", "COLOR",
-         "Colour of caps: atom (that of the nearest) or a colour (red, #rrggbb)")
+         "Colour of caps: atom (the nearest atom's) or a colour (red, #rrggbb)")
         .initially("atom")
         .in(kFigure, kSeen | live | of_surfaces),
     number("surface.cap_hatching", "--cap-hatching", "Å", "Distance of dark lines on caps, in Å; 0: no lines")
@@ -148,53 +148,51 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kFigure, kSeen | live | of_surfaces),
 
     text("figure.sticks", "--sticks", "EXPR", "Draw these atoms as sticks, also outside @select@. Repeatable")
-        .in(kBeside, in_bundle | live | repeatable | in_short_help),
+        .in(kShapes, in_bundle | live | repeatable | in_short_help),
     text("figure.balls", "--balls", "EXPR", "Draw these atoms as balls and sticks")
-        .in(kBeside, in_bundle | live | repeatable | in_short_help),
+        .in(kShapes, in_bundle | live | repeatable | in_short_help),
     text("figure.spheres", "--spheres", "EXPR", "Draw these atoms as spheres of their van der Waals radii")
-        .in(kBeside, in_bundle | live | repeatable | in_short_help),
+        .in(kShapes, in_bundle | live | repeatable | in_short_help),
     text("figure.tube", "--tube", "EXPR",
          "Draw the backbone of these atoms as a cartoon: tubes, ribbons, arrows. Helices are ribbons, strands are "
          "arrows, nucleic acids are bands with filled bases")
-        .in(kBeside, in_bundle | live | repeatable | in_short_help),
+        .in(kShapes, in_bundle | live | repeatable | in_short_help),
     text("figure.bases", "--bases", "EXPR",
          "Draw the bases of these nucleotides as filled rings. Rungs lead to the tube")
-        .in(kBeside, in_bundle | live | repeatable),
+        .in(kShapes, in_bundle | live | repeatable),
     text("figure.glycans", "--glycans", "EXPR",
-         "Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours: @color snfg@")
-        .in(kBeside, in_bundle | live | repeatable),
+         "Draw these sugars as solid symbols (3D-SNFG): spheres, cubes, cones. Their colours: @color snfg@")
+        .in(kShapes, in_bundle | live | repeatable),
     text("figure.hydrogen_bonds", "--hydrogen-bonds", "EXPR",
-         "Draw hydrogen bonds of these atoms as dashed lines, with lengths. 'EXPR to EXPR': only those between two "
-         "sets. Water counts where it is drawn or selected")
-        .in(kBeside, in_bundle | repeatable | in_short_help),
-    text("figure.distance", "--distance", "EXPR to EXPR",
-         "Draw the smallest distance of two sets of atoms as a dashed line")
-        .in(kBeside, in_bundle | repeatable | in_short_help),
-    flag("shapes.bare", "--bare",
-         "Draw no ligands and ions beside the surface of a polymer. Objects that are named stay")
+         "Draw hydrogen bonds of these atoms as dashed lines, with lengths. 'EXPR to EXPR': only bonds between two "
+         "sets. Water counts if it is drawn or selected")
+        .in(kShapes, in_bundle | repeatable | in_short_help),
+    text("figure.distance", "--distance", "EXPR to EXPR", "Draw a dashed line between the closest atoms of two sets")
+        .in(kShapes, in_bundle | repeatable | in_short_help),
+    flag("shapes.bare", "--bare", "Do not draw ligands and ions by default. Those that other options name are drawn")
         .in(kFigure, kSeen | live),
-    number("shapes.stick_radius", "--stick-radius", "Å", "Radius of sticks in Å, also of bases and between glycans")
+    number("shapes.stick_radius", "--stick-radius", "Å", "Radius of sticks in Å, also in bases and between glycans")
         .from(0.001, 10)
         .initially("0.25; 0.15 between balls")
-        .in(kBeside, kSeen | live),
+        .in(kShapes, kSeen | live),
     number("shapes.tube_radius", "--tube-radius", "Å", "Radius of tubes in Å. Ribbons and arrows scale with it")
         .from(0.001, 10)
         .initially("0.45")
-        .in(kBeside, kSeen | live),
+        .in(kShapes, kSeen | live),
     text("figure.object", "--object", "JSON",
-         "Draw one more object with its own look, as JSON of a scene file. Such as '{\"representation\": "
+         "Draw one more object with its own look, as JSON of a scene file. Example: '{\"representation\": "
          "\"surface\", \"selection\": \"chain B\", \"color\": \"red\"}'. Repeatable")
-        .in(kBeside, in_bundle | live | repeatable),
+        .in(kShapes, in_bundle | live | repeatable),
 
     // Beyond the largest probe every atom neighbours every other. The number of large probes in mouths grows with the
     // inverse of their tolerance.
     number("pockets.large_probe", "--large-probe", "Å",
-           "Radius of the probe that rolls over the mouths, in Å. A larger one finds wider, shallower pockets")
+           "Radius of the large probe that closes mouths, in Å. A larger one finds wider, shallower pockets")
         .from(1e-3, 100)
         .initially("4")
         .in(kSurface),
     number("pockets.trim", "--trim", "Å",
-           "Depth at which pockets begin below the large probe's surface, in Å. More separates neighbours that "
+           "Depth below the large probe's surface at which pockets begin, in Å. A larger value separates pockets that "
            "meet there")
         .from(0, 100)
         .initially("1")
@@ -208,7 +206,7 @@ constexpr auto kTable = std::to_array<Property>({
         .from(1e-3, 1)
         .initially("0.1")
         .in(kSurface),
-    text("pockets.ligand", "--ligand", "EXPR", "Atoms to take out first, whose places are reported; none: leave all in")
+    text("pockets.ligand", "--ligand", "EXPR", "Atoms to remove first; their places are reported. none: remove none")
         .initially("ligand")
         .in(kSurface, in_short_help),
 });
@@ -237,7 +235,7 @@ constexpr auto kMeshTable = std::to_array<Property>({
         .excludes("mesh.tolerance|mesh.tolerance_pixels"),
     flag("mesh.even", "--even", "Make nearly equilateral triangles. They cross the borders of patches")
         .in(kMesh, in_scene | in_bundle),
-    text("mesh.format", "--format", "WORD", "Format of the file, if its ending does not tell")
+    text("mesh.format", "--format", "WORD", "Format of the file, if its ending does not say")
         .in(kMesh, in_scene | in_short_help),
     text("mesh.attributes", "--attributes", "NAMES",
          "Numbers of vertices to write in PLY, VTP, GLB and USD, separated by commas")
@@ -248,15 +246,14 @@ constexpr auto kMeshTable = std::to_array<Property>({
         .initially("angstrom")
         .in(kMesh, in_scene),
     number("mesh.scale", "--scale", "LENGTH",
-           "Length of 1 Å in the file. The unit of 3MF is the millimetre, that of GLB and USD the metre; others have "
-           "none")
+           "Length of 1 Å in the file. 3MF is in millimetres, GLB and USD are in metres; other formats have no unit")
         .from(1e-12, 1e6)
         .initially("1")
         .in(kMesh, in_scene)
         .excludes("mesh.unit"),
 
     number("distances.voxel", "--voxel", "Å", "Edge of a voxel, in Å").from(0.01, 100).initially("0.5").in(kMesh),
-    count("distances.band", "--band", "N", "Voxels on each side of the surface whose distance is written")
+    count("distances.band", "--band", "N", "Voxels on each side of the surface that get their distance")
         .from(1, 1000)
         .initially("3")
         .in(kMesh),

@@ -99,7 +99,7 @@ TEST(Pockets, TablesMeshesAndFiguresSayTheSame) {
       pockets({kProtease, "--csv", csv, "--mesh", mesh, "--figure", figure, "--min-volume", "100"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("    1  tunnel "), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("of 35 atoms 35 in pocket 1"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("35 of 35 atoms in pocket 1"), std::string::npos) << result.out;
   const std::string rows = read_bytes(csv);
   EXPECT_TRUE(
       rows.starts_with("rank,kind,volume,excess,area,wall_area,mouth_area,mouths,mouth_areas,depth,x,y,z,atoms,"
