@@ -39,7 +39,7 @@ fi
 ctest --test-dir "$build" -LE long --output-on-failure --timeout 600 -j "$(nproc)" --output-junit "$results/release.xml" \
   --test-output-size-passed 16384 "$@" || failed+=("tests")
 
-# Blender's tests follow one another, so they run beside the next steps.
+# Blender's tests follow one another, so they run during the next steps.
 if [[ $(uname -m) == x86_64 ]]; then  # PyPI has no other
   MENISCUS_INSIDE="inside_baked inside_blender inside_handed_on inside_sequence inside_shot" \
     bash scripts/check/newer_blenders.sh "$build/meniscus" newest >"$results/newest_blender.log" 2>&1 &

@@ -28,9 +28,9 @@ constexpr double kRoom = 1e-4;  // radians, for rounding in double and single pr
 // exactly the stored numbers, and a length within kLengthError of kLength.
 constexpr float kAxisLength = 256, kLength = 127, kLengthError = 0.25f;
 constexpr float kProduct = kAxisLength * kLength;  // the dot product of an axis and the same direction
-// A bound on the error of a dot product beside kProduct times the cosine. The axis is off by 0.87 units, the length of
-// the direction by kLengthError. The last term is for the numbers that products are compared to: they are rounded, and
-// near a cosine of 1 a root in single precision is off by as much as three units.
+// A bound on the difference of a dot product from kProduct times the cosine. The axis is off by 0.87 units, the length
+// of the direction by kLengthError. The last term is for the numbers that products are compared to: they are rounded,
+// and near a cosine of 1 a root in single precision is off by as much as three units.
 constexpr float kProductError = 0.9f * (kLength + kLengthError) + kAxisLength * kLengthError + 5;
 constexpr float kBeyond = 1.002f;  // in place of a cosine: the number to compare to is larger than any product
 static_assert(kBeyond * kProduct + kProductError < 0x7fff);
