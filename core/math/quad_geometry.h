@@ -242,5 +242,6 @@ inline real sqrt(real a) {
 
 #undef MENISCUS_GEOMETRY_CIRCLE_GLSL
 #include "gpu_shaders/geometry/circle.glsl"
+#undef MENISCUS_GEOMETRY_CIRCLE_GLSL  // double_geometry.h, too, may include it
 
 }  // namespace meniscus::quad_geometry
