@@ -18,6 +18,7 @@
 #include "core/mesh/mesh_objects.h"
 #include "core/queries/copies.h"
 #include "core/queries/surface_object.h"
+#include "core/render/cpu/unevenness.h"
 #include "core/render/image_output.h"
 #include "core/render/legend.h"
 #include "core/render/picture_file.h"
@@ -189,7 +190,7 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
   const Strips strips = strips_for(strip_contents(view.annotations), view.annotations.letters, settings.size);
   settings.size.y -= strips.top + strips.bottom;
   settings.samples = view.samples;
-  settings.adaptive = true;
+  settings.adaptive = Unevenness::pays_off(view.size);
   settings.look = look_of(figure.look, view.size, background, figure.hues(), figure.molecule.patches.has_value());
   settings.progress = [&watch](double share) { watch("picture", share); };
   SurfaceRequest on_cpu;

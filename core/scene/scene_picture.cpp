@@ -9,6 +9,7 @@
 #include "core/base/text.h"
 #include "core/camera/open_side.h"
 #include "core/color/color_schemes.h"
+#include "core/render/cpu/unevenness.h"
 #include "core/scene/figure_key.h"
 #include "core/scene/frozen_selections.h"
 #include "core/scene/scene_lengths.h"
@@ -176,7 +177,7 @@ RenderSettings render_settings(const Scene& scene, const PictureLayout& layout) 
   RenderSettings settings;
   settings.size = layout.size.size();
   settings.samples = scene.image.samples;
-  settings.adaptive = true;
+  settings.adaptive = Unevenness::pays_off(scene.picture.size());
   settings.aovs = scene.image.aovs;
   settings.mattes = scene.image.cryptomatte;
   settings.look =

@@ -2,6 +2,7 @@
 // Finds where a picture needs more than one sample per pixel.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,10 @@ namespace meniscus {
 /// which is at its centre, by at most 1/255.
 class Unevenness {
  public:
+  /// True if a picture is so large that samples which are left out save a user's time: 1920 x 1080 pixels or more.
+  /// Smaller pictures are made quickly, and equal those of GL and of the preview but for rounding.
+  static bool pays_off(glm::ivec2 size) { return std::int64_t{size.x} * size.y >= 1920 * 1080; }
+
   /// Compares the pixels of a block with their neighbours. first: the finished first sample of each pixel, linear and
   /// premultiplied, row by row.
   void find(std::span<const glm::vec4> first, glm::ivec2 size);

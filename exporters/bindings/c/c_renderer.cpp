@@ -6,6 +6,7 @@
 
 #include "core/camera/camera.h"
 #include "core/properties/properties.h"
+#include "core/render/cpu/unevenness.h"
 #include "core/render/look.h"
 #include "core/scene/scene_lengths.h"
 #include "exporters/bindings/c/c_atoms.h"
@@ -76,7 +77,7 @@ RenderSettings settings_of(const Scene& scene) {
   RenderSettings settings;
   settings.size = scene.picture.size();
   settings.samples = scene.image.samples;
-  settings.adaptive = true;
+  settings.adaptive = Unevenness::pays_off(scene.picture.size());
   settings.look = look_of(scene.look, scene.picture.size(), scene.image.background, Hues::free);
   return settings;
 }
