@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of commands, and those of the session itself: undo and redo, and its end.
+// The table of commands, and the commands of the session itself: undo, redo and quit.
 #include "app/preview/commands.h"
 
 #include <algorithm>

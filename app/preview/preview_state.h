@@ -90,7 +90,7 @@ struct PreviewState : PreviewFigure {
   double strip_rate = 25.0;         ///< pictures per second of the strip while it plays
   bool plays_strip = false;         ///< playing goes along the strip, not through the frames
   std::uint64_t revision = 1;       ///< grows with every change of what is seen
-  bool ended = false;               ///< a command asked to end
+  bool ended = false;               ///< true after the command quit
 
   /// Returns the pictures per second of what plays.
   double rate() const { return plays_strip ? strip_rate : frames_per_second; }

@@ -66,7 +66,7 @@ class PreviewSession {
   std::vector<std::uint8_t> rgba() const { return pictures_.rgba(); }
   glm::ivec2 picture_size() const { return pictures_.size(); }
 
-  /// A command asked to end.
+  /// Returns true after the command quit.
   bool wants_to_quit() const { return state_.ended; }
   const PreviewState& state() const { return state_; }
   /// Returns the files and folders that exports and saved scenes have written.

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause Intersects rays with patches, finds the atom whose colour a point has, and
-// tests if that atom is shown, because points of hidden atoms are not hits.
+// SPDX-License-Identifier: BSD-3-Clause
+// Intersects rays with patches, finds the atom whose colour a point has, and tests if that atom is shown, because points
+// of hidden atoms are not hits.
 //
 // Written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where rays may be packets with a common
 // patch. The includer provides row(), load_primitive(), `view`, `params`, shows() of an atom, and `some_hidden`, which

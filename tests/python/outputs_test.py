@@ -93,7 +93,7 @@ class Pictures(unittest.TestCase):
                     self.assertIn(said, str(refused.exception))
                     self.assertNotIn("--", str(refused.exception))
         self.assertNotIn("@", "".join(p.help + p.initial for p in meniscus.properties()))
-        self.assertIn("(look_into)", {p.name: p for p in meniscus.properties()}["depth_cue"].help)
+        self.assertIn("with look_into", {p.name: p for p in meniscus.properties()}["depth_cue"].help)
 
     @unittest.skipUnless(PROGRAM, "MENISCUS_PROGRAM is not set")
     def test_a_scene_is_drawn_as_the_program_draws_it(self):

@@ -152,7 +152,7 @@ export function select_controls({ command, set, ask, say, viewer }) {
     return { points, are_all: points.length === atoms };
   }
 
-  /// Returns the shortest distance of two sets of atoms, in words, and its middle; null if not all atoms are told.
+  /// Returns the shortest distance of two sets of atoms, in words, and its middle; null if not all places of atoms are known.
   async function nearest(...sides) {
     const [near, far] = await Promise.all(sides.map(points_of));
     const pairs = near.are_all && far.are_all ? near.points.flatMap((a) => far.points.map((b) => [length(minus(a, b)), times(plus(a, b), 0.5)])) : [];
