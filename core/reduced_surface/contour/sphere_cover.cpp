@@ -83,9 +83,8 @@ struct WatchedDirections {
   static double divide(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, std::vector<glm::dvec3>& points) {
     constexpr std::size_t kSide = 5;
     const double arc = std::acos(glm::dot(a, b)) / kSide;
-    const auto part = [&](std::size_t n) {
-      return std::sin(static_cast<double>(n) * arc);
-    };  // equal steps on the sides
+    // The steps on the sides are equal.
+    const auto part = [&](std::size_t n) { return std::sin(static_cast<double>(n) * arc); };
     std::array<std::array<glm::dvec3, kSide + 1>, kSide + 1> at;
     for (std::size_t i = 0; i <= kSide; ++i)
       for (std::size_t j = 0; i + j <= kSide; ++j)
@@ -162,7 +161,9 @@ void narrow_caps(const Blockers::Columns& balls, std::size_t count, float invers
                  float sin_angle, std::int32_t* scratch, std::int16_t* out, std::size_t room) {
   const Blockers::Columns b = balls;
   std::int32_t *x = scratch, *y = x + room, *z = y + room, *limit = z + room, *least = limit + room;
-  const auto whole = [](float number) { return static_cast<std::int32_t>(number + 0x10000p0f + 0.5f) - 0x10000; };
+  // Conversion cuts digits off, so the numbers that it gets are positive, and half a unit larger to be rounded.
+  constexpr float kShift = 0x10000p0f + 0.5f;
+  const auto whole = [](float number) { return static_cast<std::int32_t>(number + kShift) - 0x10000; };
   MENISCUS_INDEPENDENT_STEPS
   for (std::size_t n = 0; n < count; ++n) {
     const float distance = static_cast<float>(b.distance[n]), inverse = 1 / distance;
