@@ -40,8 +40,7 @@ molecule=$(dpkg -L pymol-data | awk '/\/1tii\.pdb$/ && !n++')
 }
 
 step "3/5 a picture"
-"$meniscus" render "$molecule" -o "$out/1tii_chains.png" --size "$size" --color chain --ambient-occlusion 1 \
-  --depth-cue 0.35 --silhouettes 1.5 --light-strength 1.3 --samples 9 --background white --force
+"$meniscus" render "$molecule" -o "$out/1tii_chains.png" --size "$size" --background white --force
 echo "look at it: $out/1tii_chains.png"
 
 step "4/5 the same surface here, in POV-Ray and in Blender"
