@@ -72,7 +72,7 @@ echo "pictures: $out/1tii_chains.png $out/1tii.png $out/povray/surface.png $out/
 cat <<EOF
 
 Now your own molecule:
-  $meniscus render my.pdb -o my.png --color chain --ambient-occlusion 1 --background white
+  $meniscus my.pdb                                           # a picture: my.png
   $meniscus preview my.pdb                                   # opens a browser; --no-open: prints the address
-  $meniscus render my.pdb -o pocket.png --zoom-to ligand     # meniscus render --help has all
+  $meniscus render my.pdb -o pocket.png --look-into ligand   # meniscus render --help has all
 EOF
