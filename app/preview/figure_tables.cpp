@@ -66,7 +66,7 @@ bool FigureTables::compute(const PreviewState& state, const ShownMolecule& molec
 
 void FigureTables::color(const Structure& structure, const PreviewState& state, const ShownMolecule& molecule) {
   Coloring& coloring = object_.coloring = molecule.coloring(state);
-  // A page numbers the parts of each frame from 0, and a model's parts follow those of the models before it.
+  // The part numbers of a page begin with 0 in each frame. The molecule numbers the parts of all models in one row.
   const std::uint32_t first_part = coloring.part.empty() ? 0 : *std::ranges::min_element(coloring.part);
   for (std::uint32_t& part : coloring.part) part -= first_part;
   const MoleculeRequest& request = state.molecule;

@@ -148,9 +148,9 @@ const NumberFile& numbers_at_first(const ColorScheme& first) {
 }
 
 /// Returns a scheme whose word and rules were chosen, with the numbers, the scale and the title that it has in this
-/// preview. If `keeps_scale` is true, the scheme keeps its map, its range and its colour of missing numbers; else it
-/// gets those of the scheme that the preview began with, if that is the same one. Throws RequestError for a scheme that
-/// previews do not show, and for rules in addition to kinds of patch.
+/// preview. If `keeps_scale` is true, the scheme keeps its map, its range and its colour of missing numbers. Otherwise
+/// it takes them from the scheme that the preview began with, if both schemes are the same. Throws RequestError for a
+/// scheme that previews do not show, and for rules in addition to kinds of patch.
 ColorScheme previewed_scheme(ColorScheme color, const ColorScheme& before, const ColorScheme& first, bool keeps_scale) {
   if (color.uses_file() && numbers_at_first(first).empty())
     throw RequestError("'file' needs numbers; begin the preview with --color-by-file FILE");
@@ -228,7 +228,8 @@ Ordered value_json(const Property& property, const Scene& scene) {
     return list;
   }
   if (!texts.empty()) return json_of_texts(property, texts, "");
-  // Without a scale bar there is none, though one without a length has a default.
+  // An initial value with spaces is a phrase for people. The initial value of an optional value applies only after the
+  // property was set without a value, as with a scale bar without a length.
   const bool has_one = property.initial.find_first_of(" @") == property.initial.npos && property.key != "surface.map" &&
                        !property.has(value_optional);
   return property.initial.empty() || !has_one ? Ordered()

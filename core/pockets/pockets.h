@@ -152,8 +152,9 @@ inline constexpr double kSamePlace = 1e-3;  ///< Å
 /// because both distances change by no more than the length of a step.
 class ProbeCells {
  public:
-  /// `atoms` are those of the hull, `probe_radius` is that of the small probe (Å), and `clearance` (Å) is the smallest
-  /// Hull::to_probe() of its centre. Runs on all cores that TBB may use; the cells do not depend on their number.
+  /// Computes the cells of the small probe. atoms: the atoms of `hull`; probe_radius: radius of the small probe, Å;
+  /// clearance: smallest value of Hull::to_probe() at the probe's centre, Å. Runs on all cores that TBB may use; the
+  /// cells do not depend on their number.
   ProbeCells(std::span<const Ball> atoms, double probe_radius, const Hull& hull, double clearance);
 
   std::size_t count() const { return boxes_.size(); }

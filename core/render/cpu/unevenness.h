@@ -17,7 +17,7 @@ namespace meniscus {
 class Unevenness {
  public:
   /// True if a picture is so large that samples which are left out save a user's time: 1920 x 1080 pixels or more.
-  /// Smaller pictures are made quickly, and equal those of GL and of the preview but for rounding.
+  /// Smaller pictures are quick anyway. They have all samples, and differ from GL's pictures by rounding alone.
   static bool pays_off(glm::ivec2 size) { return std::int64_t{size.x} * size.y >= 1920 * 1080; }
 
   /// Compares the pixels of a block with their neighbours. first: the finished first sample of each pixel, linear and

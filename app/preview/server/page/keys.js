@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program's keys, in addition to those of the stage. Letters are matched as typed, in either case, so that they follow
-// the user's keyboard.
+// Handles the keys that need the program; the stage handles the keys of the camera itself. Letters are matched as typed,
+// in either case, so that they follow the user's keyboard.
 
 const kFast = 1000;  // ms between steps that follow each other
 const kUsual = { "look.ambient_occlusion": 1, "look.silhouettes": 1.5 };
