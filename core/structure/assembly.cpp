@@ -48,10 +48,10 @@ bool parse_count(std::string_view text, std::size_t& count) {
 }
 
 [[noreturn]] void bad_expression(std::string_view expression, const std::string& file) {
-  throw InputError(file, 0,
-                   fmt::format("operator expression {} of an assembly cannot be read; one is such as 1,2,5 or (1-60) "
-                               "or (X0)(1-5)",
-                               in_quotes(expression)));
+  throw InputError(
+      file, 0,
+      fmt::format("operator expression {} of an assembly cannot be read; examples are 1,2,5 and (1-60) and (X0)(1-5)",
+                  in_quotes(expression)));
 }
 
 /// Parses a list such as "1,2,5", "1-60" or "P,1-3".

@@ -19,18 +19,18 @@ struct ReasonWords {
 };
 
 constexpr ReasonWords kReasonWords[] = {
-    {kExcludedModel, "of other models"},
+    {kExcludedModel, "in other models"},
     {kExcludedTrajectory, "not in the trajectory"},
-    {kExcludedAltloc, "of other alternate locations"},
+    {kExcludedAltloc, "in other alternate locations"},
     {kExcludedVirtual, "virtual site", "s"},
     {kExcludedSelection, "not selected"},
     {kExcludedElement, "of unknown element"},
     {kExcludedRadius, "of radius zero"},
     {kExcludedHydrogen, "hydrogen", "s"},
-    {kExcludedWater, "of water"},
+    {kExcludedWater, "water atom", "s"},
     {kExcludedIon, "free ion", "s"},
-    {kExcludedLigand, "of ligands"},
-    {kExcludedLipid, "of lipids"},
+    {kExcludedLigand, "ligand atom", "s"},
+    {kExcludedLipid, "lipid atom", "s"},
     {kExcludedAssembly, "outside the assembly"},
 };
 
@@ -60,21 +60,20 @@ std::string label_of(const Atom& atom) {
 
 namespace {
 
-/// Returns "of 3 ligands (2 HEM, NAP)": the residues of one reason, the most frequent first.
-std::string residues_text(std::string_view what, const std::map<std::string, std::size_t>& residues) {
+/// Returns " (2 HEM, NAP)": the residues of one reason, the most frequent first.
+std::string residues_text(const std::map<std::string, std::size_t>& residues) {
   constexpr std::size_t kNamed = 4;
   std::vector<std::pair<std::string, std::size_t>> by_count(residues.begin(), residues.end());
   std::ranges::stable_sort(by_count, std::greater(), &std::pair<std::string, std::size_t>::second);
-  std::size_t count = 0, named = 0;
+  std::size_t named = 0;
   std::string names;
   for (const auto& [name, times] : by_count) {
-    count += times;
     if (named++ >= kNamed) continue;
     names += names.empty() ? "" : ", ";
-    names += (times > 1 && by_count.size() > 1 ? with_thousands(times) + " " : "") + escaped(name);
+    names += (times > 1 ? with_thousands(times) + " " : "") + escaped(name);
   }
   if (named > kNamed) names += fmt::format(" and {} more", named - kNamed);
-  return fmt::format("of {} {}{} ({})", with_thousands(count), what, count == 1 ? "" : "s", names);
+  return fmt::format(" ({})", names);
 }
 
 }  // namespace
@@ -86,9 +85,8 @@ std::string reasons_text(const std::map<std::string, std::size_t>& excluded,
     const auto found = excluded.find(reason);
     if (found == excluded.end()) continue;
     const auto named = residues.find(reason);
-    text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", with_thousands(found->second),
-                        named == residues.end() ? words : residues_text(reason, named->second),
-                        found->second == 1 ? "" : plural);
+    text += fmt::format("{}{} {}{}{}", text.empty() ? "" : ", ", with_thousands(found->second), words,
+                        found->second == 1 ? "" : plural, named == residues.end() ? "" : residues_text(named->second));
   }
   return text;
 }

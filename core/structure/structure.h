@@ -104,12 +104,12 @@ struct ReadReport {
   std::string assembled;   ///< description of the assembly of the used atoms; empty without an assembly
   std::vector<Warning> warnings;
 
-  /// Returns "5,684 atoms read; 43 of 1 ligand (HEM), 215 of water left out; 5,426 used".
+  /// Returns "5,684 atoms read; 43 ligand atoms (HEM), 215 water atoms left out; 5,426 used".
   std::string sentence() const;
 };
 
-/// Returns "127 of radius zero, 58 of water": the number of atoms for each reason, in the order of the constants below.
-/// residues: as in ReadReport.
+/// Returns "127 of radius zero, 58 water atoms": the number of atoms for each reason, in the order of the constants
+/// below. residues: as in ReadReport.
 std::string reasons_text(const std::map<std::string, std::size_t>& excluded,
                          const std::map<std::string, std::map<std::string, std::size_t>>& residues = {});
 

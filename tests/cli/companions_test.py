@@ -48,7 +48,7 @@ class Companions(MoleculeCase):
 class Numbers(Companions):
     def test_the_surface_is_that_of_the_polymer(self):
         told = self.made("surface", "all.pdb", "--json")
-        self.assertIn("40 atoms read; 1 of water, 1 free ion, 2 of 1 ligand (LIG) left out; 36 used (--select all adds ligands)", told.stderr)
+        self.assertIn("40 atoms read; 1 water atom, 1 free ion, 2 ligand atoms (LIG) left out; 36 used (--select all adds ligands)", told.stderr)
         self.assertEqual(json.loads(told.stdout)["atoms"],
                          {"read": 40, "excluded": {"ion": 1, "ligand": 2, "water": 1}, "excluded_residues": {"ligand": {"LIG": 1}},
                           "used": 36})
@@ -79,7 +79,7 @@ class Numbers(Companions):
         self.write("frames.pdb", "".join(
             f"MODEL {n}\n" + pdb([(*row[:2], row[2][:3], *row[3:]) for row in rows], "ENDMDL\n") for n in (1, 2)))
         told = self.made("surface", "run.gro", "--json")
-        self.assertIn("1 of water, 2 of 1 ligand (LIG), 63 of 21 lipids (POPC) left out; 36 used", told.stderr)
+        self.assertIn("1 water atom, 2 ligand atoms (LIG), 63 lipid atoms (21 POPC) left out; 36 used", told.stderr)
         self.assertEqual(self.made("surface", "run.gro", "--trajectory", "frames.pdb", "--json").stdout.count("\n"), 2)
         self.assert_same(self.picture(file="run.gro"), self.picture("--select", "polymer", "--object", json.dumps(
             {"representation": "sticks", "selection": "resname LIG", "color": LIGAND_COLORS, "radius": 0.4}), file="run.gro"))

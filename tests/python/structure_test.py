@@ -120,7 +120,7 @@ class Program(Files):
         rows = [*atoms(), ("C1", "C", "LIG", "L", 1, (20.0, 0.0, 0.0)), ("O1", "O", "LIG", "L", 1, (21.3, 0.0, 0.0))]
         self.pdb.write_text(pdb(rows, water=False).replace("ATOM     65", "HETATM   65").replace("ATOM     66", "HETATM   66"))
         polymer = meniscus.read(self.pdb)
-        self.assertEqual(polymer.report, "66 atoms read; 2 of 1 ligand (LIG) left out; 64 used (select=all adds ligands)")
+        self.assertEqual(polymer.report, "66 atoms read; 2 ligand atoms (LIG) left out; 64 used (select=all adds ligands)")
         self.same(self.told(self.pdb), polymer)
         self.assertEqual(len(meniscus.read(self.pdb, select="all")), 66)
 
@@ -169,7 +169,7 @@ class Atoms(Files):
         self.assertEqual(set(s.classes), {"polymer"})
         self.assertEqual(set(s.altlocs) | set(s.insertion_codes) | set(s.segments), {""})
         self.assertEqual((s.file, s.format, s.radii_set, s.model_count), (str(self.pdb), "PDB", "bondi", 1))
-        self.assertEqual(s.report, "65 atoms read; 1 of water left out; 64 used")
+        self.assertEqual(s.report, "65 atoms read; 1 water atom left out; 64 used")
         self.assertEqual(repr(s), f"<meniscus.Structure: {self.pdb}, PDB: {s.report}>")
         self.assertFalse(s.positions.flags.writeable)
         np.testing.assert_allclose(meniscus.read(self.folder / "helix.pqr").charges[:3], [-0.1, 0, 0.1], atol=1e-7)

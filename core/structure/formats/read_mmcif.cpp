@@ -118,7 +118,7 @@ std::int32_t residue_number(const TextFile& file, const cif::Table& table, std::
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (error == std::errc::result_out_of_range) {
     throw InputError(file.path, line_of_row(file, table, number_of_row, value),
-                     fmt::format("the residue number {} is larger than any; correct it", in_quotes(value)));
+                     fmt::format("the residue number {} is too large; correct it", in_quotes(value)));
   }
   return number;
 }

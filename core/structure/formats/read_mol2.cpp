@@ -181,7 +181,7 @@ class Mol2Reader {
           fmt::format("{} is not an atom: id name x y z type [substructure its_name charge]", in_quotes(line_)));
     if (!places_.try_emplace(id, static_cast<std::uint32_t>(contents_.atoms.size())).second)
       throw InputError(file_.path, lines_.number(),
-                       fmt::format("atom {} is there twice; give each atom its own number", id));
+                       fmt::format("atom {} appears twice; give each atom its own number", id));
     if (fields.size() > 6 && (!parse_whole_number(fields[6], substructure) || std::abs(substructure) > 99'999'999))
       throw InputError(
           file_.path, lines_.number(),
@@ -217,8 +217,8 @@ class Mol2Reader {
         const auto place = parse_whole_number(fields[1 + end], id) ? places_.find(id) : places_.end();
         if (place == places_.end())
           throw InputError(file_.path, lines_.number(),
-                           fmt::format("a bond names atom {}, which molecule {} has not", in_quotes(fields[1 + end]),
-                                       contents_.models));
+                           fmt::format("a bond names atom {}, which molecule {} does not have",
+                                       in_quotes(fields[1 + end]), contents_.models));
         bond[end] = place->second;
       }
       if (fields[3] != "nc") contents_.bonds.push_back({std::min(bond[0], bond[1]), std::max(bond[0], bond[1])});

@@ -268,7 +268,7 @@ class SdfReader {
                        fmt::format("{} is not an atom: number, symbol, x, y, z", in_quotes(text)));
     if (!places_.try_emplace(index, static_cast<std::uint32_t>(seen_)).second)
       throw InputError(file_.path, lines_.number(),
-                       fmt::format("atom {} is there twice; give each atom its own number", index));
+                       fmt::format("atom {} appears twice; give each atom its own number", index));
     take_atom({{fields[2], fields[3], fields[4]}, fields[1], {}});
     for (std::size_t n = 5; is_wanted_ && n < fields.size(); ++n) {
       if (!fields[n].starts_with("CHG=")) continue;
@@ -338,8 +338,9 @@ class SdfReader {
     has_partial_charges_ = false;
     // Drawings are not in Å, and their atoms overlap.
     if (seen_ > 3 && is_flat_ && all([](const Atom& atom) { return atom.position.z == 0.0; }))
-      contents_.warnings.emplace_back(fmt::format(
-          "molecule {} is drawn in two dimensions: all z are 0; a surface needs its conformer", contents_.models));
+      contents_.warnings.emplace_back(
+          fmt::format("molecule {} is a drawing in two dimensions (all z are 0); a surface needs coordinates in three",
+                      contents_.models));
   }
 
   const TextFile& file_;

@@ -250,7 +250,7 @@ std::vector<Bond> find_shown_bonds(const Structure& structure, const FileContent
 void refuse_no_atoms(const Structure& structure) {
   if (!structure.atoms.empty()) return;
   throw InputError(structure.file, 0,
-                   message("no atoms are left to make a surface of: {}; @keep-water@ and @keep-ions@ use more",
+                   message("no atoms are left to make a surface of: {}; add @keep-water@ or @keep-ions@ to use them",
                            structure.report.sentence()));
 }
 
@@ -430,8 +430,8 @@ struct StructureFile::Parts {
     const MartiniVersion martini = martini_version(contents.atoms);
     if (martini.number == 0 || martini.is_certain || !options.radii.set.empty()) return;
     report.warnings.emplace_back(
-        message("nothing in the names tells Martini 2 from Martini 3; beads have the types and radii of 3; @radii "
-                "martini2@ takes those of 2"));
+        message("the names do not show whether this is Martini 2 or 3; types and radii of Martini 3 are used; for "
+                "Martini 2 add @radii martini2@"));
   }
 
   void add_files() {

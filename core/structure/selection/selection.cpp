@@ -310,10 +310,9 @@ std::string Selection::why_none(std::span<const Atom> atoms) const {
       constexpr std::size_t kNamed = 30;
       const bool more = chains.size() > kNamed;
       if (more) chains.resize(kNamed);
-      return fmt::format(
-          "there is no chain {}, only {}{}{}", in_quotes(wanted.text), fmt::join(chains, ", "),
-          more ? fmt::format(" and {} more", count - kNamed) : "",
-          names_copies() && !copied ? "; copies have names only in an assembly that is made of atoms" : "");
+      return fmt::format("there is no chain {}, only {}{}{}", in_quotes(wanted.text), fmt::join(chains, ", "),
+                         more ? fmt::format(" and {} more", count - kNamed) : "",
+                         names_copies() && !copied ? "; copies that share one surface have no names" : "");
     }
   }
   return "chains and names are case-sensitive";

@@ -224,7 +224,7 @@ class Parser {
   std::vector<SelectionStep> parse() {
     if (token().kind == TokenKind::end) fail("the selection is empty; 'all' selects every atom");
     parse_or();
-    if (token().kind == TokenKind::close) fail("this bracket closes nothing");
+    if (token().kind == TokenKind::close) fail("this bracket has no opening bracket");
     if (token().kind != TokenKind::end)
       fail(fmt::format("'and' or 'or' is missing before {}", in_quotes(token().text)));
     return std::move(steps_);

@@ -134,7 +134,7 @@ class Electrostatics(unittest.TestCase):
         run(words + ["water.pqr"], folder)
         small = ["--force", "--size", "320x240"]
         said = run([PROGRAM] + ["water.pqr" if word == "1ubq.pqr" else word for word in commands[2][1:]] + small, folder)
-        self.assertIn("58 atoms with charges are left out of the surface (58 of water)", said)
+        self.assertIn("58 atoms with charges are left out of the surface (58 water atoms)", said)
 
 
 if __name__ == "__main__":

@@ -135,7 +135,7 @@ TEST(PolymerRule, TakesModifiedResiduesAndBoundSugars) {
   EXPECT_EQ(structure.companions, Companions::hidden);
   EXPECT_TRUE(structure.extra_atoms.empty());
   EXPECT_EQ(structure.report.sentence(),
-            "14 atoms read; 1 of water, 1 free ion, 3 of 2 ligands (LIG, NAG) left out; 9 used (--select all adds "
+            "14 atoms read; 1 water atom, 1 free ion, 3 ligand atoms (LIG, NAG) left out; 9 used (--select all adds "
             "ligands)");
   EXPECT_EQ(structure.report.excluded.at(kExcludedLigand), 3u);
   EXPECT_EQ(structure.report.residues.at(kExcludedLigand).at("LIG"), 1u);

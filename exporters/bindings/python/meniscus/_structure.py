@@ -45,7 +45,7 @@ class Structure(Columns):
 
     >>> molecule = meniscus.read("helix.pdb")
     >>> molecule
-    <meniscus.Structure: helix.pdb, PDB: 65 atoms read; 1 of water left out; 64 used>
+    <meniscus.Structure: helix.pdb, PDB: 65 atoms read; 1 water atom left out; 64 used>
     >>> molecule[molecule.elements == "C"]
     <meniscus.Structure: 32 of 64 atoms of helix.pdb>
     >>> molecule[1].name, len(molecule[:8])
@@ -254,7 +254,7 @@ class Structure(Columns):
         """A sentence about the atoms that were read, left out and used.
 
         >>> molecule.report
-        '65 atoms read; 1 of water left out; 64 used'"""
+        '65 atoms read; 1 water atom left out; 64 used'"""
         return self._report.sentence
 
     @property

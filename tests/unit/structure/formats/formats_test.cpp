@@ -88,7 +88,7 @@ TEST(Pqr, WaterIonsAndAtomsOfRadiusZeroAreLeftOut) {
   const Structure structure =
       read_text("a.pqr", pqr_line("1 N MET A 1", 1, "-0.3 1.85") + pqr_line("2 HA MET A 1", 2, "0.1 0.0") +
                              pqr_line("3 O HOH A 2", 3, "-0.8 1.6") + pqr_line("4 CA CA A 3", 4, "2.0 1.3"));
-  EXPECT_EQ(structure.report.sentence(), "4 atoms read; 1 of radius zero, 1 of water, 1 free ion left out; 1 used");
+  EXPECT_EQ(structure.report.sentence(), "4 atoms read; 1 of radius zero, 1 water atom, 1 free ion left out; 1 used");
 }
 
 TEST(Pqr, RadiiThatLookLikeOtherColumnsAreWarnedAbout) {
@@ -122,7 +122,7 @@ TEST(Gro, NanometresBecomeAngstromAndNamesTellElements) {
   EXPECT_EQ(structure.atoms[3].element, 11);
   EXPECT_EQ(structure.atoms[3].kind, AtomClass::ion);
   EXPECT_EQ(structure.atoms[3].residue, 2u);
-  EXPECT_EQ(read_text("a.gro", kGro).report.sentence(), "4 atoms read; 2 of water, 1 free ion left out; 1 used");
+  EXPECT_EQ(read_text("a.gro", kGro).report.sentence(), "4 atoms read; 2 water atoms, 1 free ion left out; 1 used");
 }
 
 TEST(Gro, MoreDecimalsMakeWiderColumns) {
@@ -137,7 +137,7 @@ TEST(Gro, FramesAreModelsAndTitlesMayBeBlank) {
   second.replace(second.find("0.177"), 5, "0.999");
   const std::string both = kGro + second + "\n\n";
   EXPECT_EQ(read_text("a.gro", both).report.sentence(),
-            "8 atoms read; 4 of other models, 2 of water, 1 free ion left out; 1 used");
+            "8 atoms read; 4 in other models, 2 water atoms, 1 free ion left out; 1 used");
   EXPECT_DOUBLE_EQ(read_text("a.gro", both, with_model(2)).atoms[0].position.x, 9.99);
   const Structure all = read_text("a.gro", both, all_models());
   ASSERT_EQ(all.atoms.size(), 2u);
@@ -185,7 +185,7 @@ TEST(Xyz, ExtendedCommentsSayWhereThePositionIs) {
 TEST(Xyz, FramesAreModels) {
   const std::string text = "2\nframe 1\nO 0 0 0\nH 1 0 0\n1\nframe 2\nO 5 0 0\n\n";
   const Structure first = read_text("a.xyz", text);
-  EXPECT_EQ(first.report.sentence(), "3 atoms read; 1 of other models left out; 2 used");
+  EXPECT_EQ(first.report.sentence(), "3 atoms read; 1 in other models left out; 2 used");
   EXPECT_EQ(read_text("a.xyz", text, with_model(2)).atoms.at(0).position.x, 5.0);
   EXPECT_EQ(read_text("a.xyz", text, all_models()).atoms.size(), 3u);
   EXPECT_THROW(read_text("a.xyz", text, with_model(3)), InputError);

@@ -138,7 +138,7 @@ TEST(LargePdb, ChainsOfTwoLettersAndResiduesOfFourAreToldApart) {
   EXPECT_EQ(atom.chain, "L");
   std::string water = PdbLine{.residue = "TIP"}.text();
   water.replace(17, 5, "TIP3W");
-  EXPECT_EQ(read_text(PdbLine{}.text() + water).report.sentence(), "2 atoms read; 1 of water left out; 1 used");
+  EXPECT_EQ(read_text(PdbLine{}.text() + water).report.sentence(), "2 atoms read; 1 water atom left out; 1 used");
 }
 
 TEST(LargePdb, SegmentsStandInForChainsAndKeepResiduesApart) {

@@ -34,12 +34,12 @@ ReadOptions with_ligands() {
 
 TEST(RealEntries, CountsAreThePublishedOnes) {
   const Structure ubiquitin = read_structure(kUbiquitin);
-  EXPECT_EQ(ubiquitin.report.sentence(), "660 atoms read; 58 of water left out; 602 used");
+  EXPECT_EQ(ubiquitin.report.sentence(), "660 atoms read; 58 water atoms left out; 602 used");
   const Structure toxin = read_structure(kToxin);
-  EXPECT_EQ(toxin.report.sentence(), "5,684 atoms read; 215 of water left out; 5,469 used");
+  EXPECT_EQ(toxin.report.sentence(), "5,684 atoms read; 215 water atoms left out; 5,469 used");
   EXPECT_EQ(toxin.format, "PDB");
   const Structure nmr = read_structure(kNmrEntry);
-  EXPECT_EQ(nmr.report.sentence(), "12,310 atoms read; 11,079 of other models left out; 1,231 used");
+  EXPECT_EQ(nmr.report.sentence(), "12,310 atoms read; 11,079 in other models left out; 1,231 used");
   EXPECT_EQ(nmr.report.models, 10u);
 }
 
@@ -47,7 +47,7 @@ TEST(RealEntries, TheRibosomeLosesItsFreeIonsAndItsLigand) {
   const Structure ribosome = read_structure(kRibosome);
   EXPECT_EQ(ribosome.format, "mmCIF");
   EXPECT_EQ(ribosome.report.sentence(),
-            "165,175 atoms read; 187 free ions, 23 of 1 ligand (AMP) left out; 164,965 used (--select all adds "
+            "165,175 atoms read; 187 free ions, 23 ligand atoms (AMP) left out; 164,965 used (--select all adds "
             "ligands)");
   ReadOptions keep = with_ligands();
   keep.keep_ions = true;
@@ -170,9 +170,9 @@ TEST(Classes, WaterAndIonsGoLigandsAndBoundMetalsStay) {
                            het("CL  ", " CL", "CL", 4) + het("FE  ", "HEM", "FE", 5) + het(" NA ", "HEM", " N", 5) +
                            het(" C1 ", "GOL", " C", 6);
   const Structure structure = read_named("a.pdb", text, with_ligands());
-  EXPECT_EQ(structure.report.sentence(), "7 atoms read; 1 of water, 2 free ions left out; 4 used");
+  EXPECT_EQ(structure.report.sentence(), "7 atoms read; 1 water atom, 2 free ions left out; 4 used");
   EXPECT_EQ(read_named("a.pdb", text).report.sentence(),
-            "7 atoms read; 1 of water, 2 free ions, 3 of 2 ligands (GOL, HEM) left out; 1 used (--select all adds "
+            "7 atoms read; 1 water atom, 2 free ions, 3 ligand atoms (GOL, HEM) left out; 1 used (--select all adds "
             "ligands)");
   EXPECT_EQ(structure.atoms[1].element, 26);
   EXPECT_EQ(structure.atoms[1].kind, AtomClass::ligand);
@@ -454,7 +454,7 @@ ATOM C CA . GLY A 1 1 1.0 2.0 3.0 10 Heavy 2
 
 TEST(Mmcif, TakesAuthorNamesEntitiesAndTheFirstModel) {
   const Structure structure = read_named("a.cif", kMmcif, with_ligands());
-  EXPECT_EQ(structure.report.sentence(), "4 atoms read; 1 of other models, 1 of water left out; 2 used");
+  EXPECT_EQ(structure.report.sentence(), "4 atoms read; 1 in other models, 1 water atom left out; 2 used");
   EXPECT_EQ(structure.atoms[0].kind, AtomClass::polymer);
   EXPECT_EQ(structure.atoms[0].chain, "Heavy");
   EXPECT_EQ(structure.atoms[0].residue_number, 10);

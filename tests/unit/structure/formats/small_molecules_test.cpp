@@ -120,7 +120,7 @@ TEST(Sdf, PartialChargesOfPubchemAndRdkit) {
 TEST(Sdf, MoleculesAreModels) {
   const std::string two = kAcetate + "> <name>\nfirst\n\n$$$$\n" + with(kAcetate, "acetate ion", "") + "$$$$\n\n";
   const Structure first = read_text("a.sdf", two);
-  EXPECT_EQ(first.report.sentence(), "8 atoms read; 4 of other models left out; 4 used");
+  EXPECT_EQ(first.report.sentence(), "8 atoms read; 4 in other models left out; 4 used");
   ASSERT_EQ(first.report.warnings.size(), 1u);
   EXPECT_EQ(first.report.warnings[0].text,
             "2 molecules are in the file; the first is used, --model 2 takes the next, --model all unites them");
@@ -147,7 +147,7 @@ TEST(Sdf, DrawingsAreWarnedAbout) {
   const FileContents drawing = contents_of("a.sdf", with(flat, "3D", "2D"));
   ASSERT_EQ(drawing.warnings.size(), 1u);
   EXPECT_EQ(drawing.warnings[0].text,
-            "molecule 1 is drawn in two dimensions: all z are 0; a surface needs its conformer");
+            "molecule 1 is a drawing in two dimensions (all z are 0); a surface needs coordinates in three");
 }
 
 const std::string kV3000 =
@@ -194,7 +194,7 @@ TEST(Sdf, BadFilesAreRefused) {
   expect_refused("a.sdf", kV3000.substr(0, kV3000.find("M  V30 7")), "ends a molecule without M  END");
   expect_refused("a.sdf", with(kV3000, "COUNTS 3", "COUNTS 4"), "COUNTS says 4 atoms, but 3 follow");
   expect_refused("a.sdf", with(kV3000, "1 1 10 20", "1 1 10 2"), "a bond names atom '2'");
-  expect_refused("a.sdf", with(kV3000, "M  V30 20", "M  V30 10"), "atom 10 is there twice");
+  expect_refused("a.sdf", with(kV3000, "M  V30 20", "M  V30 10"), "atom 10 appears twice");
   expect_refused("a.sdf", with(with(with(kAcetate, "  4  3", "  0  0"), "acetate", ""), "M  END", "M  END\n$$$$"),
                  "is one atom more");
 }
@@ -355,7 +355,7 @@ TEST(Mol2, BadFilesAreRefused) {
   expect_refused("a.mol2", with(kMol2, "MOH9 0.5", "MOH9 x"), ":10: charge is 'x', not a finite number");
   expect_refused("a.mol2", with(kMol2, "2 O1 1.4 0.0 0.0 O.3 1 MOH9 0.5", "2 O1 1.4"),
                  ":10: '2 O1 1.4' is not an atom");
-  expect_refused("a.mol2", with(kMol2, "2 O1", "1 O1"), ":10: atom 1 is there twice");
+  expect_refused("a.mol2", with(kMol2, "2 O1", "1 O1"), ":10: atom 1 appears twice");
   expect_refused("a.mol2", with(kMol2, "1 1 2 1", "1 1 77 1"), ":16: a bond names atom '77', which molecule 1 has not");
   expect_refused("a.mol2", "@<TRIPOS>MOLECULE\nm\n0\n", "has no atoms after @<TRIPOS>ATOM");
 }
@@ -375,7 +375,7 @@ TEST(Pdbqt, ChargesTypesAndPoses) {
   const std::string poses = "MODEL 1\nREMARK VINA RESULT: -9.1\n" + kPose + "ENDMDL\nMODEL 2\n" + kPose + "ENDMDL\n";
   const Structure structure = read_text("a.pdbqt", poses);
   EXPECT_EQ(structure.format, "PDBQT");
-  EXPECT_EQ(structure.report.sentence(), "8 atoms read; 4 of other models, 1 virtual site left out; 3 used");
+  EXPECT_EQ(structure.report.sentence(), "8 atoms read; 4 in other models, 1 virtual site left out; 3 used");
   ASSERT_EQ(structure.atoms.size(), 3u);
   const int elements[] = {6, 7, 1};
   for (std::size_t n = 0; n < 3; ++n) EXPECT_EQ(structure.atoms[n].element, elements[n]) << n;

@@ -213,7 +213,7 @@ TEST(Selection, CopiesOfAChainAreNamedTogetherOrByTheirNumber) {
   EXPECT_EQ(parse_selection("chain C").why_none(atoms), "there is no chain 'C', only A, B, AB");
   const std::vector<Atom> of_file(atoms.begin(), atoms.begin() + 2);
   EXPECT_EQ(selected("chain A-1", of_file), "") << "there are no copies";
-  EXPECT_NE(parse_selection("chain A-2").why_none(of_file).find("copies have names only in an assembly"),
+  EXPECT_NE(parse_selection("chain A-2").why_none(of_file).find("copies that share one surface have no names"),
             std::string::npos);
   // What was selected once: in the file, of all copies; in the assembly, of those.
   const Selection within = parse_selection("chain A-2");
@@ -273,7 +273,7 @@ TEST(Selection, MistakesArePointedAt) {
       {"chain and water", "a value is missing after 'chain'", 6},
       {"chain A,", "a value is missing", 8},
       {"(chain A", "this bracket is not closed", 0},
-      {"chain A)", "this bracket closes nothing", 7},
+      {"chain A)", "this bracket has no opening bracket", 7},
       {"()", "a selection is missing before ')'", 1},
       {"water and", "a selection is missing at the end", 9},
       {"water and or ion", "a selection is missing before 'or'", 10},

@@ -466,7 +466,7 @@ typedef struct meniscus_read_report {
   const char* file;      /* the path that was passed */
   const char* format;    /* "PDB", "mmCIF", ... */
   const char* radii_set; /* the set of radii, or the files and overrides */
-  const char* sentence;  /* "5,684 atoms read; 215 of water left out; 5,469 used" */
+  const char* sentence;  /* "5,684 atoms read; 215 water atoms left out; 5,469 used" */
   uint64_t read;         /* atoms that were read, in all models and alternate locations */
   uint64_t atoms;        /* atoms of the structure, including the copies of an assembly */
   uint64_t models;       /* models in the file */
