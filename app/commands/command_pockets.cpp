@@ -42,10 +42,10 @@ constexpr std::uint64_t kPocketBytesPerAtom = 10 * kSurfaceBytesPerAtom;
 std::vector<bool> taken_out(const PocketsCommand& command, const Structure& structure) {
   std::vector<bool> taken = command.ligand.evaluate(structure.atoms);
   if (std::ranges::find(taken, false) == taken.end())
-    throw InputError(structure.file, 0,
-                     fmt::format("all {} atoms are taken out by --ligand {}, so nothing is left for pockets to be "
-                                 "between; name others, or none",
-                                 with_thousands(taken.size()), in_quotes(command.ligand.text())));
+    throw InputError(
+        structure.file, 0,
+        fmt::format("--ligand {1} takes out all {0} atoms, so nothing is left for pockets; name other atoms",
+                    with_thousands(taken.size()), in_quotes(command.ligand.text())));
   return taken;
 }
 
@@ -173,9 +173,8 @@ namespace {
 void check_mesh_path(const std::string& path) {
   const MeshFormat* const format = mesh_format_of_path(path);
   if (!format || format->solid || format->atoms)
-    throw UsageError(fmt::format(
-        "--mesh {}: the ending is not that of a format for pockets; choose one of {} that holds several solids",
-        in_quotes(path), mesh_format_words()));
+    throw UsageError(fmt::format("--mesh {}: this format cannot hold several solids; choose one of {}", in_quotes(path),
+                                 mesh_format_words()));
 }
 
 // Throws unless the path of a run has a place for the number of the frame.
@@ -206,8 +205,7 @@ void check_request(const PocketsCommand& command) {
   if (!command.figure.empty() && command.scene.molecule.file == "-")
     throw UsageError("--figure: a scene names its molecule's file, which standard input is not");
   if (!command.figure.empty() && command.scene.frames.interpolate > 1)
-    throw UsageError(
-        "--figure: a scene is of a frame of the trajectory, not of one in between; leave --interpolate out");
+    throw UsageError("--figure: a scene cannot show a frame between two of the trajectory; leave --interpolate out");
   std::vector<std::string> paths{command.csv};
   if (command.scene.frames.is_requested())
     check_run(command);

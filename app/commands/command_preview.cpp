@@ -88,7 +88,7 @@ Shown read_run(PreviewCommand& command) {
   ColorScheme& color = scene.molecule.color;
   if (color.by == ColorScheme::By::rmsf) {
     if (color.uses_file())
-      throw UsageError("--color rmsf beside the numbers of a file is for render; leave --color-by-file out");
+      throw UsageError("the preview cannot combine --color rmsf with --color-by-file; leave one of them out");
     color.file = {.path = frames->structure().file, .numbers = fluctuations(*frames)};
   }
   TrajectoryPositions trajectory{frames->chunk(),

@@ -94,18 +94,16 @@ void log_memory(const RenderCommand& command) {
   const Scene& scene = command.scene;
   const double pixels = static_cast<double>(scene.picture.width) * scene.picture.height;
   if (pixels < kManyPixels || !is_encoded_in_memory(scene.output)) return;
-  log_line(
-      command,
-      fmt::format("note: {} files are encoded in memory: up to {} MiB beside the picture's bands; .png, .jpg and .tif "
-                  "are written as they come",
-                  std::filesystem::path(scene.output).extension().string(),
-                  with_thousands(static_cast<std::uint64_t>(pixels * channel_bytes(scene) / kMebibyte))));
+  log_line(command,
+           fmt::format("note: writing {} files takes up to {} MiB of additional memory; .png, .jpg and .tif take none",
+                       std::filesystem::path(scene.output).extension().string(),
+                       with_thousands(static_cast<std::uint64_t>(pixels * channel_bytes(scene) / kMebibyte))));
 }
 
 void warn_of_hue_changes(const RenderCommand& command) {
   const std::string changes = hue_changes(command.scene.look);
   if (changes.empty() || hues_of(command.scene.molecule.color, false) != Hues::kept) return;
-  log_line(command, "warning: colours of the surface are not those of the legend: " + changes);
+  log_line(command, "warning: the colours of the surface differ from the legend: " + changes);
 }
 
 /// Sets the default output: the molecule's name, in the current folder.
@@ -133,7 +131,7 @@ void check_layers(const Scene& scene) {
   const char* const layers = image.aovs ? "--aovs" : image.cryptomatte ? "--cryptomatte" : "";
   if (image.motion_blur > 1 && (*layers || image.extent))
     throw UsageError(
-        fmt::format("--motion-blur: {} has no mean; leave one of them out", *layers ? layers : "--extent"));
+        fmt::format("--motion-blur and {} cannot be combined; leave one of them out", *layers ? layers : "--extent"));
   if (*layers && !holds_aovs(scene.output))
     throw UsageError(fmt::format("{} needs an .exr output; other formats hold colour only", layers));
   if (*layers && image.extent)
@@ -168,7 +166,8 @@ void check_scene(const RenderCommand& command) {
   check_layers(scene);
   if (scene.image.extent && (!scene.figure.plain() || !scene.molecule.color.opacities.empty()))
     throw UsageError(
-        "--extent draws the surface alone, whole and opaque; leave --extent out, or --opacity, --clip and the like");
+        "--extent draws only the surface, whole and opaque; leave out --extent, or --opacity, --clip, --sticks and "
+        "similar options");
   if (scene.image.extent &&
       (scene.look.shadows.value_or(0.0f) > 0.0f || scene.look.ambient_occlusion_rays.value_or(0.0f) > 0.0f))
     throw UsageError("--shadows and --ambient-occlusion-rays need the complete surface; leave --extent out");

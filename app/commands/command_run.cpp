@@ -119,7 +119,7 @@ void FigureRun::make_one_figure() {
   for (std::size_t n = 0; n < scene().figure.objects.size(); ++n)
     if (const FigureObjectRequest& object = scene().figure.objects[n];
         object.is_dashed() && figure_->extras.objects[n].lengths.empty())
-      log_line(command_, fmt::format("note: {} {} finds no atoms to join; water counts where it is drawn or selected",
+      log_line(command_, fmt::format("note: {} {} finds nothing to draw; water counts only if it is drawn or selected",
                                      option_name(object.option()), in_quotes(object.text())));
 }
 

@@ -258,7 +258,7 @@ void check_outputs(const SurfaceCommand& command) {
     const Division& division = command.scene.molecule.division;
     if (division.components || division.cavities != Cavities::keep || division.instances != InstanceMode::none)
       throw UsageError(
-          "--gradients are of whole surfaces of atoms; leave --by component, --cavities and --instances out");
+          "--gradients needs a whole surface of atoms; leave --by component, --cavities and --instances out");
   }
   if (!command.cavity_csv.empty()) {
     const Division& division = command.scene.molecule.division;

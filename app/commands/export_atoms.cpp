@@ -39,7 +39,8 @@ void export_atoms(const SceneCommand& requested) {
   if (command.scene.molecule.color.by == ColorScheme::By::lipophilicity)
     throw UsageError("--color lipophilicity colours points of a surface, not atoms; choose another --color");
   if (command.scene.molecule.division.instances == InstanceMode::separate)
-    throw UsageError("--instances separate: of the atoms in the file one surface is made; leave it out");
+    throw UsageError(
+        "--instances separate: a file of atoms has one surface, so copies cannot be separate; leave it out");
   std::unique_ptr<FrameRun> run;
   if (command.scene.frames.is_requested()) {
     freeze_selections(command.scene);

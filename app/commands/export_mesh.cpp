@@ -145,8 +145,8 @@ void export_to_mesh(const SceneCommand& requested) {
   if (one_file) check_one_file(format, requested.scene);
   const auto is_partial = [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; };
   if (!format.opacity && std::ranges::any_of(requested.scene.molecule.color.opacities, is_partial))
-    log_line(requested,
-             fmt::format("note: --opacity: {} has none, so what is translucent is opaque there", format.title));
+    log_line(requested, fmt::format("note: --opacity: {} files store no opacity, so transparent parts are opaque there",
+                                    format.title));
   SceneCommand bare = requested;
   bare.scene.figure.bare = true;  // a mesh is that of the surface
   FigureRun run(bare, one_file ? Velocities::central : Velocities::none);
@@ -177,7 +177,7 @@ void export_to_mesh(const SceneCommand& requested) {
   if (!one_file) return;
   write_mesh_run(format, command.scene.output, command.existing(), whole.frames, whole.times);
   if (std::ranges::any_of(whole.frames.front().objects, [](const FileObject& o) { return o.velocities.empty(); }))
-    log_line(command, "note: no velocities: they are known where a molecule is in one place and keeps its atoms");
+    log_line(command, "note: no velocities are written: they need the same atoms in all frames, without copies");
   std::cout << escaped(command.scene.output) << "\n";
 }
 

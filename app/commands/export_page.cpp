@@ -88,7 +88,7 @@ NamedViews::NamedViews(const std::vector<std::string>& texts, const SceneCommand
     View view{text.substr(0, sign), {}, {}};
     if (view.name.empty() || file.empty()) refuse(text, "write NAME=FILE, such as 'Active site=site.json'");
     if (std::ranges::any_of(views_, [&](const View& other) { return other.name == view.name; }))
-      refuse(text, "there is a view of this name before it; choose another");
+      refuse(text, "another view has this name; choose another one");
     if (is_scene(file)) {
       std::vector<std::string> words{page.scene.molecule.file};
       if (trusts_scenes) words.push_back("--trust-scene");
@@ -100,7 +100,7 @@ NamedViews::NamedViews(const std::vector<std::string>& texts, const SceneCommand
     view.scene.picture.height = page.scene.picture.height;
     view.camera = given_camera(view.scene.picture);
     if (view.scene.figure.cuts.size() > page::kMostPlanes)
-      refuse(text, fmt::format("pages show at most {} planes, and its scene has {}", page::kMostPlanes,
+      refuse(text, fmt::format("a page shows at most {} planes, but this scene has {}", page::kMostPlanes,
                                view.scene.figure.cuts.size()));
     views_.push_back(std::move(view));
   }

@@ -77,7 +77,7 @@ void run(const PathTracerCommand& command) {
   };
   run.make({kMeshBytesPerAtom}, [&]() -> FigureRun::Sink { return make; });
   if (std::ranges::any_of(requested.figure.objects, [](const auto& object) { return !object.material.empty(); }))
-    log_line(command, "note: materials of --object are those of render; here they are all --material");
+    log_line(command, "note: the materials of --object are for render; here everything has the material of --material");
   if (!run.is_run()) run.save_cameras();
   std::cout << escaped(render_command(command, run.is_run())) << "\n";
 }

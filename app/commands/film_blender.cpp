@@ -40,15 +40,16 @@ std::vector<std::string> left_out_of_blender(Storyboard& storyboard) {
   const double probe = storyboard.scene(0).run.scene().molecule.surface.probe_radius;
   if (storyboard.leaves_writing_out())
     sentences.emplace_back(
-        "titles, labels, legends, scale bars and the like are left out: Blender gets the molecule; titles name the "
-        "markers of its timeline");
+        "titles, labels, legends and scale bars are left out: Blender gets only the molecule; titles name the markers "
+        "of its timeline");
   const bool cuts = storyboard.any([](const Scene& scene) { return !scene.figure.cuts.empty(); });
   const bool probes = storyboard.any([&](const Scene& scene) { return scene.molecule.surface.probe_radius != probe; });
   if (cuts || probes)
-    sentences.push_back(fmt::format("{} not move in Blender: the surface of each scene is a mesh, and they fade",
-                                    cuts && probes ? "cut planes and the probe's radius do"
-                                    : cuts         ? "cut planes do"
-                                                   : "the probe's radius does"));
+    sentences.push_back(
+        fmt::format("{} not move in Blender: each scene has its own mesh, and the meshes fade into each other",
+                    cuts && probes ? "cut planes and the probe's radius do"
+                    : cuts         ? "cut planes do"
+                                   : "the probe's radius does"));
   return sentences;
 }
 

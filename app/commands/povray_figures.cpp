@@ -159,13 +159,13 @@ std::vector<std::string> left_out_of_povray(Storyboard& storyboard) {
   std::vector<std::string> sentences;
   const std::string& material = storyboard.scene(0).run.scene().renderer.material;
   if (storyboard.leaves_writing_out())
-    sentences.emplace_back("titles, labels, legends and the like are left out: POV-Ray's scenes hold the molecule");
+    sentences.emplace_back("titles, labels and legends are left out: scenes for POV-Ray hold only the molecule");
   if (storyboard.any([](const Scene& scene) { return scene.image.motion_blur > 1; }))
     sentences.emplace_back("--motion-blur is left out");
   if (storyboard.any([&](const Scene& scene) { return scene.renderer.material != material; }))
-    sentences.emplace_back("--material is that of the first scene, for all");
+    sentences.emplace_back("all scenes have the --material of the first one");
   if (const std::string names = changes_left_out(storyboard); !names.empty())
-    sentences.push_back("POV-Ray's light is its own; these differ in the scenes, and change nothing: " + names);
+    sentences.push_back("POV-Ray has its own light, so these differences between the scenes have no effect: " + names);
   return sentences;
 }
 

@@ -113,7 +113,8 @@ ShownReader::ShownReader(const PreviewCommand& command)
 
 Structure ShownReader::operator()(const FigureRequest& figure, std::size_t frame) const {
   if (molecule_.file == "-")
-    throw RequestError("a molecule from standard input cannot be read again; give FILE to draw atoms beside a surface");
+    throw RequestError(
+        "a molecule from standard input cannot be read again; give FILE to draw atoms in addition to the surface");
   MoleculeRequest wanted = molecule_;
   figure.mark_atoms(wanted.reading);
   if (models_) {

@@ -34,7 +34,7 @@ std::vector<std::size_t> missing_pictures(const std::vector<std::string>& paths,
                                           Existing existing) {
   for (const std::string& path : paths)
     if (std::filesystem::path(path).extension() != ".png")
-      throw UsageError("--resume: only .png pictures say of what they were made; name such, as in frame_#####.png");
+      throw UsageError("--resume: only .png pictures record how they were made; use names such as frame_#####.png");
   const std::vector<std::size_t> not_there = farm::missing_files(paths);
   const std::set<std::size_t> absent(not_there.begin(), not_there.end());
   std::vector<std::size_t> missing, others;

@@ -34,7 +34,7 @@ std::vector<double> seconds_in(const std::string& text, std::size_t count, const
 
 /// Returns the film after a check of its scenes, before anything is read.
 const FilmCommand& with_scenes(const FilmCommand& film) {
-  if (film.files.size() < 2) throw UsageError("a film goes from one scene to the next: name two scenes or more");
+  if (film.files.size() < 2) throw UsageError("a film needs two scenes or more");
   return film;
 }
 

@@ -267,7 +267,7 @@ void check_summary(const SurfaceCommand& command) {
   for (const std::string& path : {command.summary_csv, command.atom_csv, command.residue_csv}) {
     if (path == "-")
       throw UsageError(
-          "--csv-summary and the tables beside it are files, which --resume can continue; name one instead of -");
+          "--csv-summary and its tables must be files, so that --resume can continue them; give a name instead of -");
     if (path.empty()) continue;
     check_output(path, command.existing());
     check_output(path + ".part", Existing::replace);
@@ -284,7 +284,7 @@ void print_summary(const SurfaceCommand& requested) {
   more.clear();
   check_summary(command);
   for (const std::string& file : files)
-    if (file == "-") throw UsageError("--csv-summary reads files by their names; - is none");
+    if (file == "-") throw UsageError("--csv-summary cannot read standard input (-); give names of files");
   Summary(command, std::move(files)).make();
 }
 

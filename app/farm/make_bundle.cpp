@@ -190,7 +190,8 @@ void make_trial(const Bundle& bundle, const fs::path& folder, Chunking& measured
   try {
     measured.seconds_per_frame = std::max(work(bundle, order, ProgressStyle::none), 1e-3);
   } catch (const RunError& error) {
-    throw RunError(error.code(), fmt::format("the trial frame: {}; with --chunk-frames N there is none", error.what()));
+    throw RunError(error.code(),
+                   fmt::format("the trial frame failed: {}; with --chunk-frames N no trial is made", error.what()));
   }
   const StopBarrier barrier;
   for (const char* made : {"images", "scene"}) fs::remove_all(folder / made);

@@ -79,7 +79,7 @@ void take_picture(const Bundle& bundle, const Order& order, std::uint64_t frame,
   std::ifstream stream(from, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(stream), {});
   const std::optional<std::string> picture = png_without_time(bytes);
-  if (!picture) return listener.failed(frame, kExitInput, "the renderer made no whole PNG file");
+  if (!picture) return listener.failed(frame, kExitInput, "the renderer did not write a complete PNG file");
   const std::string result = bundle.result(Step::render, frame);
   write_file(order.folder / result, *picture);
   fs::remove(from);

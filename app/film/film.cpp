@@ -446,7 +446,7 @@ void FilmWriter::add(std::span<const std::uint8_t> picture) {
     if (sent <= 0) {
       end_pictures();
       const std::string why = fault();
-      throw OutputError(file_.target().string(), why.empty() ? "ffmpeg takes no more pictures" : why);
+      throw OutputError(file_.target().string(), why.empty() ? "ffmpeg stopped reading pictures" : why);
     }
     picture = picture.subspan(static_cast<std::size_t>(sent));
   }

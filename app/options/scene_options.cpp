@@ -260,9 +260,10 @@ void SceneOptions::check_inputs() const {
       std::error_code ignored;
       if (path == "-" || std::filesystem::exists(path_of_text(path), ignored)) continue;
       if (typed(property->key) || file_.empty()) BinaryFile(path, Contents::atoms);
-      throw InputError(file_, 0,
-                       fmt::format("scene: {} is {}: there is no such file, and none of its name in the working folder",
-                                   property->key, in_quotes(path)));
+      throw InputError(
+          file_, 0,
+          fmt::format("scene: {} is {}, but there is no such file, nor one of this name in the working folder",
+                      property->key, in_quotes(path)));
     }
   }
 }
@@ -395,7 +396,7 @@ std::string SceneOptions::left_out_note() const {
     if (is_seen) names += (names.empty() ? "" : ", ") + key;
   }
   return names.empty() ? ""
-                       : fmt::format("note: {} does not show what the scene says of {}", command_path(command_), names);
+                       : fmt::format("note: {} ignores these values of the scene: {}", command_path(command_), names);
 }
 
 /// Makes a film of some seconds of a camera that turns around one molecule, unless the number of pictures is given.

@@ -105,7 +105,7 @@ Outcome set_key(const CommandReader& command, PreviewState state, const Surround
   } else {
     for (const auto& [frame, camera] : state.keys)
       if (frame != state.frame && camera.projection != state.camera.projection)
-        throw RequestError("key: all keys of the camera must have one projection, that of the first");
+        throw RequestError("key: all keys of the camera must have the projection of the first one");
     state.keys[state.frame] = state.camera;
   }
   const std::size_t count = state.keys.size();

@@ -150,7 +150,7 @@ double CommandReader::number(const char* key, double lowest, double highest) con
 }
 
 int CommandReader::integer(const char* key, int lowest, int highest) const {
-  if (highest < lowest) fail(key, "left out: there is nothing yet that it could name");
+  if (highest < lowest) fail(key, "left out, because the list is still empty");
   const double number = value(key).is_number_integer() ? value(key).get<double>() : lowest - 1.0;
   if (!(number >= lowest && number <= highest)) fail(key, fmt::format("a whole number from {} to {}", lowest, highest));
   return static_cast<int>(number);

@@ -197,7 +197,7 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
         structure_.companions != Companions::none && read_shown_ && structure_.file != "standard input";
     if (!figure.figure.representations.empty() || !figure.figure.objects.empty() || has_companions) {
       if (!read_shown_)
-        throw RequestError("this molecule cannot be read again, so nothing can be drawn beside its surface");
+        throw RequestError("this molecule cannot be read again, so nothing can be drawn in addition to its surface");
       Structure marked = read_shown_(figure.figure, frame);
       marked.frame = structure_.frame;
       made.marked = std::make_shared<const Structure>(std::move(marked));
@@ -219,7 +219,7 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
     made.extras = std::make_shared<const FigureExtras>(std::move(extras));
   }
   if (figure.figure.hides_surface && (!made.extras || made.extras->empty()))
-    throw RequestError("without the surface nothing would be shown; draw something beside it first");
+    throw RequestError("without the surface nothing would be shown; draw something else first");
   if (renewal == Renewal::colors || renewal == Renewal::shapes)
     count_of(part_shown(figure, made.marked.get()), figure, *this);
   return made;

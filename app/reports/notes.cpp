@@ -90,7 +90,7 @@ void log_run(const SceneCommand& command, const FrameRun& frames) {
                        with_thousands(trajectory.frame_count()), trajectory.frame_count() == 1 ? "frame" : "frames",
                        with_thousands(frames.numbers().size()),
                        frames.chunk().size() < frames.numbers().size()
-                           ? fmt::format(", of which {} are made here", frames.chunk().size())
+                           ? fmt::format(", {} of them made here", frames.chunk().size())
                            : ""));
   for (const Warning& warning : trajectory.warnings())
     if (command.reporting.warnings != WarningDetail::none)
@@ -98,8 +98,7 @@ void log_run(const SceneCommand& command, const FrameRun& frames) {
   if (!trajectory.cut_short().empty())
     log_line(command, fmt::format("warning: {}: {}", trajectory.path(), trajectory.cut_short()));
   if (command.scene.molecule.color.by == ColorScheme::By::component && frames.numbers().size() > 1)
-    log_line(command,
-             "warning: components are counted again in each frame, so one colour may be another part in the next");
+    log_line(command, "warning: components are numbered again in each frame, so a colour may move to another part");
 }
 
 void log_surface(const SceneCommand& command, const Molecule& molecule) {
@@ -111,8 +110,8 @@ void log_surface(const SceneCommand& command, const Molecule& molecule) {
 
 void log_grown_radii(const SceneCommand& command, double grown_by) {
   if (grown_by > 0.0)
-    log_line(command,
-             fmt::format("spheres that meet in one point were separated by radii grown by up to {:.2g} Å", grown_by));
+    log_line(command, fmt::format("spheres meet in one point; radii were increased by up to {:.2g} Å to separate them",
+                                  grown_by));
 }
 
 Molecule build_and_log(const SceneCommand& command, Structure structure) {
@@ -135,10 +134,9 @@ void warn_if_unseen(const SceneCommand& command, const std::optional<Camera>& gi
   const ViewRequest& picture = command.scene.picture;
   if (given && !picture.zoom_to && picture.turns.empty() &&
       sees_nothing(*given, picture.aspect(), structure, command.scene.molecule.surface.probe_radius))
-    log_line(command,
-             fmt::format("warning: {}: this camera sees nothing of the molecule: all atoms are behind it or beside "
-                         "the picture; --zoom-to EXPR turns to them",
-                         picture.camera_file));
+    log_line(command, fmt::format("warning: {}: this camera does not see the molecule: all atoms are behind the camera "
+                                  "or outside the picture; --zoom-to EXPR turns to them",
+                                  picture.camera_file));
 }
 
 void print_assemblies(const Structure& structure) {

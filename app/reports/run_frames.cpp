@@ -118,14 +118,12 @@ struct FaultyPictures {
 void log_faults(const SceneCommand& command, const FaultyPictures& empty, const FaultyPictures& unlabelled) {
   if (empty.count > 0)
     log_line(command,
-             fmt::format("warning: {}: no ray meets a part of the surface that --show leaves; check where the camera "
-                         "looks",
+             fmt::format("warning: {}: the camera sees no part of the surface that --show keeps; check where it looks",
                          empty.words("shows nothing", "show nothing")));
   if (unlabelled.count > 0)
-    log_line(command,
-             fmt::format("warning: {}: there is no room where labels do not meet; make them fewer or shorter, their "
-                         "letters smaller (--label-size), or the pictures larger",
-                         unlabelled.words("lacks its labels", "lack their labels")));
+    log_line(command, fmt::format("warning: {}: there is no room for all labels without overlaps; use fewer or shorter "
+                                  "labels, smaller letters (--label-size), or larger pictures",
+                                  unlabelled.words("lacks its labels", "lack their labels")));
 }
 
 using Clock = std::chrono::steady_clock;

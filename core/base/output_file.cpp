@@ -49,7 +49,7 @@ Inputs& inputs() {
 
 void refuse_unsuitable_target(const fs::path& target, Existing existing) {
   const std::string text = text_of_path(target);
-  if (target.filename().empty()) throw OutputError(text, "names no file");
+  if (target.filename().empty()) throw OutputError(text, "is not the name of a file");
   if (const std::optional<State> state = system_file::state_of(target); state && inputs().has(*state))
     throw OutputError(text, "is one of the files that this command reads; choose another name");
   const std::optional<State> state = system_file::state_of_entry(target);
@@ -177,10 +177,10 @@ void OutputFile::rename_to_target() {
     if (!system_file::rename_to_free(temporary_, target_)) {
       const int error = errno;
       refuse_unsuitable_target(target_, existing_);
-      fail("cannot get its final name: " + reason(error));
+      fail("cannot be renamed to its final name: " + reason(error));
     }
   } else if (!system_file::rename_over(temporary_, target_)) {
-    fail("cannot get its final name: " + reason(errno));
+    fail("cannot be renamed to its final name: " + reason(errno));
   }
 }
 

@@ -267,7 +267,7 @@ std::string unpack_gzip(const std::string& path, const std::string& packed, std:
       next = std::min(packed.find_first_not_of('\0', next), packed.size());
       if (next == packed.size()) return text;
       if (packed.compare(next, 2, "\x1f\x8b") != 0)
-        throw InputError(path, 0, "has foreign bytes after its gzip data; unpack it by hand");
+        throw InputError(path, 0, "has other bytes after its gzip data; unpack it by hand");
       inflateReset(&stream);
     } else if (state == Z_BUF_ERROR || (state == Z_OK && next == packed.size() && stream.avail_out > 0)) {
       throw InputError(path, 0, "is cut short: its gzip data ends too early; fetch it again");

@@ -150,8 +150,8 @@ constexpr std::array<double, 2> kPlaces{0.0, 1.0},
 [[noreturn]] void no_atom_named(const Structure& structure, const NumberFile& file, const char* what,
                                 std::size_t count) {
   throw InputError(file.path, 0,
-                   fmt::format("names {} {}, none of which is among the atoms used of {}", with_thousands(count), what,
-                               structure.file));
+                   fmt::format("names {} {}, but none of them is among the atoms used of {}", with_thousands(count),
+                               what, structure.file));
 }
 
 /// Returns the only chain of polymers, or of all atoms if there are none, for numbers of residues without chains.
@@ -164,8 +164,8 @@ std::string only_chain(const Structure& structure, const NumberFile& file) {
   if (chains.size() != 1)
     throw InputError(
         file.path, 0,
-        fmt::format("names residues without their chains, but the atoms used of {} are of {} chains, such "
-                    "as {} and {}; add a column chain",
+        fmt::format("names residues without their chains, but the atoms used of {} belong to {} chains, such as {} and "
+                    "{}; add a column 'chain'",
                     structure.file, chains.size(), in_quotes(*chains.begin()), in_quotes(*std::next(chains.begin()))));
   return *chains.begin();
 }

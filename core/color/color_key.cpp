@@ -200,7 +200,7 @@ void compare(const ColorKey& a, const ColorKey& b, const std::string& in_a, cons
     return key.title + (key.title.empty() ? "" : " ") + in_quotes(entry.name);
   };
   if (a.scale && b.scale && a.scale->title == b.scale->title && !is_same_scale(a.scale, b.scale))
-    found.push_back(fmt::format("the colours of {} are of {:g} to {:g} in {} and of {:g} to {:g} in {}", a.scale->title,
+    found.push_back(fmt::format("the colours of {} show {:g} to {:g} in {}, but {:g} to {:g} in {}", a.scale->title,
                                 a.scale->range[0], a.scale->range[1], in_a, b.scale->range[0], b.scale->range[1],
                                 in_b));
   if (a.title != b.title && !a.title.empty() && !b.title.empty()) return;

@@ -246,7 +246,7 @@ ColorRule named_color_rule(std::string_view text) {
   ColorRule rule = parse_color_rule(text.substr(0, text.size() - parted->text.size() + colon));
   rule.name = parted->text.substr(colon + 1);
   if (rule.name.empty())
-    throw RequestError(in_quotes(text) + " has no name after its colon; as in 'chain A=red:Alpha'");
+    throw RequestError(in_quotes(text) + " has no name after its colon; write it as in 'chain A=red:Alpha'");
   return rule;
 }
 

@@ -191,18 +191,18 @@ std::optional<std::string> doubt_of_confidence(const Structure& structure) {
   }
   if (first)
     return message(
-        "@color plddt@ takes B-factors for pLDDT, which is from 0 to 100, but {} {} outside of that, the first {} with "
-        "{:g}; @color bfactor@ shows B-factors",
+        "@color plddt@ takes B-factors as pLDDT, from 0 to 100, but {} {} outside this range (first: {} with {:g}); "
+        "for B-factors use @color bfactor@",
         with_thousands(beyond), beyond == 1 ? "atom is" : "atoms are", label_of(*first), first->b_factor);
   if (!structure.experiment.empty())
     return message(
-        "@color plddt@ takes B-factors for pLDDT, but this structure is of an experiment ({}); @color bfactor@ shows "
-        "B-factors",
+        "@color plddt@ takes B-factors as pLDDT, but this structure was determined by experiment ({}); for B-factors "
+        "use @color bfactor@",
         structure.experiment);
   if (largest <= 1.0f)
     return message(
-        "@color plddt@ takes B-factors for pLDDT, which is from 0 to 100, but none is above 1; if they are shares, "
-        "multiply them by 100");
+        "@color plddt@ takes B-factors as pLDDT, from 0 to 100, but all are at most 1; if they are fractions, multiply "
+        "them by 100");
   return {};
 }
 

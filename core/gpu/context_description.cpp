@@ -41,7 +41,8 @@ ContextDescription describe_current_context() {
 
 void require_living_context() {
   if (glGetGraphicsResetStatus() != GL_NO_ERROR)
-    throw GpuError("the GPU was reset and took the picture with it; start again, with a smaller molecule if it recurs");
+    throw GpuError(
+        "the GPU was reset, and the picture is lost; run again, with a smaller molecule if this happens again");
 }
 
 namespace {

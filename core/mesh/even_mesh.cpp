@@ -197,10 +197,10 @@ class EvenMeshing {
       if (bad.empty()) bad = find_all_crossings();
       if (bad.empty()) break;
       if (attempt == (contracted_ ? RemeshTuning::contracted_attempts : RemeshTuning::most_attempts))
-        throw OpenSurfaceError(fmt::format(
-            "no even mesh was found: {} triangles still cross others, lie too far from the surface or bound "
-            "another volume; ask for a finer one",
-            bad.size()));
+        throw OpenSurfaceError(
+            fmt::format("no even mesh was found: {} triangles still cross others, lie too far from the surface or "
+                        "enclose another volume; choose a finer mesh",
+                        bad.size()));
       for (Ball& place : guarded) place.radius *= RemeshTuning::place_growth;
       for (const std::uint32_t t : bad) guarded.push_back(ball_around(mesh_->placed(t)));
     }

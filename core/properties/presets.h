@@ -61,7 +61,7 @@ inline constexpr Preset kPresets[] = {
     {"flat", "constant colours and lines"},
     {"soft", "matt, no lines"},
     {"classic", "studio light alone"},
-    {"ghost", "the fold in a surface that is seen through", kGhostSettings, "publication", "polymer"},
+    {"ghost", "the fold inside a transparent surface", kGhostSettings, "publication", "polymer"},
     {"goodsell", "atoms in flat colours of chains, with outlines and shadows", kGoodsellSettings, "flat"},
     {"pocket", "a ligand in its pocket, with its neighbours and hydrogen bonds", kPocketSettings, "publication",
      "ligand and not glycan"},

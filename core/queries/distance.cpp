@@ -362,7 +362,7 @@ class BandFinder {
   static glm::ivec3 corner(int n) { return {n & 1, n >> 1 & 1, n >> 2}; }
 
   [[noreturn]] void refuse() const {
-    throw CapacityError(message("voxels of {:g} Å make more than {} million of them; choose a larger @voxel@", voxel_,
+    throw CapacityError(message("voxels of {:g} Å would be more than {} million; choose a larger @voxel@", voxel_,
                                 kMostBandBlocks * kEdge * kEdge * kEdge / 1'000'000));
   }
 

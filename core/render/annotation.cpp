@@ -189,8 +189,9 @@ class Writer {
     while (height > kLeastTitle && fonts_.at(height).width(text) > right - left) --height;
     const int width = fonts_.at(height).width(text);
     if (width > right - left)
-      throw RequestError(message("@title@: {} is {} pixels long and has {}; make it shorter, or the picture wider",
-                                 in_quotes(text), width, right - left));
+      throw RequestError(
+          message("@title@: {} is {} pixels long, but there is room for {}; use a shorter title or a wider picture",
+                  in_quotes(text), width, right - left));
     write({text, {std::clamp((size_.x - width) / 2, left, right - width), panel_row(heights_, style_)}, height});
   }
 
@@ -208,7 +209,8 @@ class Writer {
               pixels = static_cast<int>(std::lround(length / unit));
     if (pixels < 1 || pixels > size_.x - 2 * edge)
       throw RequestError(
-          message("@scale-bar@: {:g} Å are {} pixels of {}; give another length", length, pixels, size_.x));
+          message("@scale-bar@: {:g} Å would be {} pixels in a picture that is {} wide; give another length", length,
+                  pixels, size_.x));
     const PixelBox bar{{edge, size_.y - edge - thickness}, {edge + pixels, size_.y - edge}};
     strokes_.emplace_back(bar);
     const std::string text = fmt::format("{:g} Å", length);
@@ -426,8 +428,8 @@ AnnotationLayer::AnnotationLayer(const Annotations& annotations, const Camera& c
   lacks_labels_ = !writer.labels(annotations.labels, annotations.atoms);
   if (lacks_labels_ && annotations.labels_must_fit)
     throw RequestError(
-        message("@label@: labels find no places in {} x {} pixels where they do not meet; make them fewer or shorter, "
-                "their letters smaller (@label-size@), or the picture larger",
+        message("@label@: {} x {} pixels have no room for all labels without overlaps; use fewer or shorter labels, "
+                "smaller letters (@label-size@), or a larger picture",
                 picture_size.x, picture_size.y));
   writer.lengths(annotations.labels);
   strokes_ = writer.strokes();

@@ -245,9 +245,9 @@ Legend::Legend(const ColorKey& key, glm::ivec2 picture_size, const LegendStyle& 
       if (lay_out(at_right, letters, may_drop)) return;
     }
   throw RequestError(
-      message("@legend@ does not fit into {} x {} pixels beside the molecule; make the picture larger{}, or write it "
-              "apart by @legend-file@",
-              picture_size.x, picture_size.y, style.letters ? ", its letters smaller" : ""));
+      message("@legend@ does not fit into {} x {} pixels next to the molecule; use a larger picture{}, or write the "
+              "legend as a separate picture with @legend-file@",
+              picture_size.x, picture_size.y, style.letters ? ", smaller letters" : ""));
 }
 
 void Legend::add_entries(const ColorKey& key, bool is_first) {

@@ -130,7 +130,7 @@ class Font::Faces {
   Faces(int height, Weight weight, const FontChoice& choice) : height_(height) {
     for (const FontFiles& font : fonts_for(choice))
       faces_.push_back({weight == Weight::bold && !font.bold.empty() ? font.bold : font.regular});
-    if (FT_Init_FreeType(&library_) != 0) throw CapacityError("there is no memory for fonts");
+    if (FT_Init_FreeType(&library_) != 0) throw CapacityError("not enough memory for fonts");
     if (is_open(faces_.front())) return;
     FT_Done_FreeType(library_);
     throw RequestError(message("{}: this font cannot be read; install its package again, or choose another @font@",

@@ -18,7 +18,7 @@ class Deflater {
  public:
   Deflater() {
     if (deflateInit(&stream_, Z_DEFAULT_COMPRESSION) != Z_OK)
-      throw CapacityError("there is no memory to compress a page");
+      throw CapacityError("not enough memory to compress a page");
   }
   ~Deflater() { deflateEnd(&stream_); }
   Deflater(const Deflater&) = delete;

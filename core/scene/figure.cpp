@@ -155,8 +155,9 @@ std::vector<std::string> ineffective_cuts(const FigureRequest& request, const Fi
     sentences = ineffective_cuts(request.cuts, figure.extras.cut_atoms,
                                  {camera, balls, shown_balls(figure.molecule.objects)}, balls);
   if (!request.cuts_all && !request.cuts.empty() && !balls.empty() && lies_beyond(request, figure, camera))
-    sentences.push_back(message(
-        "cuts the surface alone: some of what is drawn beside it lies beyond the plane; @clip-all@ cuts it, too"));
+    sentences.push_back(
+        message("cuts only the surface, but some sticks, balls or other objects lie beyond the plane; @clip-all@ cuts "
+                "them, too"));
   for (std::size_t n = 0; n < figure.extras.objects.size(); ++n) {
     const FigureObject& object = figure.extras.objects[n];
     if (!object.surface || object.surface->surface.atoms.empty()) continue;

@@ -137,7 +137,8 @@ void mark_atoms(std::span<const FigureObjectRequest> objects, ReadOptions& readi
       reading.secondary_structure = true;
   }
   if (reading.shown.size() > kMostShown)
-    throw RequestError(message("@object@: at most {} sets of atoms are drawn beside a surface", kMostShown));
+    throw RequestError(
+        message("@object@: at most {} sets of atoms can be drawn in addition to the surface", kMostShown));
 }
 
 std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> objects, const Structure& structure,

@@ -95,8 +95,7 @@ NumberFile measured_accessibility(const Structure& structure, const SurfaceReque
                                   SurfaceComputer& computer) {
   if (surface.kind == SurfaceKind::vdw || surface.probe_radius != kAccessibilityProbe)
     throw RequestError(
-        message("@color relative-accessibility@ needs accessible areas by a probe of {} Å, as the greatest areas of "
-                "residues are; leave out @probe@ and @surface vdw@",
+        message("@color relative-accessibility@ is defined for a probe of {} Å; leave out @probe@ and @surface vdw@",
                 kAccessibilityProbe));
   const auto areas = area_columns(structure, surface_objects(structure, {}, computer), surface.kind);
   return {.path = structure.file, .numbers = relative_accessibility(structure, areas.back().values)};

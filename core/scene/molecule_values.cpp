@@ -345,7 +345,8 @@ constexpr SceneValue shapes(std::string_view key) {
             std::vector<RepresentationRequest>& requests = scene.figure.representations.requests;
             for (const std::string& text : texts) {
               if (requests.size() == kMostShown)
-                throw RequestError(fmt::format("at most {} sets of atoms are drawn beside a surface", kMostShown));
+                throw RequestError(
+                    fmt::format("at most {} sets of atoms can be drawn in addition to the surface", kMostShown));
               requests.push_back({kind, parse_selection(text)});
             }
           },

@@ -70,9 +70,8 @@ ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorSc
   const ColorScale scale = color_scale(structure, scheme);
   const auto has_number = [](const Atom& atom) { return (atom.shown & ~kCompanionBits) != 0; };
   if (scale.map == ColorMap::categorical && std::ranges::any_of(structure.extra_atoms, has_number))
-    throw RequestError(
-        message("@map categorical@: atoms beside the surface may have numbers that it has no colour for; choose "
-                "another @map@"));
+    throw RequestError(message(
+        "@map categorical@: atoms outside the surface may have numbers without a colour; choose another @map@"));
   scheme.range = scale.range;
   std::vector<double>& numbers =
       scheme.file.numbers;  // one number per atom of the file, or one per atom of the surface

@@ -180,7 +180,7 @@ std::optional<ColorScheme> color_of(const Scene& own) {
   if ((color.map || color.range || color.missing) && !color.uses_scale())
     throw RequestError("object: \"map\", \"color_range\" and \"missing_color\" are for a \"color\" by a number");
   if (color.of_points() || color.by == ColorScheme::By::accessibility)
-    throw RequestError(fmt::format("object: \"color\" cannot be {}, which is of all atoms", scheme_word(color)));
+    throw RequestError(fmt::format("object: \"color\" cannot be {}, which needs all atoms", scheme_word(color)));
   if (!own.molecule.color_named && color.rules.empty()) return {};
   color.opacities.clear();
   color.share_scale();
@@ -310,9 +310,10 @@ class SceneParser {
         if (event == Event::object_start) keys.emplace_back();
         if (event == Event::object_end) keys.pop_back();
         const std::string word = parsed.is_string() ? parsed.get<std::string>() : "";
-        if (word.find('\0') != std::string::npos) fail(in_quotes(word), "holds a NUL, which no text of a scene has");
+        if (word.find('\0') != std::string::npos)
+          fail(in_quotes(word), "contains a NUL character, which scenes do not allow");
         if (event == Event::key && !keys.back().insert(word).second)
-          fail(in_quotes(word), "is there twice in one object; leave one of them out");
+          fail(in_quotes(word), "appears twice in one object; leave one of them out");
         return true;
       });
     } catch (const Json::parse_error& error) {

@@ -54,7 +54,7 @@ std::string SceneTrust::path(const Property& property, const std::string& text, 
          fmt::format("is {}; a scene cannot choose the folder of its picture: {}", in_quotes(text), own_advice));
   if (text.starts_with('-') || text.starts_with('.') || escaped(text) != text)
     fail(file, place,
-         fmt::format("is {}; the name of an output begins with neither - nor a dot, and has no control characters: {}",
+         fmt::format("is {}; the name of an output must not begin with - or a dot, or contain control characters: {}",
                      in_quotes(text), own_advice));
   if (replaces && fs::exists(fs::symlink_status(path_of_text(path), ignored)))
     fail(file, place,

@@ -214,9 +214,9 @@ Framebuffer finished_picture(Framebuffer molecule, const Annotations& annotation
 
 SceneFigure made_figure(const Scene& requested, const EglContext* context) {
   if (requested.frames.is_requested())
-    throw RequestError("frames: this makes the picture of one molecule; `meniscus render` makes those of a run");
+    throw RequestError("frames: this call draws one molecule; `meniscus render` draws the frames of a run");
   if (requested.image.extent)
-    throw RequestError("image.extent: this draws the complete surface; `meniscus render` draws without it");
+    throw RequestError("image.extent: this call draws the complete surface; use `meniscus render`");
   if (requested.picture.fits)
     throw RequestError("image.size, image.height: auto is for pictures of `meniscus render`; give a size");
   Scene scene = prepared_scene(requested);

@@ -151,8 +151,8 @@ std::vector<SurfaceObject> surface_objects(const Structure& structure, const Div
   for (SurfaceObject& whole : wholes) divide(std::move(whole), division, objects);
   if (objects.empty())
     throw InputError(structure.file, 0,
-                     division.cavities == Cavities::only ? "the surface has no cavities; nothing is left of it"
-                                                         : "the surface has no part; nothing is left of it");
+                     division.cavities == Cavities::only ? "the surface has no cavities, so there is nothing to show"
+                                                         : "the surface has no parts, so there is nothing to show");
   return objects;
 }
 

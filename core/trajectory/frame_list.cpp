@@ -61,7 +61,7 @@ class ListParser {
     if (!skip(rest, '-')) return unsigned_number(rest);
     const std::uint64_t from_end = unsigned_number(rest);
     if (from_end == 0 || from_end > count_)
-      refuse(fmt::format("asks for frame -{}; from the end they count from -1 to -{}", from_end, count_));
+      refuse(fmt::format("names frame -{}, but from the end frames count from -1 to -{}", from_end, count_));
     return count_ - from_end;
   }
 

@@ -80,7 +80,8 @@ CommonAtoms common_atoms(std::span<const Structure> structures, std::span<const 
       common.positions[n].push_back(common.fits[n - 1].motion(structures[n].atoms[partners[n - 1][a]].position));
   }
   if (common.fitted.size() < 3)
-    throw InputError(structures.front().file, 0, "has fewer than three atoms to superpose that all structures have");
+    throw InputError(structures.front().file, 0,
+                     "shares fewer than three atoms with the other structures, too few to superpose");
   return common;
 }
 

@@ -103,7 +103,7 @@ JoinedFrames::JoinedFrames(std::vector<std::unique_ptr<Trajectory>> parts)
     if (part.atom_count() != atom_count_) {
       throw InputError(
           part.path(), 0,
-          fmt::format("its frames have {} atoms, those of {} {}; all trajectories need the same number",
+          fmt::format("its frames have {} atoms, but frames of {} have {}; all trajectories need the same number",
                       with_thousands(part.atom_count()), parts_.front()->path(), with_thousands(atom_count_)));
     }
     begin_.push_back(frame_count_);

@@ -114,7 +114,7 @@ void place_objects(const std::vector<PictureObject>& objects, const SurfaceObjec
   const auto is_layered = [&](const PictureObject& object) {
     return is_cut_or_seen_through(object) || (object.surface == &whole.surface && is_cut_by_views);
   };
-  if (std::ranges::count_if(objects, is_layered) > 1) refuse("one surface that is cut or seen through, not several");
+  if (std::ranges::count_if(objects, is_layered) > 1) refuse("only one surface that is cut or transparent");
   auto main = std::ranges::find_if(objects, is_layered);
   if (main == objects.end()) main = std::ranges::find_if(objects, [](const auto& o) { return o.surface != nullptr; });
   std::optional<double> probe;
@@ -205,7 +205,7 @@ void check_scene(const Scene& scene) {
     const ColorScheme& color = object.color ? *object.color : scene.molecule.color;
     if (!object.material.empty()) refuse(option_name("object"), "objects of their own material");
     if (object.shapes && !object.opacities.empty())
-      refuse(option_name("object"), "sticks, balls and the like that are seen through");
+      refuse(option_name("object"), "transparent sticks, balls, spheres and tubes");
     if (!object.shapes && color.of_points()) refuse(option_name("object"), "objects coloured by a map");
     if (object.color && color.by == ColorScheme::By::kind)
       refuse(option_name("object"), "objects coloured by kind of patch");

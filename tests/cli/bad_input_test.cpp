@@ -79,7 +79,7 @@ std::vector<BadFile> bad_files() {
       {"gzip cut short", "a.pdb.gz", good_gz.substr(0, good_gz.size() / 2), "cut short"},
       {"gzip cut in its trailer", "a.pdb.gz", good_gz.substr(0, good_gz.size() - 3), "cut short"},
       {"gzip with wrong crc", "a.pdb.gz", wrong_crc, "damaged"},
-      {"gzip with trailing garbage", "a.pdb.gz", good_gz + "garbage", "foreign bytes"},
+      {"gzip with trailing garbage", "a.pdb.gz", good_gz + "garbage", "other bytes after its gzip data"},
       {"gzip header only", "a.pdb.gz", std::string("\x1f\x8b", 2), "cut short"},
       {"bzip2", "a.pdb.bz2", "BZh91AY&SY", "is packed with bzip2; only gzip is read, unpack it first: bzip2 -dk"},
       {"zstd", "a.pdb.zst", "\x28\xb5\x2f\xfd", "zstd -d"},

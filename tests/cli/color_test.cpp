@@ -184,7 +184,7 @@ TEST_F(ColorCommand, ChargesThatAMapHasAndTheSurfaceHasNotAreSaid) {
     words.insert(words.end(), by_map.begin(), by_map.end());
     return said(words);
   };
-  EXPECT_NE(with({}).find("1 atom with charges is left out of the surface (1 of water)"), std::string::npos)
+  EXPECT_NE(with({}).find("1 atom with charges is left out of the surface (1 water atom)"), std::string::npos)
       << with({});
   EXPECT_EQ(with({"--keep-water"}).find("charges"), std::string::npos);
   EXPECT_EQ(said({}).find("charges"), std::string::npos);
@@ -250,7 +250,7 @@ TEST_F(ColorCommand, WhatCannotBeIsRefusedWithItsReason) {
       {{"--color", "chain A=lipophilicity"}, 2, "'lipophilicity' cannot colour some of the atoms"},
       {{"--color", "lipophilicity", "--extent", "visible"}, 2, "--color lipophilicity needs the complete surface"},
       {{"--color", "relative-accessibility"}, 3, "has no complete amino acids"},
-      {{"--color", "relative-accessibility", "--probe", "1.5"}, 2, "needs accessible areas by a probe of 1.4 Å"},
+      {{"--color", "relative-accessibility", "--probe", "1.5"}, 2, "is defined for a probe of 1.4 Å"},
       {{"--color", "relative-accessibility", "--surface", "vdw"}, 2, "leave out --probe and --surface vdw"},
       {{"--color", "chain A=relative-accessibility"}, 2, "it colours the whole surface"},
       {{"--object", R"({"representation": "surface", "selection": "all", "color": "lipophilicity"})"},
@@ -315,7 +315,7 @@ TEST_F(ColorCommand, ConfidenceSaysWhereItIsFromAndDoubtsBFactors) {
     const std::string err = said({"--color", color});
     const std::size_t warning = err.find("warning: ");
     ASSERT_NE(warning, std::string::npos) << err;
-    EXPECT_NE(err.find("of an experiment (X-RAY DIFFRACTION)"), std::string::npos) << err;
+    EXPECT_NE(err.find("by experiment (X-RAY DIFFRACTION)"), std::string::npos) << err;
     EXPECT_EQ(err.find("warning: ", warning + 1), std::string::npos) << "one line: " << err;
   }
 }

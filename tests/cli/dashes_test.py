@@ -134,7 +134,7 @@ class Dashes(MoleculeCase):
             self.assertIn("--distance", done.stderr)
             self.assertIn(expected, done.stderr)
         done = self.made("render", "apart.pdb", "-o", "a.png", "--force", "--size", "64x48", "--hydrogen-bonds", "all")
-        self.assertIn("note: --hydrogen-bonds 'all' finds no atoms to join;", done.stderr)
+        self.assertIn("note: --hydrogen-bonds 'all' finds nothing to draw;", done.stderr)
         done = self.made("render", "pair.pdb", "-o", "a.png", "--force", "--size", "64x48", "--hide-lengths")
         self.assertIn("--hide-lengths", done.stderr)
         self.assertIn("no dashed lines", done.stderr)

@@ -234,12 +234,12 @@ class ScenesOfOthers(Workplace):
 
 
     def test_their_json_means_one_thing(self):
-        for text, what in (('{"meniscus_scene": 1, "molecule": {"file": "one.pdb", "file": "two.pdb"}}', "'file' is there twice"),
-                           ('{"meniscus_scene": 1, "molecule": {"file": "one.pdb"}, "molecule": {}}', "'molecule' is there twice"),
+        for text, what in (('{"meniscus_scene": 1, "molecule": {"file": "one.pdb", "file": "two.pdb"}}', "'file' appears twice"),
+                           ('{"meniscus_scene": 1, "molecule": {"file": "one.pdb"}, "molecule": {}}', "'molecule' appears twice"),
                            ('{"meniscus_scene": 1, "molecule": {"file": "one.pdb"}, "objects": [{"color": "a", "color": "b"}]}',
-                            "'color' is there twice"),
-                           (r'{"meniscus_scene": 1, "molecule": {"file": "one.pdb\u0000.x"}}', "holds a NUL"),
-                           (r'{"meniscus_scene": 1, "molecule": {"file\u0000": "one.pdb"}}', "holds a NUL")):
+                            "'color' appears twice"),
+                           (r'{"meniscus_scene": 1, "molecule": {"file": "one.pdb\u0000.x"}}', "contains a NUL"),
+                           (r'{"meniscus_scene": 1, "molecule": {"file\u0000": "one.pdb"}}', "contains a NUL")):
             (self.inner / "evil.json").write_text(text)
             done = self.run_program("render", "--scene", self.inner / "evil.json", "-o", "a.png")
             self.assertEqual(done.returncode, 3, done.stderr)
@@ -250,7 +250,7 @@ class ScenesOfOthers(Workplace):
         for name in ("-o.png", "--force.png", ".hidden.png", "a\n.png", "a\x1b[2J.png", "a\u202egnp.png"):
             for section, key in (("output", "file"), ("legend", "file")):
                 done = self.run_program("render", "--scene", self.scene(**{section: {key: name}}), *([] if section == "output" else ["-o", "y.png"]))
-                self.refused(done, f"{section}.{key}", "the name of an output begins with neither")
+                self.refused(done, f"{section}.{key}", "the name of an output must not begin")
         self.assertEqual(sorted(os.listdir(self.inner)), ["evil.json", "one.pdb"])
 
     def test_standard_input_is_no_file_of_theirs(self):

@@ -33,7 +33,7 @@ TEST(StandardInput, IsReadPlainAndPacked) {
   for (const char* command : {"cat ", "gzip -c "}) {
     const ProgramResult result = run_shell(std::string(command) + kUbiquitin);
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_TRUE(result.err.starts_with("meniscus: standard input: 660 atoms read; 58 of water left out; 602 used\n"))
+    EXPECT_TRUE(result.err.starts_with("meniscus: standard input: 660 atoms read; 58 water atoms left out; 602 used\n"))
         << result.err;
     EXPECT_NE(result.out.find("standard input (PDB)"), std::string::npos) << result.out;
   }
@@ -49,7 +49,7 @@ TEST(StandardInput, ErrorsNameIt) {
 TEST(Model, IsChosenByItsPlace) {
   const ProgramResult second =
       run_program(test::meniscus_program(), {"surface", kNmrEntry, "--model", "2", "--device", "cpu"});
-  EXPECT_NE(second.err.find("12,310 atoms read; 11,079 of other models left out; 1,231 used"), std::string::npos);
+  EXPECT_NE(second.err.find("12,310 atoms read; 11,079 in other models left out; 1,231 used"), std::string::npos);
   const ProgramResult none = run_program(test::meniscus_program(), {"surface", kNmrEntry, "--model", "11"});
   EXPECT_EQ(none.exit_code, 3);
   EXPECT_EQ(none.err, fmt::format("meniscus: error: {}: has no model 11: it holds 10 models; choose --model 1 to 10\n",
@@ -78,7 +78,7 @@ TEST(Altloc, TakesARuleOrALetter) {
     return run_program(test::meniscus_program(), {"surface", path, "--altloc", choice, "--device", "cpu"});
   };
   for (const char* choice : {"best", "first", "A", "B"}) {
-    EXPECT_NE(run(choice).err.find("1 of other alternate locations left out; 1 used"), std::string::npos) << choice;
+    EXPECT_NE(run(choice).err.find("1 in other alternate locations left out; 1 used"), std::string::npos) << choice;
   }
   EXPECT_NE(run("all").err.find("2 atoms read; none left out; 2 used"), std::string::npos);
   EXPECT_NE(run("Z").err.find("no atom has the alternate location Z"), std::string::npos);

@@ -171,7 +171,7 @@ TEST(Pockets, WhatMakesNoSenseIsSaid) {
            {{kProtease, "--trim", "-1"}, 2, "--trim: '-1' is not a number from 0 to 100"},
            {{kProtease, "--mouth-tolerance", "0"}, 2, "--mouth-tolerance: '0' is not a number from 0.001 to 1"},
            {{kProtease, "--select", "none"}, 3, "none of its"},
-           {{kProtease, "--select", "ligand"}, 3, "all 35 atoms are taken out by --ligand 'ligand'"},
+           {{kProtease, "--select", "ligand"}, 3, "--ligand 'ligand' takes out all 35 atoms"},
            {{kProtease, "--ligand", "resname"}, 2, "--ligand"},
            {{kProtease, "--json", "--csv", "-"}, 2, "one thing at a time"},
            {{kProtease, "--mesh", "p.smesh"}, 2, "--mesh 'p.smesh'"},

@@ -149,7 +149,7 @@ TEST(Surface, SaysByHowMuchRadiiGrew) {
     EXPECT_GE(certificate.value("exact_for_radii_within", 0.0), certificate.value("radii_grown_by", 1.0));
     const ProgramResult result = meniscus_says({"surface", tied[0], tied[1], tied[2], "--device", device});
     EXPECT_NE(result.out.find("exact for radii that differ from these by up to"), std::string::npos) << result.out;
-    EXPECT_NE(result.err.find("separated by radii grown by up to"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("radii were increased by up to"), std::string::npos) << result.err;
   }
   const json certificate = surface_json({kUbiquitin, "--device", "cpu"})["certificate"];
   EXPECT_FALSE(certificate.contains("radii_grown_by"));
@@ -202,7 +202,7 @@ TEST(Surface, ThreadsDoNotChangeTheNumbers) {
 
 TEST(Surface, NotesGoToStderrAndQuietSilencesThem) {
   const ProgramResult loud = meniscus_says({"surface", kUbiquitin});
-  EXPECT_NE(loud.err.find("660 atoms read; 58 of water left out; 602 used"), std::string::npos);
+  EXPECT_NE(loud.err.find("660 atoms read; 58 water atoms left out; 602 used"), std::string::npos);
   EXPECT_NE(loud.out.find("closed        yes"), std::string::npos);
   EXPECT_EQ(meniscus_says({"surface", kUbiquitin, "--quiet"}).err, "");
 }

@@ -129,7 +129,7 @@ class RunsLikePictures(unittest.TestCase):
         alone = subprocess.run([PROGRAM, "render", "run.pdb", "-o", "one.png", *words, *crowd], cwd=self.folder, capture_output=True,
                                text=True)
         self.assertEqual(alone.returncode, 2, alone.stderr)
-        self.assertIn("find no places", alone.stderr)
+        self.assertIn("no room for all labels", alone.stderr)
         self.run_program("render", "run.pdb", "--frames", "all", "-o", "bare_#.png", "-q", *words)
         for output in ("f_#.png", "f.mp4"):
             done = subprocess.run([PROGRAM, "render", "run.pdb", "--frames", "all", "-o", output, *words, *crowd], cwd=self.folder,

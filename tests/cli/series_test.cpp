@@ -299,7 +299,7 @@ TEST_F(Series, SeveralTrajectoriesInARow) {
   EXPECT_EQ(table({dry_, dry_, dry_}, "--csv-series"), twice);
   EXPECT_EQ(table({"--trajectory", dry_, dry_, "--trajectory", dry_}, "--csv-series"), twice);
   EXPECT_EQ(table({dry_, dry_, dry_, "--frames", "7,last"}, "--csv-series"), (Rows{twice[7], twice[9]}));
-  expect_error({dry_, dry_, wet_}, 3, "its frames have 99 atoms, those of ");
+  expect_error({dry_, dry_, wet_}, 3, "its frames have 99 atoms, but frames of ");
   expect_error({dry_, dry_, (folder_.path() / "nowhere.dcd").string()}, 3, "nowhere.dcd");
 }
 

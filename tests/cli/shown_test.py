@@ -72,7 +72,7 @@ class BeforeWork(Workplace):
 
     def test_a_later_scene_of_a_film(self):
         """Each is at fault in another way, and the scene before it is in order."""
-        wrong = {"labels find no places": {"annotations": {"labels": ["resid 1=" + 60 * "w", "resid 2=" + 60 * "v"]}},
+        wrong = {"no room for all labels": {"annotations": {"labels": ["resid 1=" + 60 * "w", "resid 2=" + 60 * "v"]}},
                  "--title": {"annotations": {"title": 200 * "w"}}, "--scale-bar": {"annotations": {"scale_bar": 1e5}},
                  "nothing to explain": {"objects": [{"color": "red"}], "legend": {"shown": True}},
                  "nothing beside it": {"objects": [{"representation": "surface", "shown": False}]},

@@ -243,7 +243,7 @@ TEST_F(Words, ACameraThatSeesNothingIsToldBeforeTheSurfaceIsComputed) {
   const ProgramResult result =
       says({"render", molecule_, "-o", (folder_.path() / "d.png").string(), "--camera", camera});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  const std::size_t warning = result.err.find("this camera sees nothing of the molecule");
+  const std::size_t warning = result.err.find("this camera does not see the molecule");
   ASSERT_NE(warning, std::string::npos) << result.err;
   EXPECT_LT(warning, result.err.find("surface on"));
 }

@@ -31,7 +31,7 @@ class PageObjectsTest(PageCase):
             self.check("by kind", await self.cast(page), self.rendered(part, "--color", "kind", *self.object("resid 3-9", kind="sas"),
                                                                        *self.object("resid 10-14", kind="sas", color="orange")))
             self.assertEqual(page.complaints, [])
-        for words, options in (("one surface that is cut or seen through", ["--opacity", "0.5", *self.object("resid 1-5", opacity=0.5)]),
+        for words, options in (("only one surface that is cut or transparent", ["--opacity", "0.5", *self.object("resid 1-5", opacity=0.5)]),
                                ("surfaces of one probe", self.object("all", probe=2)), ("their own material", self.object("all", specular=0.5)),
                                ("coloured by kind of patch", self.object("all", color="kind")), ("coloured by a map", ["--color", "lipophilicity", *self.object("all")]),
                                ("seen through", self.object("all", representation="sticks", opacity=0.5))):

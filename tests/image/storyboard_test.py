@@ -193,7 +193,7 @@ class Storyboards(unittest.TestCase):
 
     def test_what_makes_no_film_is_said(self):
         self.scene("one")
-        for words, message in ((["one.json"], "name two scenes or more"),
+        for words, message in ((["one.json"], "a film needs two scenes or more"),
                                (["one.json", "one.json", "--hold", "1,2,3"], "there are 2 scenes"),
                                (["one.json", "one.json", "--transition", "soon"], "give seconds from 0 to 3600"),
                                (["one.json", "gone.json"], "gone.json")):

@@ -153,7 +153,7 @@ TEST_F(FigureSession, WhatIsRefusedChangesNothing) {
       {R"({"command":"set","key":"surface.cap_hatching"})", "value"},
       {R"({"command":"set","key":"surface.color","index":1,"value":null})", "from 0 to 0"},
       {R"({"command":"set","key":"surface.clip","index":1,"value":null})", "from 0 to 0"},
-      {R"({"command":"set","key":"surface.opacity","index":0,"value":null})", "nothing yet that it could name"},
+      {R"({"command":"set","key":"surface.opacity","index":0,"value":null})", "the list is still empty"},
       {R"({"command":"set","key":"surface.probe","index":0,"value":1})", "one value and no list"},
       {R"({"command":"add","key":"surface.clip","value":null})", "null is not a value to add"},
       {R"({"command":"add","key":"surface.clip","value":["x<1","x>0"]})", "give one entry"},

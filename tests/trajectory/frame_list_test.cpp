@@ -54,7 +54,7 @@ TEST(FrameList, SaysWhatIsWrong) {
   for (const char* text : {"", "x", "1,", ",1", "-", "-0", "-301", "--3", "last5", "lost", "1-2-3", "1:2:3", "0x10",
                            "1 ", "18446744073709551616"})
     EXPECT_NE(complaint(text), "none") << text;
-  EXPECT_EQ(complaint("-301"), "--frames: '-301' asks for frame -301; from the end they count from -1 to -300");
+  EXPECT_EQ(complaint("-301"), "--frames: '-301' names frame -301, but from the end frames count from -1 to -300");
   EXPECT_EQ(complaint("5-2"), "--frames: '5-2' runs backwards from 5 to 2");
   EXPECT_EQ(complaint("0-9:0"), "--frames: '0-9:0' has a step of 0");
   EXPECT_EQ(complaint("300"), "--frames: '300' asks for frame 300; there are 300, 0 to 299");

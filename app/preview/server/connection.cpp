@@ -185,7 +185,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     const std::string_view host = view(request[http::field::host]), target = view(request.target());
     // Of two the first would count here, and the second perhaps in a proxy.
     for (const http::field header : {http::field::host, http::field::origin})
-      if (request.count(header) > 1) return refuse(http::status::bad_request, "a header is there twice");
+      if (request.count(header) > 1) return refuse(http::status::bad_request, "a header appears twice");
     if (!clients_->is_host(host)) return refuse(http::status::forbidden, "this is not the host asked for");
     if (request.method() == http::verb::get && clients_->take_entry(target)) return lead_to_the_page();
     // A proxy may add a query of its own, such as its user's token.
@@ -206,7 +206,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     const auto& request = parser_.get();
     if (!websocket::is_upgrade(request)) return refuse(http::status::upgrade_required, "this is a WebSocket");
     if (!clients_->is_origin(view(request[http::field::origin])))
-      return refuse(http::status::forbidden, "this page comes from elsewhere");
+      return refuse(http::status::forbidden, "this page is from another site");
     if (clients_->full()) return refuse(http::status::service_unavailable, "too many pages are open already");
     std::make_shared<SocketClient>(std::move(stream_), clients_)->accept(request);
   }

@@ -236,7 +236,7 @@ class AmberNetcdf final : public Trajectory {
     const std::uint64_t frames = variable.has_records || is_single_ ? 1 : fixed_frames_;
     if ((variable.type != kFloat && variable.type != kDouble) || variable.record_bytes != frames * count * width) {
       throw InputError(path_, 0,
-                       fmt::format("its variable '{}' should hold {} floating-point numbers a frame", name, count));
+                       fmt::format("its variable '{}' should hold {} floating-point numbers per frame", name, count));
     }
     const auto scale = variable.numbers.find("scale_factor");
     return PerFrame{

@@ -249,7 +249,8 @@ class LammpsDump final : public Trajectory {
     DumpHeader header;
     read_header(number, header);
     const Columns columns = columns_of(number, header);
-    if (static_cast<std::uint64_t>(header.atoms) > file_.size()) refuse(number, "has more atoms than the file bytes");
+    if (static_cast<std::uint64_t>(header.atoms) > file_.size())
+      refuse(number, "has more atoms than the file has bytes");
     frame_ids_.clear();
     frame_positions_.clear();
     for (std::int64_t n = 0; n < header.atoms; ++n) parse_atom(number, header, columns);

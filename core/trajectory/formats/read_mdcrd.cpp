@@ -68,8 +68,8 @@ class Mdcrd final : public Trajectory {
     const auto& cell = first.cell;
     if (cell && (*cell)[0].x == (*cell)[1].y && (*cell)[1].y == (*cell)[2].z)
       warnings_.emplace_back(
-          "its box has three equal edges, and the format no angles: it is taken for a cube; a truncated octahedron "
-          "needs NetCDF (cpptraj: trajout run.nc)");
+          "its box has three equal edges, and the format stores no angles, so it is taken for a cube; a truncated "
+          "octahedron needs NetCDF (cpptraj: trajout run.nc)");
   }
 
  private:

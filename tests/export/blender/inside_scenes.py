@@ -97,8 +97,8 @@ class Scenes(ComputedCase):
                           look={"preset": "cover", "shadows": 0.5})
         said = subprocess.run([PROGRAM, "export", "blender", "--scene", path, "-o", os.path.join(self.folder, "a.mns")], check=True,
                               capture_output=True, text=True).stderr
-        (line,) = [line for line in said.splitlines() if "does not show what the scene says" in line]
-        self.assertTrue(line.endswith("of look.preset, legend.shown, annotations.labels"), line)
+        (line,) = [line for line in said.splitlines() if "ignores these values of the scene" in line]
+        self.assertTrue(line.endswith("scene: look.preset, legend.shown, annotations.labels"), line)
 
     def test_every_key_of_a_scene_is_taken_or_named(self):
         """Of the schema that the program gives."""

@@ -121,8 +121,8 @@ class PovrayFilm(unittest.TestCase):
     def test_what_does_not_go_over_is_said(self):
         first, other = self.scene("one", "--title", "One", "--legend", "--color", "chain"), self.scene("two", "--ambient", "0.4", "--shadows", "0.5")
         _, said = self.written(first, other, "--transition", "0")
-        self.assertIn("titles, labels, legends and the like are left out", said)
-        self.assertIn("these differ in the scenes, and change nothing: --ambient\n", said)
+        self.assertIn("titles, labels and legends are left out", said)
+        self.assertIn("these differences between the scenes have no effect: --ambient\n", said)
         (self.folder / "story").rename(self.folder / "kept")
         _, said = self.written(other, other, "--transition", "0")
         self.assertNotIn("note:", said)

@@ -64,7 +64,7 @@ TEST(Colors, NumbersByResidueAndOfTables) {
       {"A 1 2\nA 1 3\n", "", "n:2: gives residue 1 of chain 'A' a second number"},
       {"A 1 2\nB 2\n", "", "n:2: should be a chain, the number of a residue and a value"},
       {"1 2 3\n", "x", "n:1: is not the header of a table"},
-      {"Q 1 2\n", "", "names 1 residues, none of which is among the atoms used of four"}};
+      {"Q 1 2\n", "", "names 1 residues, but none of them is among the atoms used of four"}};
   for (const auto& [text, column, reason] : faults) {
     const std::string said = complaint([&, text = text, column = column] { numbers(text, column); });
     EXPECT_NE(said.find(reason), std::string::npos) << text << ": " << said;

@@ -144,10 +144,10 @@ TEST(Confidence, OfModelCifCountsBeforeBFactors) {
 TEST(Confidence, OfOtherNumbersIsDoubted) {
   const auto doubt = [](const Structure& structure) { return doubt_of_confidence(structure).value_or(""); };
   EXPECT_EQ(doubt(with_b_factors({0.0f, 50.0f, 100.0f, kNan})), "");
-  EXPECT_NE(doubt(with_b_factors({10.0f, 120.5f, -3.0f, 20.0f})).find("2 atoms are outside of that, the first"),
+  EXPECT_NE(doubt(with_b_factors({10.0f, 120.5f, -3.0f, 20.0f})).find("2 atoms are outside this range (first"),
             std::string::npos);
   EXPECT_NE(doubt(with_b_factors({10.0f, 120.5f, -3.0f, 20.0f})).find("with 120.5"), std::string::npos);
-  EXPECT_NE(doubt(with_b_factors({0.9f, 0.8f, 0.3f, 1.0f})).find("none is above 1"), std::string::npos);
+  EXPECT_NE(doubt(with_b_factors({0.9f, 0.8f, 0.3f, 1.0f})).find("all are at most 1"), std::string::npos);
   const char* const atom = "ATOM      1  CA  GLY A   1       0.000   0.000   0.000  1.00 20.00           C\n";
   EXPECT_NE(doubt(read_text("m.pdb", std::string("EXPDTA    X-RAY DIFFRACTION\n") + atom)).find("(X-RAY DIFFRACTION)"),
             std::string::npos);
