@@ -25,57 +25,48 @@ namespace {
 constexpr std::size_t kMostPages = 6;
 constexpr std::size_t kMostOptions = 10;
 
-/// Words of users and the words of this program for the same thing; a blank separates alternatives.
+/// Words of this program, and the words of users for the same thing; a blank separates these.
 constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
-    {"3d", "stl"},
-    {"accessible", "sas"},
-    {"alpha", "opacity"},
-    {"amber", "prmtop trajectory"},
-    {"animation", "film"},
-    {"antialias", "samples"},
-    {"apbs", "potential"},
-    {"biomolecule", "assembly"},
-    {"blur", "motion-blur"},
-    {"cartoon", "tube ribbon"},
-    {"charmm", "psf trajectory"},
-    {"cluster", "farm"},
-    {"connolly", "excluded"},
-    {"contact", "interface"},
-    {"crop", "margin"},
-    {"delphi", "potential"},
-    {"dock", "pose"},
-    {"docking", "pose"},
-    {"electrostatics", "potential"},
-    {"fog", "depth-cue"},
-    {"gif", "film"},
-    {"gltf", "mesh"},
-    {"gromacs", "xtc trajectory"},
-    {"hbond", "hydrogen-bonds"},
-    {"jupyter", "notebook"},
-    {"licorice", "sticks"},
-    {"movie", "film"},
-    {"mp4", "film"},
-    {"multimer", "assembly"},
-    {"namd", "dcd trajectory"},
-    {"obj", "mesh"},
-    {"overwrite", "force"},
-    {"ply", "mesh"},
-    {"powerpoint", "slide"},
-    {"print", "stl dpi"},
-    {"quality", "samples"},
-    {"replace", "force"},
-    {"resolution", "dpi size"},
-    {"rotate", "turn turntable"},
-    {"sasa", "sas"},
-    {"ses", "excluded"},
-    {"slurm", "farm"},
-    {"spin", "turntable"},
-    {"stick", "sticks"},
-    {"transparency", "opacity"},
-    {"tunnel", "channel"},
-    {"video", "film"},
-    {"void", "cavity"},
-    {"vrml", "mesh"},
+    {"assembly", "biomolecule multimer"},
+    {"bfactor", "b-factor"},
+    {"cavities", "cavity void"},
+    {"channel", "tunnel"},
+    {"dcd", "namd"},
+    {"depth-cue", "fog"},
+    {"download", "fetch"},
+    {"dpi", "print resolution"},
+    {"excluded", "connolly ses"},
+    {"farm", "cluster slurm supercomputer"},
+    {"film", "animation gif movie mp4 video"},
+    {"force", "overwrite replace"},
+    {"gpu", "cuda"},
+    {"hydrogen-bonds", "hbond"},
+    {"interface", "contact"},
+    {"licence", "license"},
+    {"macos", "mac"},
+    {"margin", "crop"},
+    {"mesh", "gltf obj ply vrml"},
+    {"motion-blur", "blur"},
+    {"notebook", "jupyter"},
+    {"opacity", "alpha transparency transparent"},
+    {"periodic", "pbc"},
+    {"pose", "dock docking"},
+    {"potential", "apbs delphi electrostatics"},
+    {"prmtop", "amber"},
+    {"psf", "charmm"},
+    {"ribbon", "cartoon"},
+    {"samples", "antialias quality"},
+    {"sas", "accessible sasa"},
+    {"silhouettes", "outline"},
+    {"size", "resolution"},
+    {"slide", "powerpoint"},
+    {"sticks", "licorice"},
+    {"stl", "3d print"},
+    {"trajectory", "amber charmm gromacs namd"},
+    {"tube", "cartoon"},
+    {"turn", "rotate"},
+    {"turntable", "rotate spin"},
+    {"xtc", "gromacs"},
 };
 
 std::string lower_case(std::string_view text) {
@@ -116,9 +107,9 @@ Query query_of(std::string_view text) {
   for (const std::string_view word : words_in(lower)) {
     std::vector<std::string>& alternatives = query.emplace_back();
     alternatives.emplace_back(word);
-    for (const auto& [users, ours] : kSynonyms)
-      if (word == users || word == fmt::format("{}s", users))
-        for (const std::string_view synonym : words_in(ours)) alternatives.emplace_back(synonym);
+    for (const auto& [ours, users] : kSynonyms)
+      for (const std::string_view synonym : words_in(users))
+        if (word == synonym || word == fmt::format("{}s", synonym)) alternatives.emplace_back(ours);
   }
   return query;
 }

@@ -2,6 +2,7 @@
 // What the program says about words that it does not know, and what it assumes where words are missing.
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -159,6 +160,18 @@ TEST_F(Words, HelpShowsPagesOfTheManual) {
   EXPECT_NE(wrong.err.find("did you mean figures?"), std::string::npos) << wrong.err;
 }
 
+/// Returns the first two answers of each kind: commands, pages of the manual, options.
+std::string first_answers(const std::string& help) {
+  std::istringstream lines(help);
+  std::string line, first;
+  for (int count = 0; std::getline(lines, line);) {
+    if (!line.starts_with(' ')) count = 0;
+    if (line.starts_with("  meniscus ")) ++count;
+    if (count <= 2) first += line + "\n";
+  }
+  return first;
+}
+
 TEST_F(Words, HelpIsSearchedByTheWordsOfUsers) {
   const std::pair<const char*, const char*> cases[] = {
       {"movie", "meniscus film "},
@@ -203,11 +216,37 @@ TEST_F(Words, HelpIsSearchedByTheWordsOfUsers) {
       {"journal", "help journals"},
       {"spin", "--turntable"},
       {"glycan", "--glycans"},
+      {"cavity", "help pockets"},
+      {"volume", "meniscus surface"},
+      {"pocket", "meniscus pockets"},
+      {"interface", "help interfaces"},
+      {"ligand", "help ligands"},
+      {"rainbow", "help colors"},
+      {"transparent", "--opacity"},
+      {"outline", "--silhouettes"},
+      {"black and white", "help figures"},
+      {"resume", "--resume"},
+      {"headless", "help commands"},
+      {"docker", "help farm"},
+      {"python", "help numbers-in-python"},
+      {"povray", "meniscus export povray"},
+      {"usd", "help studios"},
+      {"trajectory", "help trajectories"},
+      {"pbc", "--whole"},
+      {"unit cell", "help assemblies"},
+      {"assembly", "help capsids"},
+      {"b-factor", "--color"},
+      {"hydrophobic", "help patches"},
+      {"label", "help labels"},
+      {"fetch", "help first-figure"},
+      {"supercomputer", "meniscus farm"},
+      {"cuda", "--device"},
+      {"licence", "help blender"},
   };
   for (const auto& [word, found] : cases) {
     const ProgramResult result = says({"help", word});
     EXPECT_EQ(result.exit_code, 0) << word << ": " << result.err;
-    EXPECT_NE(result.out.find(found), std::string::npos) << word << ": " << result.out;
+    EXPECT_NE(first_answers(result.out).find(found), std::string::npos) << word << ": " << result.out;
   }
 }
 
