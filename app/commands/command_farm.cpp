@@ -324,10 +324,10 @@ void add_work(CLI::App& command) {
       "  meniscus work film                                all that is missing\n"
       "  meniscus work film --step render --chunk 3/10     the third of ten shares of one step\n"
       "  meniscus work film --frames 40-49 --force         these once more",
-      "A frame that is there is not made again. So the same command continues after any interruption, even kill -9, "
-      "and\nany number of workers can share a bundle without knowing of each other; they make a few frames twice, "
-      "with the\nsame bytes. When it is stopped (SIGTERM, SIGUSR1, Ctrl-C) it leaves complete files only and ends "
-      "with exit code 9.\nIf a frame fails, the others are still made; the exit code is that of the failed frame.");
+      "Frames that exist are not made again. So the same command continues after any interruption, even kill -9, and\n"
+      "any number of workers can share a bundle. They do not communicate, and may make a few frames twice, with the\n"
+      "same bytes. A worker that is stopped (SIGTERM, SIGUSR1, Ctrl-C) leaves only complete files, and ends with exit\n"
+      "code 9. If a frame fails, the others are still made; the exit code is that of the failed frame.");
   auto state = std::make_shared<WorkCommand>();
   command.add_option("BUNDLE", state->folder, "Folder of the bundle")->required()->type_name("");
   PropertyOptions options(command);

@@ -96,8 +96,8 @@ void add_morph(CLI::App& command) {
       "  meniscus render path.pdb --frames all --color chain -o path.mp4\n"
       "  meniscus morph a.cif b.cif c.cif --select 'chain A' --superpose-on 'name CA and resid 1-29' --steps 100 -o "
       "path.pdb",
-      "Atoms that all structures have are moved, by sequence: names of chains and numbers of residues may differ. "
-      "Bonds\nkeep their lengths, domains move as bodies, and atoms do not pass through one another.");
+      "Atoms that all structures share are moved. They are paired by sequence, so chain names and residue numbers may\n"
+      "differ. Bonds keep their lengths, domains move as bodies, and atoms do not pass through one another.");
   auto declared = std::make_shared<DeclaredCommand<MorphCommand>>(
       command, TakenProperties{"molecule.superpose_on", "molecule.select", "molecule.warnings", "molecule.quiet",
                                "output.file", "output.force"});

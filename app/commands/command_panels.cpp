@@ -218,8 +218,8 @@ void add_panels(CLI::App& command) {
       "  meniscus panels apo.png holo.png -o figure.pdf --width 180mm\n"
       "  meniscus panels apo.png holo.png -o figure.png --superpose-on 'name CA' --one-camera --one-scale --legend\n"
       "  meniscus panels a.json b.json c.json d.json -o figure.png --columns 2 --letters lower --background white",
-      "A picture that meniscus render made is a panel, for it carries its scene; so is a scene file. Each panel is "
-      "drawn\nagain, in the size that it has on the page. Options that scenes have, too, hold for all panels.");
+      "A panel is a scene file, or a picture of meniscus render, which carries its scene. Each panel is drawn again\n"
+      "in its size on the page. Options of scenes apply to all panels.");
   const TakenProperties shared{"Computing", "-surface.verify", "Legend", "-legend.file"};
   auto declared = std::make_shared<DeclaredPanels>(
       command,

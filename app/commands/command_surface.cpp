@@ -297,20 +297,13 @@ void add_surface(CLI::App& command) {
       "  meniscus surface adk.psf adk.dcd --superpose 'name CA' --csv-cavities cavities.csv   each cavity over time\n"
       "  meniscus surface adk.psf adk.dcd --json                one line of JSON per frame\n"
       "  meniscus surface *.cif.gz --csv-summary all.csv        one row for each of many molecules",
-      "The surface is that of the polymers of the first model, or of all of a file without one, with the most "
-      "occupied\n"
-      "conformer of each residue; water and free ions are left out. A line reports what was read, left out and used. "
-      "Radii\n"
-      "are Bondi's (`meniscus info` lists them), or the file's own (PQR, XYZR). The surface is closed and includes "
-      "all\n"
-      "cavities; areas and volumes are exact, in closed form. `volume` is that of the solid, without its cavities; "
-      "the\n"
-      "volume of a cavity is positive. The area of an atom is the part of the surface that has the atom's colour in\n"
-      "pictures: its contact patch, and those parts of the patches around that are nearer to its contact with the "
-      "probe\n"
-      "than to any other contact. Over frames the tables of atoms and residues have rows for each frame. A cavity "
-      "keeps its\n"
-      "number while probes that rest in it, touching three atoms, overlap from one frame to the next.");
+      "The surface encloses the polymers of the first model, or all atoms if there is no polymer: the most occupied\n"
+      "conformer of each residue, without water and free ions. A line reports what was read, left out and used.\n"
+      "Radii are Bondi's (`meniscus info` lists them), or the file's own (PQR, XYZR). The surface is closed and\n"
+      "includes all cavities. Areas and volumes are exact. `volume` is the volume of the solid without its cavities;\n"
+      "the volume of a cavity is positive. The area of an atom is the part of the surface in its colour: its contact\n"
+      "patch, and the nearest parts of the patches around it. Over frames the tables of atoms and residues have rows\n"
+      "for each frame, and a cavity keeps its number as long as probes that rest in it overlap.");
   auto declared = std::make_shared<DeclaredCommand<SurfaceCommand>>(command, surface_command_properties());
   SurfaceCommand& state = declared->state;
   state.scene.molecule.surface.timing = StageTiming::exact;  // each time is printed

@@ -239,8 +239,8 @@ void declare_page(CLI::App& command) {
       "  meniscus export page --scene fig.json -o fig.html\n"
       "  meniscus export page adk.psf adk.dcd --frames all --stride 10 -o adk.html     with a slider\n"
       "  meniscus export page 1tii.pdb -o 1tii.html --named-view 'Active site=site.json' --named-view Back=back.png",
-      "The page fetches nothing, and casts the exact patches by WebGL 2 in the browser that opens it. Others "
-      "see\na still picture that is in it. Frames of a run are all in the page, each with its own patches.");
+      "The page fetches nothing, and casts the exact patches by WebGL 2 in the browser that opens it. Other browsers\n"
+      "show a still picture. Frames of a run are all in the page, each with its own patches.");
   auto declared = std::make_shared<DeclaredCommand<PageCommand>>(
       command, figure_properties().with({"surface.patches", "surface.min_patch", "Light", "Lines", "-look.material",
                                          "-look.ambient_occlusion_rays", "-look.ambient_occlusion_radius",
