@@ -132,6 +132,7 @@ class Page:
         self.environment = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "HOME": str(folder)}
         self.faults, self.made, self.left_out = [], 0, []
         self.is_tutorial = path.parent.name == "tutorials"
+        self.environment.update({"IS_TUTORIAL": "1"} if self.is_tutorial else {})
         is_missing = lambda place, names: [name for name in names if self.is_tutorial and name not in self.named()]
         shutil.copytree(inputs, folder, ignore=is_missing)
 
@@ -198,6 +199,9 @@ class Recipes(unittest.TestCase):
         print(f"{made} commands were run, {len(left_out)} are left out for {len({entry[2] for entry in left_out})} reasons")
         self.assertEqual("\n".join(fault for page in pages for fault in page.faults), "")
         self.assertGreater(made, len(left_out))
+        run = {page.name.stem for page in pages if page.is_tutorial and page.made}
+        tutorials = {path.stem for path in PAGES if path.parent.name == "tutorials"}
+        self.assertEqual(tutorials - run, tutorials & {"numbers-in-python"}, "tests/python/document_test.py runs that one")
 
     @unittest.skipIf(len(sys.argv) > 2, "some pages alone")
     def test_nothing_is_left_out_without_need(self):
