@@ -3,13 +3,7 @@
 #include "app/options/named_files.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 
 #include "app/options/command_tree.h"
 #include "app/process/program_main.h"

@@ -2,9 +2,7 @@
 // Declares the sets of properties that commands share, adds options to CLI11, and writes scenes as options.
 #include "app/options/property_options.h"
 
-#include <algorithm>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "app/film/film.h"

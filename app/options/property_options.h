@@ -2,16 +2,7 @@
 // The properties that a command takes, options for them, and a scene as options of a command line.
 #pragma once
 
-#include <concepts>
-#include <functional>
-#include <initializer_list>
-#include <optional>
 #include <set>
-#include <span>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 

@@ -3,18 +3,11 @@
 // line.
 #include "app/options/scene_options.h"
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdlib>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
-#include <utility>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "app/film/film.h"

@@ -2,12 +2,7 @@
 // Describes the keys of scene files, for people and as a JSON schema, by the table of properties.
 #include "app/options/scene_schema.h"
 
-#include <algorithm>
-#include <string_view>
-#include <vector>
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "core/properties/properties.h"
 #include "core/scene/scene_json.h"

@@ -2,10 +2,8 @@
 // Writes storyboard files, and reads them and their scenes.
 #include "app/options/storyboard_file.h"
 
-#include <cstddef>
 #include <filesystem>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 
-#include <gemmi/cifdoc.hpp>
 #include <gemmi/elem.hpp>
 #include <gemmi/numb.hpp>
 
