@@ -8,10 +8,8 @@
 #include <fmt/ranges.h>
 
 #include "app/commands/command_table.h"
-#include "app/commands/manual_pages.h"
 #include "app/options/command_tree.h"
 #include "app/options/property_options.h"
-#include "app/options/scene_schema.h"
 #include "app/process/program_main.h"
 #include "app/reports/command_manual.h"
 #include "core/base/output_file.h"
@@ -316,8 +314,8 @@ void show(const CLI::App& program, const std::string& name) {
   }
   const std::vector<std::string> names = page_names(program);
   const std::string_view nearest = nearest_word(name, std::vector<std::string_view>(names.begin(), names.end()));
-  throw UsageError(fmt::format("nothing in the help speaks of {}{}; meniscus help lists the pages", in_quotes(name),
-                               nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
+  throw UsageError("nothing in the help speaks of {}{}; meniscus help lists the pages", in_quotes(name),
+                   nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest));
 }
 
 /// Writes a page of section 1 for every command, and pages of section 7 for common topics.

@@ -19,8 +19,7 @@
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/tessellate.h"
 #include "core/queries/cavity_tracks.h"
-#include "core/scene/area_columns.h"
-#include "core/scene/frozen_selections.h"
+#include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
 
 namespace meniscus {
@@ -245,8 +244,7 @@ bool SurfaceCommand::prints_csv() const { return std::ranges::any_of(tables_of(*
 // Opens the outputs before the work begins, so that errors come early, and removes them again.
 void check_outputs(const SurfaceCommand& command) {
   if (command.plot == "-" || (!command.plot.empty() && !command.plot.ends_with(".svg")))
-    throw UsageError(
-        fmt::format("--plot {}: plots are written as files whose names end in .svg", in_quotes(command.plot)));
+    throw UsageError("--plot {}: plots are written as files whose names end in .svg", in_quotes(command.plot));
   if (command.resumes) throw UsageError("--resume continues a table of many files; add --csv-summary FILE");
   std::vector<std::string> paths = tables_of(command);
   if (std::ranges::count_if(paths, is_stdout) + command.json > 1)

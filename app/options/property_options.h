@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The properties that a command takes, options for them, and a scene as options of a command line.
+// The properties that a command takes, options for them, a scene as options of a command line, and the keys of scene
+// files for people and for editors of JSON.
 #pragma once
 
 #include <set>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -134,5 +136,12 @@ std::vector<std::string> render_words(const Scene& scene);
 
 /// Returns the words as one line for a shell, quoted if necessary.
 std::string shell_line(std::span<const std::string> words);
+
+/// Returns the page `meniscus help scenes`.
+std::string scene_help();
+
+/// Returns a JSON schema (draft 2020-12) of scene files, ending with a newline. docs/reference/scene.schema.json has
+/// the same text.
+std::string scene_schema();
 
 }  // namespace meniscus

@@ -34,7 +34,9 @@ ExitCode exit_code_of(const std::exception& error);
 /// The error of a run of frames if some failed, or if its trajectory was cut short.
 class RunError : public Error {
  public:
-  RunError(ExitCode code, const std::string& message) : Error(message), code_(code) {}
+  template <typename... Values>
+  RunError(ExitCode code, fmt::format_string<Values...> text, Values&&... values)
+      : Error(fmt::format(text, std::forward<Values>(values)...)), code_(code) {}
   ExitCode code() const { return code_; }
 
  private:

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -15,33 +16,12 @@ namespace {
 
 /// Escapes text for groff, which takes backslashes, hyphens, quotes and a few other characters for typography.
 std::string plain(std::string_view text) {
+  static const std::map<char, std::string_view> kEscapes{
+      {'\\', "\\e"}, {'-', "\\-"}, {'\'', "\\(aq"}, {'"', "\\(dq"}, {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"}};
   std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '\\':
-        result += "\\e";
-        break;
-      case '-':
-        result += "\\-";
-        break;
-      case '\'':
-        result += "\\(aq";
-        break;
-      case '"':
-        result += "\\(dq";
-        break;
-      case '`':
-        result += "\\(ga";
-        break;
-      case '^':
-        result += "\\(ha";
-        break;
-      case '~':
-        result += "\\(ti";
-        break;
-      default:
-        result += c;
-    }
+  for (const char& c : text) {
+    const auto escape = kEscapes.find(c);
+    result += escape == kEscapes.end() ? std::string_view(&c, 1) : escape->second;
   }
   // A line that begins with a dot would be a macro.
   return result.starts_with('.') ? "\\&" + result : result;

@@ -71,7 +71,7 @@ void Program::compile(const ShaderSource& source) {
     const std::string log = translate_shader_log(shader_log(shader), source.files);
     glDeleteShader(shader);
     glDeleteProgram(name_);
-    throw GpuError(fmt::format("{} does not compile:\n{}", path_, log));
+    throw GpuError("{} does not compile:\n{}", path_, log);
   }
   glAttachShader(name_, shader);
   glLinkProgram(name_);
@@ -80,7 +80,7 @@ void Program::compile(const ShaderSource& source) {
   if (!ok) {
     const std::string log = translate_shader_log(program_log(name_), source.files);
     glDeleteProgram(name_);
-    throw GpuError(fmt::format("{} does not link:\n{}", path_, log));
+    throw GpuError("{} does not link:\n{}", path_, log);
   }
 }
 
@@ -103,11 +103,11 @@ void Program::find_blocks() {
 void Program::set_block(int binding, const void* bytes, std::size_t byte_count) const {
   const auto block =
       std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& b) { return int(b.binding) == binding; });
-  if (block == blocks_.end()) throw GpuError(fmt::format("{} has no parameters at binding {}", path_, binding));
+  if (block == blocks_.end()) throw GpuError("{} has no parameters at binding {}", path_, binding);
   std::vector<std::byte>& content = block->content;
   if (in_vectors(byte_count) != content.size())
-    throw GpuError(fmt::format("{}: {} bytes of parameters at binding {} are given, {} wanted", path_,
-                               in_vectors(byte_count), binding, content.size()));
+    throw GpuError("{}: {} bytes of parameters at binding {} are given, {} wanted", path_, in_vectors(byte_count),
+                   binding, content.size());
   if (block->buffer && std::memcmp(content.data(), bytes, byte_count) == 0) return;
   std::memcpy(content.data(), bytes, byte_count);
   const auto size = static_cast<GLsizeiptr>(content.size());
@@ -130,7 +130,7 @@ void Program::dispatch(std::size_t group_count, std::uint32_t longest_row) const
   const std::size_t width = (group_count + height - 1) / height;
   glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 1, &limit);
   if (height > static_cast<std::size_t>(limit))
-    throw CapacityError(fmt::format("{}: {} groups are more than this GPU can start", path_, group_count));
+    throw CapacityError("{}: {} groups are more than this GPU can start", path_, group_count);
   dispatch_2d(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
 }
 
@@ -153,8 +153,7 @@ void Program::dispatch_indirect(const Buffer& counts, std::size_t byte_offset) c
 
 void Program::start() const {
   for (const Block& block : blocks_) {
-    if (!block.buffer)
-      throw GpuError(fmt::format("{}: the parameters at binding {} are not set", path_, block.binding));
+    if (!block.buffer) throw GpuError("{}: the parameters at binding {} are not set", path_, block.binding);
     glBindBufferBase(GL_UNIFORM_BUFFER, block.binding, block.buffer);
   }
   glUseProgram(name_);

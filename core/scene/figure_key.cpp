@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Marks the atoms that surfaces and shapes draw, and finds the meaning of their colours.
-#include "core/scene/figure_key.h"
+#include "core/scene/figure.h"
 
 #include "core/color/lipophilicity.h"
 #include "core/scene/run_framing.h"

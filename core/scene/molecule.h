@@ -7,7 +7,6 @@
 #include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
 #include "core/queries/surface_object.h"
-#include "core/scene/area_columns.h"
 #include "core/scene/open_book.h"
 #include "core/scene/surface_computer.h"
 #include "core/scene/surface_objects.h"

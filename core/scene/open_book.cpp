@@ -7,7 +7,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/camera/camera.h"
-#include "core/scene/area_columns.h"
 #include "core/scene/surface_objects.h"
 
 namespace meniscus {

@@ -10,7 +10,7 @@
 #include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
 #include "core/math/box.h"
-#include "core/scene/copied_atoms.h"
+#include "core/queries/copies.h"
 #include "core/scene/view_aim.h"
 
 namespace meniscus {

@@ -306,7 +306,7 @@ class NumberReader {
 NumberFile read_number_file(const std::string& path, const std::string& column) {
   const TextFile file = read_text_file(path);
   NumberFile result = NumberReader(file, column).read();
-  if (result.empty()) throw InputError(path, 0, fmt::format("holds no numbers; {}", kNumberLayouts));
+  if (result.empty()) throw InputError(path, 0, "holds no numbers; {}", kNumberLayouts);
   return result;
 }
 
@@ -317,7 +317,7 @@ const NumberFile& NumberFile::of_frame(const std::optional<std::uint64_t>& frame
                   by_frame->begin()->first, by_frame->rbegin()->first);
   if (!frame) throw InputError(path, 0, contents + message("; add @frames@, or leave out its column frame"));
   const auto found = by_frame->find(*frame);
-  if (found == by_frame->end()) throw InputError(path, 0, fmt::format("{}, but none of frame {}", contents, *frame));
+  if (found == by_frame->end()) throw InputError(path, 0, "{}, but none of frame {}", contents, *frame);
   return found->second;
 }
 

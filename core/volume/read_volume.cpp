@@ -151,10 +151,8 @@ namespace {
 std::vector<float> read_values(const TextFile& file, LineReader& lines, std::size_t count) {
   // Each value takes two bytes at least, so no count makes this reserve more than the file is worth.
   if (count > lines.bytes_left() / 2 + 1)
-    throw InputError(
-        file.path, lines.number(),
-        fmt::format("announces {} values, more than the {} bytes after it can hold; is the file cut short?",
-                    with_thousands(count), with_thousands(lines.bytes_left())));
+    throw lines.error("announces {} values, more than the {} bytes after it can hold; is the file cut short?",
+                      with_thousands(count), with_thousands(lines.bytes_left()));
   std::vector<float> values;
   values.reserve(count);
   std::string_view line;
@@ -172,9 +170,8 @@ std::vector<float> read_values(const TextFile& file, LineReader& lines, std::siz
     }
   }
   if (values.size() < count)
-    throw InputError(file.path, lines.number(),
-                     fmt::format("ends after {} of {} values; is the file cut short?", with_thousands(values.size()),
-                                 with_thousands(count)));
+    throw lines.error("ends after {} of {} values; is the file cut short?", with_thousands(values.size()),
+                      with_thousands(count));
   return values;
 }
 
@@ -182,7 +179,7 @@ std::vector<float> read_values(const TextFile& file, LineReader& lines, std::siz
 /// https://apbs.readthedocs.io/en/latest/formats/opendx.html
 class DxReader {
  public:
-  explicit DxReader(const TextFile& file) : file_(file), lines_(file.text) {}
+  explicit DxReader(const TextFile& file) : file_(file), lines_(file) {}
 
   VolumeGrid read() {
     std::string_view line;
@@ -200,7 +197,7 @@ class DxReader {
       else if (fields[0] == "object" && has(fields, "array"))
         return finish(fields);
     }
-    throw InputError(file_.path, lines_.number(), "ends without an array of values; is the file cut short?");
+    throw lines_.error("ends without an array of values; is the file cut short?");
   }
 
  private:
@@ -275,7 +272,7 @@ constexpr double kBohr = 0.529177210903;  // Å; CODATA 2018
 
 class CubeReader {
  public:
-  explicit CubeReader(const TextFile& file) : file_(file), lines_(file.text) {}
+  explicit CubeReader(const TextFile& file) : file_(file), lines_(file) {}
 
   VolumeGrid read() {
     next_line();
@@ -344,7 +341,7 @@ namespace {
 
 /// True if the first line that is not a comment begins as in OpenDX files.
 bool is_dx(const TextFile& file) {
-  LineReader lines(file.text);
+  LineReader lines(file);
   std::string_view line;
   while (lines.next(line)) {
     const std::string_view text = trimmed(line);
@@ -356,7 +353,7 @@ bool is_dx(const TextFile& file) {
 
 /// True if the third line has at least four fields, as in cube files.
 bool may_be_cube(const TextFile& file) {
-  LineReader lines(file.text);
+  LineReader lines(file);
   std::string_view line;
   for (int n = 0; n < 3; ++n)
     if (!lines.next(line)) return false;

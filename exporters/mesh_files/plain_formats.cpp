@@ -175,8 +175,8 @@ char kind_letter(PatchKind kind) { return kind == PatchKind::convex ? 'C' : kind
 void check_range(const glm::dvec3& x) {
   for (int k = 0; k < 3; ++k)
     if (!(std::abs(x[k]) < kLargest))
-      throw CapacityError(fmt::format(
-          "DMS has room for coordinates between -1000 and 1000 Å, and one is {:.3f}; choose another format", x[k]));
+      throw CapacityError(
+          "DMS has room for coordinates between -1000 and 1000 Å, and one is {:.3f}; choose another format", x[k]);
 }
 
 }  // namespace

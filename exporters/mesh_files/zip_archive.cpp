@@ -40,8 +40,7 @@ struct CompressorDeleter {
 
 void require_small(std::size_t size, const std::string& name) {
   if (size < std::numeric_limits<std::uint32_t>::max()) return;
-  throw CapacityError(
-      fmt::format("{} would have {} bytes, and zip has room for 4 GiB; ask for a coarser mesh", name, size));
+  throw CapacityError("{} would have {} bytes, and zip has room for 4 GiB; ask for a coarser mesh", name, size);
 }
 
 std::uint32_t checksum_of(std::string_view content) { return ::libdeflate_crc32(0, content.data(), content.size()); }
@@ -240,8 +239,7 @@ namespace meniscus {
 namespace {
 
 [[noreturn]] void refuse(std::string_view format) {
-  throw RequestError(
-      fmt::format("this build writes no {} files: it was made without libdeflate; choose another format", format));
+  throw RequestError("this build writes no {} files: it was made without libdeflate; choose another format", format);
 }
 
 }  // namespace

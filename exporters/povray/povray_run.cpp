@@ -11,7 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
-#include "core/color/color_key_json.h"
+#include "core/color/color_key.h"
 #include "exporters/povray/povray_files.h"
 #include "exporters/povray/scene_text.h"
 #include "exporters/povray/surface_pieces.h"
@@ -160,7 +160,7 @@ SceneReport SequenceScene::write_frame(std::size_t place, const Shown& shown) co
     for (const SceneColor& color : *run_.colors) table.number(color);
   const SceneContent content(shown, camera, options_, origin_, table);
   if (run_.colors && table.colors().size() > run_.colors->size())
-    throw Error(fmt::format("frame {} has a colour that the run does not have", run_.frames[place]));
+    throw Error("frame {} has a colour that the run does not have", run_.frames[place]);
   OutputFolder output(folder_, options_.existing);
   SceneReport report;
   const auto begin_file = [&](const std::string& what, const char* ending = ".inc") -> OutputFile& {

@@ -219,8 +219,8 @@ void push_bytes(std::string& bytes, std::uint32_t value, int count) {
 void write_density(const VolumeGrid& grid, const std::function<void(std::string_view)>& write) {
   const auto& size = grid.frame().size;
   if (std::ranges::any_of(size, [](std::size_t points) { return points > kMostDensityPoints; }))
-    throw RequestError(fmt::format("--color-map-file: POV-Ray's density files have at most {} points along an axis",
-                                   with_thousands(kMostDensityPoints)));
+    throw RequestError("--color-map-file: POV-Ray's density files have at most {} points along an axis",
+                       with_thousands(kMostDensityPoints));
   const auto [low, high] = std::ranges::minmax(grid.values());
   const double width = static_cast<double>(high) - low;
   std::string bytes;

@@ -34,8 +34,7 @@ void refuse_known_foreign(const TextFile& file) {
   const std::size_t first = file.text.find_first_not_of(" \t\n");
   if (file.text[first] == '<')
     throw InputError(file.path, 0, "looks like HTML or XML, not like a molecule; was the download refused?");
-  if (file.text[first] == '{')
-    throw InputError(file.path, 0, fmt::format("looks like JSON; {} are read", format_names()));
+  if (file.text[first] == '{') throw InputError(file.path, 0, "looks like JSON; {} are read", format_names());
 }
 
 }  // namespace
@@ -71,12 +70,12 @@ const Reader& choose_reader(const TextFile& file) {
     if (!reader->recognizes(file.text)) continue;
     if (!by_name) return *reader;
     throw InputError(file.path, 0,
-                     fmt::format("the name says {}, but the content is {}; rename the file, or check that it is the "
-                                 "right one",
-                                 by_name->metadata.name, reader->metadata.name));
+                     "the name says {}, but the content is {}; rename the file, or check that it is the "
+                     "right one",
+                     by_name->metadata.name, reader->metadata.name);
   }
   if (by_name) return *by_name;  // this reader reports what is missing, and where
-  throw InputError(file.path, 0, fmt::format("is in none of the formats that are read ({})", format_names()));
+  throw InputError(file.path, 0, "is in none of the formats that are read ({})", format_names());
 }
 
 }  // namespace meniscus

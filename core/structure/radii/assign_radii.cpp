@@ -58,9 +58,8 @@ RadiiChoice::RadiiChoice(const RadiiOptions& options, const std::string& molecul
   } else {
     set_ = find_radii_set(options.set);
     if (!set_) {
-      throw InputError(
-          molecule_file, 0,
-          fmt::format("{} is not a set of radii; choose one of {}", in_quotes(options.set), radii_set_names()));
+      throw InputError(molecule_file, 0, "{} is not a set of radii; choose one of {}", in_quotes(options.set),
+                       radii_set_names());
     }
   }
   if (from_file_) return;

@@ -64,7 +64,7 @@ class HeaderReader {
 
  private:
   [[noreturn]] void refuse(const std::string& what) const {
-    throw InputError(file_.path(), 0, fmt::format("{} (byte {})", what, with_thousands(next_)));
+    throw InputError(file_.path(), 0, "{} (byte {})", what, with_thousands(next_));
   }
 
   const std::byte* take(std::uint64_t count) {
@@ -196,9 +196,8 @@ class AmberNetcdf final : public Trajectory {
     const NetcdfLayout layout = read_netcdf_layout(file_);
     const auto convention = layout.texts.find("Conventions");
     if (convention == layout.texts.end() || convention->second.find("AMBER") == std::string::npos) {
-      throw InputError(path, 0,
-                       fmt::format("is NetCDF, but not by the convention of Amber ({}); only that is read",
-                                   convention == layout.texts.end() ? "it names none" : in_quotes(convention->second)));
+      throw InputError(path, 0, "is NetCDF, but not by the convention of Amber ({}); only that is read",
+                       convention == layout.texts.end() ? "it names none" : in_quotes(convention->second));
     }
     find_coordinates(layout);
     time_ = find(layout, "time", 1);
@@ -235,8 +234,7 @@ class AmberNetcdf final : public Trajectory {
     const std::uint64_t width = variable.type == kDouble ? sizeof(double) : sizeof(float);
     const std::uint64_t frames = variable.has_records || is_single_ ? 1 : fixed_frames_;
     if ((variable.type != kFloat && variable.type != kDouble) || variable.record_bytes != frames * count * width) {
-      throw InputError(path_, 0,
-                       fmt::format("its variable '{}' should hold {} floating-point numbers a frame", name, count));
+      throw InputError(path_, 0, "its variable '{}' should hold {} floating-point numbers a frame", name, count);
     }
     const auto scale = variable.numbers.find("scale_factor");
     return PerFrame{

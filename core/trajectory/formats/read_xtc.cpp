@@ -5,7 +5,6 @@
 #include "core/base/constants.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/trajectory/formats/frame_index.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/trajectory.h"
 
