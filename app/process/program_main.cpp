@@ -77,9 +77,12 @@ void stop(int signal) {
   system_process::end(exit_code.value_or(128 + signal));
 }
 
-}  // namespace
-
+/// From this call on, SIGINT, SIGTERM, SIGHUP and SIGUSR1 remove unfinished files before the program ends, as the
+/// signal would have ended it. SIGXFSZ is ignored, so that a file too large is an OutputError. Call it once, before
+/// other threads are started.
 void clean_up_on_signals() { system_process::await_stop(stop); }
+
+}  // namespace
 
 std::unique_lock<std::mutex> hold_stops() { return std::unique_lock(handling().mutex); }
 

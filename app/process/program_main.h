@@ -49,11 +49,6 @@ class UsageError : public RequestError {
   using RequestError::RequestError;
 };
 
-/// From this call on, SIGINT, SIGTERM, SIGHUP and SIGUSR1 remove unfinished files before the program ends, as the
-/// signal would have ended it. SIGXFSZ is ignored, so that a file too large is an OutputError. Call it once, before
-/// other threads are started.
-void clean_up_on_signals();
-
 /// While a StopHandler lives, these signals call its `stop` first, on a separate thread, and the program ends with its
 /// `exit_code`, if that is given. Younger handlers are called first, and the exit code of the youngest counts.
 class StopHandler {

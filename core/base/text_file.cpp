@@ -20,6 +20,10 @@
 namespace meniscus {
 namespace {
 
+[[noreturn]] void refuse_too_large(const std::string& path, std::size_t largest) {
+  throw CapacityError("{}: holds more than {} bytes, more than this program reads", path, with_thousands(largest));
+}
+
 constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 
 std::string read_bytes(const std::string& path, std::size_t largest) {

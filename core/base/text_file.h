@@ -118,11 +118,6 @@ bool parse_single(std::string_view field, float& number);
 /// than `largest` bytes.
 std::string unpack_gzip(const std::string& path, const std::string& packed, std::size_t largest);
 
-/// Throws CapacityError for a file of more than `largest` bytes.
-[[noreturn]] inline void refuse_too_large(const std::string& path, std::size_t largest) {
-  throw CapacityError("{}: holds more than {} bytes, more than this program reads", path, with_thousands(largest));
-}
-
 /// Throws InputError if the bytes begin like a file of another packer. The message has the command that unpacks it.
 inline void refuse_packed(const std::string& path, std::string_view bytes) {
   struct Packer {

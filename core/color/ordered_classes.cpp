@@ -109,8 +109,8 @@ constexpr std::array<Row, 6> kBeads{{{"charged", 0xd55e00},
                                      {"water", 0x0072b2},
                                      {"backbone", 0xf0e442}}};
 
-}  // namespace
-
+/// Returns each sugar that occurs, by its symbol (core/structure/sugars.h). For sugars with a half white symbol, atoms
+/// outside the ring are in the class "white half"; atoms outside sugars are in "other".
 ClassedAtoms sugar_classes(const Structure& structure) {
   ClassedAtoms result;
   OccurringClasses classes;
@@ -138,6 +138,8 @@ ClassedAtoms sugar_classes(const Structure& structure) {
   return result;
 }
 
+/// Returns the classes of Martini's beads that occur: "charged", "polar", "intermediate", "apolar", "water"; "backbone"
+/// of Martini 2, where it depends on the fold; "other" for atoms that are not beads.
 ClassedAtoms bead_classes(const Structure& structure) {
   ClassedAtoms result;
   OccurringClasses classes;
@@ -158,6 +160,8 @@ ClassedAtoms bead_classes(const Structure& structure) {
   result.classes = std::move(classes.classes);
   return result;
 }
+
+}  // namespace
 
 bool has_ordered_classes(ColorScheme::By by) { return by >= ColorScheme::By::secondary && by <= ColorScheme::By::bead; }
 

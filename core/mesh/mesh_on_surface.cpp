@@ -3,10 +3,9 @@
 // and qualities in step while vertices and triangles come, go and move.
 #include "core/mesh/mesh_on_surface.h"
 
-#include <numeric>
-
 #include <tbb/parallel_for.h>
 
+#include "core/math/union_find.h"
 #include "core/mesh/remesh_tuning.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/surface/walks.h"
@@ -14,18 +13,10 @@
 namespace meniscus {
 namespace {
 
-/// Chains of arcs that continue one another.
-class Chains {
- public:
-  explicit Chains(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t root(std::uint32_t n) {
-    while (parent_[n] != n) n = parent_[n] = parent_[parent_[n]];
-    return n;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
-
- private:
-  std::vector<std::uint32_t> parent_;
+/// The crease at a vertex.
+struct CreaseAt {
+  std::uint32_t border = kNone;  ///< a border that edges at the vertex run along, or kNone
+  bool ends = false;  ///< true if creases end or meet here: the crease edges are not just two along one border
 };
 
 /// Removes chains that are shorter than an edge; returns true if there were any.
@@ -33,7 +24,7 @@ bool drop_short_chains(const Surface& surface, const std::function<double(const 
                        std::vector<bool>& keep) {
   std::vector<std::array<std::uint32_t, 2>> ends(surface.vertices.size(), {kNone, kNone});
   std::vector<std::uint32_t> degree(surface.vertices.size(), 0);
-  Chains chains(surface.borders.size());
+  UnionFind chains(surface.borders.size());  // arcs that continue one another
   for (std::uint32_t b = 0; b < surface.borders.size(); ++b) {
     if (!keep[b]) continue;
     for (const std::uint32_t v : surface.borders[b].vertex) {
@@ -43,16 +34,16 @@ bool drop_short_chains(const Surface& surface, const std::function<double(const 
     }
   }
   for (std::size_t v = 0; v < degree.size(); ++v)
-    if (degree[v] == 2) chains.join(ends[v][0], ends[v][1]);
+    if (degree[v] == 2) chains.unite(ends[v][0], ends[v][1]);
   std::vector<double> edges_long(surface.borders.size(), 0.0);
   for (std::uint32_t b = 0; b < surface.borders.size(); ++b) {
     const Border& border = surface.borders[b];
     if (keep[b])
-      edges_long[chains.root(b)] += border.radius * border.sweep / edge(arc_point(border, 0.5 * border.sweep));
+      edges_long[chains.find(b)] += border.radius * border.sweep / edge(arc_point(border, 0.5 * border.sweep));
   }
   bool any = false;
   for (std::uint32_t b = 0; b < surface.borders.size(); ++b)
-    if (keep[b] && edges_long[chains.root(b)] < 1.0) keep[b] = false, any = true;
+    if (keep[b] && edges_long[chains.find(b)] < 1.0) keep[b] = false, any = true;
   return any;
 }
 
@@ -108,6 +99,10 @@ std::vector<bool> creases_to_keep(const Surface& surface, const std::function<do
   return keep;
 }
 
+namespace {
+
+/// Sets HalfEdges::crease() of the edges of `links` that run along a border. `links` are the edges of `mesh`, of which
+/// `face` is filled. `keep` is true for each border of the surface that counts as a crease.
 void mark_creases(const Surface& surface, const SurfaceWalk& walk, const TriangleMesh& mesh,
                   const std::vector<bool>& keep, HalfEdges& links) {
   std::vector<bool> with_crease(surface.faces.size(), false);
@@ -125,6 +120,7 @@ void mark_creases(const Surface& surface, const SurfaceWalk& walk, const Triangl
   }
 }
 
+/// Returns the crease at each vertex.
 std::vector<CreaseAt> creases_at_vertices(const HalfEdges& links) {
   std::vector<CreaseAt> found(links.vertex_count());
   std::vector<std::uint32_t> count(found.size(), 0);
@@ -138,6 +134,8 @@ std::vector<CreaseAt> creases_at_vertices(const HalfEdges& links) {
     if (count[v] != 0 && count[v] != 2) found[v].ends = true;
   return found;
 }
+
+}  // namespace
 
 bool TriangleQuality::is_folded(std::uint32_t vertex, const glm::dvec3& normal, double size) const {
   const MeshVertex& v = vertices_[vertex];

@@ -26,19 +26,6 @@ double crease_angle(const Surface& surface, const Border& border);
 /// h²/(6 r), and if the crease is not shorter than an edge.
 std::vector<bool> creases_to_keep(const Surface& surface, const std::function<double(const glm::dvec3&)>& edge);
 
-/// Sets HalfEdges::crease() of the edges of `links` that run along a border. `links` are the edges of `mesh`, of which
-/// `face` is filled. `keep` is true for each border of the surface that counts as a crease.
-void mark_creases(const Surface& surface, const SurfaceWalk& walk, const TriangleMesh& mesh,
-                  const std::vector<bool>& keep, HalfEdges& links);
-
-/// The crease at a vertex.
-struct CreaseAt {
-  std::uint32_t border = kNone;  ///< a border that edges at the vertex run along, or kNone
-  bool ends = false;  ///< true if creases end or meet here: the crease edges are not just two along one border
-};
-/// Returns the crease at each vertex.
-std::vector<CreaseAt> creases_at_vertices(const HalfEdges& links);
-
 struct TriangleMesh;
 
 /// The attributes of a vertex of a mesh on a surface, except for its position.

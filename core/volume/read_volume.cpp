@@ -139,13 +139,12 @@ class Ccp4Reader {
   bool swapped_ = false;
 };
 
-}  // namespace
-
+/// True if these are the bytes of a CCP4 or MRC 2014 map, recognised by its stamp.
 bool is_ccp4(std::string_view bytes) { return bytes.size() > kStamp + 4 && bytes.substr(kStamp, 3) == "MAP"; }
 
+/// Reads CCP4/MRC of modes 0, 1, 2 and 6, in both byte orders and with any order of axes. The origin is ORIGIN if that
+/// is not zero (MRC 2014), else NSTART (CCP4).
 VolumeGrid read_ccp4(const std::string& path, std::string_view bytes) { return Ccp4Reader(path, bytes).read(); }
-
-namespace {
 
 /// Reads the next `count` numbers of a file, with any number of them per line. Throws InputError.
 std::vector<float> read_values(const TextFile& file, LineReader& lines, std::size_t count) {
@@ -262,11 +261,8 @@ class DxReader {
   std::string title_, unit_;
 };
 
-}  // namespace
-
+/// Reads OpenDX: a grid of regular positions and connections with its values as text. Coordinates are in Å.
 VolumeGrid read_dx(const TextFile& file) { return DxReader(file).read(); }
-
-namespace {
 
 constexpr double kBohr = 0.529177210903;  // Å; CODATA 2018
 
@@ -333,11 +329,8 @@ class CubeReader {
   LineReader lines_;
 };
 
-}  // namespace
-
+/// Reads a Gaussian cube with one value per point. Lengths are in Bohr, or in Å if the numbers of points are negative.
 VolumeGrid read_cube(const TextFile& file) { return CubeReader(file).read(); }
-
-namespace {
 
 /// True if the first line that is not a comment begins as in OpenDX files.
 bool is_dx(const TextFile& file) {

@@ -18,6 +18,9 @@
 
 namespace meniscus::povray {
 
+namespace {
+
+/// Returns the text of <name>_story.pov, which shows the pictures that <name>.ini rendered.
 std::string story_text(const SceneOptions& options, const Story& story) {
   const std::vector<StoryPicture>& film = story.pictures;
   SceneText out;
@@ -36,6 +39,7 @@ std::string story_text(const SceneOptions& options, const Story& story) {
   return out.text();
 }
 
+/// Returns the text of <name>_story.ini.
 std::string story_ini_text(const SceneOptions& options, const Story& film) {
   return filled(template_text(povray_templates(), "story.ini"), {{"NAME", options.name},
                                                                  {"WIDTH", std::to_string(options.width)},
@@ -43,8 +47,6 @@ std::string story_ini_text(const SceneOptions& options, const Story& film) {
                                                                  {"COUNT", std::to_string(film.pictures.size())},
                                                                  {"RATE", fmt::format("{:g}", film.rate)}});
 }
-
-namespace {
 
 void check(const Run& run) {
   if (run.frames.empty()) throw Error("POV-Ray export: a run has at least one frame");

@@ -166,13 +166,16 @@ std::string_view kind_name(PatchKind kind) {
   return "concave";
 }
 
-}  // namespace
-
+/// Returns the name if it is harmless, and an empty text otherwise. A harmless name has at most 40 bytes and consists
+/// of ASCII letters and digits, blanks between them, and the characters _ ' * + - . , ( ), which occur in names of
+/// atoms and classes. No other name is ever written into a scene.
 std::string_view harmless_name(std::string_view name) {
   const bool harmless = !name.empty() && name.size() <= kLongestName && name.front() != ' ' && name.back() != ' ' &&
                         std::ranges::all_of(name, is_allowed) && std::ranges::any_of(name, is_letter_or_digit);
   return harmless ? name : std::string_view{};
 }
+
+}  // namespace
 
 std::string color_comment(const ColorKey& key, const SceneColor& color) {
   if (color.by_map) return {};

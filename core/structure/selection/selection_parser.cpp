@@ -16,6 +16,21 @@
 namespace meniscus {
 namespace {
 
+enum class TokenKind : std::uint8_t { end, word, quoted, open, close, comma, compare, both, either, negate };
+
+struct Token {
+  TokenKind kind = TokenKind::end;
+  std::string text;          ///< without quotes
+  std::size_t position = 0;  ///< byte in the expression
+};
+
+/// A value of a list, with its position for messages.
+struct SelectionValue {
+  std::string text;
+  std::size_t position = 0;
+  bool is_quoted = false;
+};
+
 constexpr std::string_view kBlanks = " \t\r\n";
 constexpr std::string_view kWordEnds = " \t\r\n()<>=!&|,\"";
 
@@ -51,8 +66,9 @@ Token quoted_at(std::string_view text, std::size_t position) {
   return {TokenKind::quoted, std::string(text.substr(position + 1, close - position - 1)), position};
 }
 
-}  // namespace
-
+/// Returns the tokens. The last one has the kind `end`. Words may contain everything except blanks, brackets,
+/// commas, double quotes and the signs < > = ! & |. A single quote opens a quoted text only at the beginning of a word,
+/// so that O5' is a word. Throws SelectionError for a quote that is not closed and for control characters.
 std::vector<Token> tokens_of(std::string_view text) {
   std::vector<Token> tokens;
   std::size_t position = 0;
@@ -77,8 +93,6 @@ std::vector<Token> tokens_of(std::string_view text) {
   tokens.push_back({TokenKind::end, "", text.size()});
   return tokens;
 }
-
-namespace {
 
 /// Both ends of a range as written. A single value has no second end.
 struct Ends {
@@ -142,8 +156,8 @@ ResidueTest::Id residue_id(std::string_view text, const SelectionValue& value) {
   return {number, with_code ? *end : ' '};
 }
 
-}  // namespace
-
+/// Splits a word at plus signs. "CA+CB" has two values; "NA+" has one, because nothing follows the sign. A quoted text
+/// is one value.
 std::vector<SelectionValue> split_at_plus(const Token& token) {
   if (token.kind == TokenKind::quoted) return {{token.text, token.position, true}};
   std::vector<SelectionValue> values;
@@ -157,6 +171,8 @@ std::vector<SelectionValue> split_at_plus(const Token& token) {
   return values;
 }
 
+/// These functions parse values. They throw SelectionError with the position in `text`. whole: only integers are
+/// allowed.
 std::vector<TextPattern> read_patterns(const std::vector<SelectionValue>& values) {
   std::vector<TextPattern> patterns;
   for (const SelectionValue& value : values) {
@@ -214,8 +230,6 @@ std::vector<std::array<double, 2>> read_number_ranges(std::string_view text, con
   }
   return ranges;
 }
-
-namespace {
 
 class Parser {
  public:
