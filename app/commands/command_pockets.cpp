@@ -165,10 +165,6 @@ void print_pockets(const PocketsCommand& requested) {
   PocketTables(command).make();
 }
 
-}  // namespace
-
-namespace {
-
 void check_mesh_path(const std::string& path) {
   const MeshFormat* const format = mesh_format_of_path(path);
   if (!format || format->solid || format->atoms)

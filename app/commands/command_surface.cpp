@@ -225,8 +225,8 @@ TakenProperties surface_command_properties() {
        {{"report.open_sky"}, {"report.csv_atoms"}, "it is a column of --csv FILE; add that"}});
 }
 
-/// Throws UsageError for outputs that conflict, OutputError for outputs that cannot be written. Opens the outputs before
-/// the work begins, so that errors come early, and removes them again.
+/// Throws UsageError for outputs that conflict, OutputError for outputs that cannot be written. Opens the outputs
+/// before the work begins, so that errors come early, and removes them again.
 void check_outputs(const SurfaceCommand& command) {
   if (command.plot == "-" || (!command.plot.empty() && !command.plot.ends_with(".svg")))
     throw UsageError("--plot {}: plots are written as files whose names end in .svg", in_quotes(command.plot));

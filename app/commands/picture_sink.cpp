@@ -3,9 +3,6 @@
 // pictures with the run that is to be resumed.
 #include "app/commands/picture_sink.h"
 
-#include <set>
-#include <system_error>
-
 #include <fmt/ranges.h>
 
 #include "app/farm/bundle_folder.h"

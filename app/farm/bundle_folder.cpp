@@ -173,8 +173,6 @@ void remove_leftovers(const fs::path& folder) {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 DecodedImage decoded(const Bundle& bundle, const fs::path& folder, std::uint64_t frame) {
   return image_codec().decode((folder / bundle.result(Step::render, frame)).string());
 }

@@ -319,8 +319,6 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Returns three times the time that a task was measured to take, and ten minutes for a slow start. The text is empty
 /// where nothing was measured, so that the site's default counts.
 std::string minutes(const Bundle& bundle) {

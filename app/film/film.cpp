@@ -305,23 +305,6 @@ Size pictures_of_gif(const BinaryFile& file) {
   cut_short(file.size());
 }
 
-}  // namespace
-
-std::string film_fault(const std::filesystem::path& path, std::uint64_t pictures) {
-  try {
-    const BinaryFile file(path.string());
-    const auto ending = path.extension();
-    const Size found = ending == ".gif"                        ? pictures_of_gif(file)
-                       : ending == ".mkv" || ending == ".webm" ? pictures_of_matroska(file)
-                                                               : pictures_of_mp4(file);
-    return found == pictures ? "" : fmt::format("holds {} of {} pictures", found, pictures);
-  } catch (const Error& error) {
-    return error.what();
-  }
-}
-
-namespace {
-
 std::string pixel_format(const FilmPixels& pixels) {
   return fmt::format("rgb{}{}", pixels.channels == 4 ? "a" : "",
                      pixels.bytes == 2 ? (pixels.channels == 4 ? "64le" : "48le") : (pixels.channels == 4 ? "" : "24"));
@@ -354,6 +337,19 @@ void await_end(pid_t process) {
 }
 
 }  // namespace
+
+std::string film_fault(const std::filesystem::path& path, std::uint64_t pictures) {
+  try {
+    const BinaryFile file(path.string());
+    const auto ending = path.extension();
+    const Size found = ending == ".gif"                        ? pictures_of_gif(file)
+                       : ending == ".mkv" || ending == ".webm" ? pictures_of_matroska(file)
+                                                               : pictures_of_mp4(file);
+    return found == pictures ? "" : fmt::format("holds {} of {} pictures", found, pictures);
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
 
 void check_film_size(const FilmEncoder& encoder, glm::ivec2 size) {
   if (size.x < encoder.least.x || size.y < encoder.least.y)

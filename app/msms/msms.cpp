@@ -119,21 +119,6 @@ void send_mesh(const LocalSocket& client, const MsmsMesh& mesh, const Spheres& s
   send(client, "MSMS END\n");
 }
 
-}  // namespace
-
-void serve(std::uint16_t port) {
-  const LocalSocket listener = listening_on(port);
-  const LocalSocket client = first_client(listener);
-  send(client, "MSMS of meniscus-msms " MENISCUS_VERSION "\n");
-  Arguments arguments;
-  const Spheres spheres = receive_spheres(client, arguments);
-  ChosenSurface surface(arguments, spheres);
-  surface.triangulate();
-  send_mesh(client, surface.mesh(0), spheres);
-}
-
-namespace {
-
 /// The version of MSMS with these files and lines.
 constexpr const char* kAnswersAs = "2.6.1";
 
@@ -258,6 +243,17 @@ ExitCode run(std::span<const char* const> words) {
 }
 
 }  // namespace
+
+void serve(std::uint16_t port) {
+  const LocalSocket listener = listening_on(port);
+  const LocalSocket client = first_client(listener);
+  send(client, "MSMS of meniscus-msms " MENISCUS_VERSION "\n");
+  Arguments arguments;
+  const Spheres spheres = receive_spheres(client, arguments);
+  ChosenSurface surface(arguments, spheres);
+  surface.triangulate();
+  send_mesh(client, surface.mesh(0), spheres);
+}
 
 }  // namespace meniscus::msms
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <set>
-#include <string>
 
 #include <CLI/CLI.hpp>
 

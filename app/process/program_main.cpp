@@ -82,6 +82,13 @@ void stop(int signal) {
 /// other threads are started.
 void clean_up_on_signals() { system_process::await_stop(stop); }
 
+namespace fs = std::filesystem;
+
+std::string& remembered() {
+  static std::string line;
+  return line;
+}
+
 }  // namespace
 
 std::unique_lock<std::mutex> hold_stops() { return std::unique_lock(handling().mutex); }
@@ -95,17 +102,6 @@ StopHandler::~StopHandler() {
   const auto held = hold_stops();
   std::erase_if(handling().all, [this](const Registered& one) { return one.handler == this; });
 }
-
-namespace {
-
-namespace fs = std::filesystem;
-
-std::string& remembered() {
-  static std::string line;
-  return line;
-}
-
-}  // namespace
 
 std::filesystem::path addon_folder() {
   std::error_code none;

@@ -6,10 +6,9 @@
 #include "app/reports/command_manual.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 
-#include <fmt/format.h>
+#include "core/base/text.h"
 
 namespace meniscus {
 namespace {
@@ -40,14 +39,9 @@ std::string as_it_is(std::string_view text) {
   return result + ".fi\n";
 }
 
-std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
 std::string heading(std::string_view name, std::string_view section, std::string_view summary,
                     const ManMargins& margins) {
-  return fmt::format(".TH {} {} {} \"{}\" Meniscus\n.SH NAME\n{} \\- {}\n", plain(upper(std::string(name))), section,
+  return fmt::format(".TH {} {} {} \"{}\" Meniscus\n.SH NAME\n{} \\- {}\n", plain(upper_case(name)), section,
                      margins.date, plain(margins.version), plain(name), plain(summary));
 }
 

@@ -2,9 +2,6 @@
 // Manual pages and completion scripts of commands, and the pages of the manual, which are compiled into the program.
 #pragma once
 
-#include <span>
-#include <string_view>
-
 #include "app/options/command_tree.h"
 
 namespace meniscus {

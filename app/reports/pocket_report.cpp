@@ -6,7 +6,6 @@
 #include <iterator>
 #include <set>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
@@ -314,19 +313,6 @@ std::string filling_chains(const PocketReport& report) {
       fmt::join(chains, ", "), selection);
 }
 
-}  // namespace
-
-std::vector<std::string> pocket_hints(const PocketReport& report) {
-  std::vector<std::string> hints;
-  for (std::string hint : {unplaced_ligands(report), filling_chains(report)})
-    if (!hint.empty()) hints.push_back(std::move(hint));
-  return hints;
-}
-
-namespace {
-
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kOfOthers = "#d9d9d9";
 
 /// Returns a rule for --color.
@@ -337,6 +323,13 @@ std::string rule_of(const Structure& structure, const Pocket& pocket, std::size_
 }
 
 }  // namespace
+
+std::vector<std::string> pocket_hints(const PocketReport& report) {
+  std::vector<std::string> hints;
+  for (std::string hint : {unplaced_ligands(report), filling_chains(report)})
+    if (!hint.empty()) hints.push_back(std::move(hint));
+  return hints;
+}
 
 std::string pocket_figure(const PocketReport& report, const std::string& scene, const std::string& left_out) {
   Json figure = Json::parse(scene);

@@ -236,17 +236,15 @@ void run_frames(FrameRun& frames, const SceneCommand& command, std::vector<Frame
   }
   progress.end();
   log_faults(command, empty, unlabelled);
-  if (failures.count > 0) {
+  if (failures.count > 0)
     throw RunError(failures.code, "{} of {} frames failed; the first, frame {}: {}", with_thousands(failures.count),
                    with_thousands(frames.chunk().size()), failures.frame, failures.message);
-  }
   const Trajectory& trajectory = frames.trajectory();
   const bool reaches_end = std::ranges::any_of(
       frames.chunk(), [&](std::uint64_t number) { return frames.source(number) + 1 == trajectory.frame_count(); });
-  if (!trajectory.cut_short().empty() && reaches_end) {
+  if (!trajectory.cut_short().empty() && reaches_end)
     throw RunError(kExitIncomplete, "{}: {}; every whole frame asked for is done", trajectory.path(),
                    trajectory.cut_short());
-  }
 }
 
 }  // namespace meniscus

@@ -61,10 +61,9 @@ BinaryFile::BinaryFile(const std::string& path, Contents contents) : path_(path)
 BinaryFile::~BinaryFile() { system_file::close(descriptor_); }
 
 void BinaryFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
-  if (offset > size_ || bytes.size() > size_ - offset) {
+  if (offset > size_ || bytes.size() > size_ - offset)
     throw InputError(path_, 0, "is cut short or damaged: it ends at byte {}, but {} bytes at byte {} are needed",
                      with_thousands(size_), with_thousands(bytes.size()), with_thousands(offset));
-  }
   while (!bytes.empty()) {
     const std::ptrdiff_t count = system_file::read_at(descriptor_, bytes.data(), bytes.size(), offset);
     if (count < 0) throw InputError(path_, 0, "cannot be read at byte {}: {}", offset, std::strerror(errno));

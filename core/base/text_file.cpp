@@ -67,10 +67,9 @@ void refuse_long_lines(const std::string& path, std::string_view text) {
   std::size_t line = 1;
   for (std::size_t begin = 0; begin < text.size(); ++line) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    if (end - begin > kLongestLine) {
+    if (end - begin > kLongestLine)
       throw CapacityError("{}:{}: the line has {} bytes, more than {}; is this a molecule file?", path, line,
                           with_thousands(end - begin), with_thousands(kLongestLine));
-    }
     begin = end + 1;
   }
 }
@@ -96,9 +95,8 @@ TextFile text_of_bytes(const std::string& path, std::string bytes) {
   refuse_packed(path, text);
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     throw InputError(path, 0, "is UTF-16 text; save it as UTF-8 or ASCII");
-  if (const std::size_t nul = text.find('\0'); nul != std::string::npos) {
+  if (const std::size_t nul = text.find('\0'); nul != std::string::npos)
     throw InputError(path, 0, "is binary, not text: byte {} is zero; molecule files are text", nul);
-  }
   unify_line_ends(text);
   if (text.find_first_not_of(" \t\n\v\f") == std::string::npos) throw InputError(path, 0, "is empty: no atoms");
   refuse_long_lines(path, text);
@@ -199,10 +197,9 @@ bool parse_whole_number(std::string_view field, std::int64_t& number) {
 }
 
 double check_extent(const TextFile& file, std::size_t line, char axis, double coordinate) {
-  if (std::abs(coordinate) > kLargestCoordinate) {
+  if (std::abs(coordinate) > kLargestCoordinate)
     throw InputError(file.path, line, "coordinate {} is {} Å, beyond the extent of ±{} Å; is the unit right?", axis,
                      coordinate, kLargestCoordinate);
-  }
   return coordinate;
 }
 
@@ -213,10 +210,9 @@ void refuse_short_frame(const TextFile& file, std::size_t line, std::size_t coun
 
 double parse_coordinate(const TextFile& file, std::size_t line, char axis, std::string_view field) {
   double number = 0.0;
-  if (!parse_number(field, number)) {
+  if (!parse_number(field, number))
     throw InputError(file.path, line, "coordinate {} is {}, not a finite number; correct or remove the atom", axis,
                      in_quotes(field));
-  }
   return check_extent(file, line, axis, number);
 }
 
@@ -228,15 +224,13 @@ bool try_parse_coordinate(std::string_view field, double unit, double& coordinat
 
 double parse_radius(const TextFile& file, std::size_t line, std::string_view field, std::string_view columns) {
   double radius = 0.0;
-  if (!parse_number(field, radius)) {
+  if (!parse_number(field, radius))
     throw InputError(file.path, line, "radius is {}, not a finite number; the expected line is: {}", in_quotes(field),
                      columns);
-  }
   if (radius < 0.0) throw InputError(file.path, line, "radius is {} Å; it must not be negative", radius);
-  if (radius > kLargestRadius) {
+  if (radius > kLargestRadius)
     throw InputError(file.path, line, "radius is {} Å, above the limit of {} Å; is the unit right?", radius,
                      kLargestRadius);
-  }
   return radius;
 }
 

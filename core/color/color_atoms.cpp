@@ -141,8 +141,6 @@ Coloring color_object(const Structure& structure, std::span<const std::uint32_t>
 
 namespace {
 
-using By = ColorScheme::By;
-
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<double, 2> kPlaces{0.0, 1.0},
     kGrades{1.0, 9.0};  // ranges of positions in a chain, and of ConSurf's grades
@@ -205,10 +203,9 @@ std::vector<double> numbers_of_file(const Structure& structure, const NumberFile
   for (const Atom& atom : structure.atoms) {
     if (given == read && atom.index < given) numbers.push_back(file.numbers[atom.index]);
   }
-  if (numbers.size() != used) {
+  if (numbers.size() != used)
     throw InputError(file.path, 0, "holds {} numbers; {} holds {} atoms, of which {} are used; {}",
                      with_thousands(given), structure.file, with_thousands(read), with_thousands(used), kNumberLayouts);
-  }
   return numbers;
 }
 
@@ -352,11 +349,10 @@ std::array<double, 2> automatic_range(const std::vector<double>& defined, By by)
 
 void count_classes(ColorScale& scale, const std::vector<double>& defined, const std::string& file) {
   const std::set<double> different(defined.begin(), defined.end());
-  if (different.size() > kCategoricalCount) {
+  if (different.size() > kCategoricalCount)
     throw InputError(file, 0,
                      message("has {} different numbers, but the categorical map has {} colours; choose another @map@",
                              with_thousands(different.size()), kCategoricalCount));
-  }
   scale.classes.assign(different.begin(), different.end());
 }
 

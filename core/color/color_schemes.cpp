@@ -78,6 +78,16 @@ constexpr ColorSchemeMetadata kSchemes[] = {
     {"conservation", By::conservation, "grades of @color-by-file@, 1 (variable) to 9 (conserved); consurf",
      "H. Ashkenazy et al., Nucleic Acids Res. 44, W344 (2016)"}};
 
+/// True if all polymers of a structure are one chain at one place, in each of its models, which may be frames.
+bool has_one_chain(const Structure& structure) {
+  std::set<std::pair<std::uint32_t, std::string_view>> chains;
+  for (const std::vector<Atom>* const atoms : {&structure.atoms, &structure.extra_atoms})
+    for (const Atom& atom : *atoms)
+      if (atom.kind == AtomClass::polymer) chains.emplace(atom.copy, atom.chain);
+  return chains.size() == 1 &&
+         std::ranges::all_of(structure.instances, [](const Instances& placed) { return placed.motions.size() == 1; });
+}
+
 }  // namespace
 
 bool has_chain_color(const Atom& atom) {
@@ -92,20 +102,6 @@ std::map<std::string, std::size_t> places_of_chains(const Structure& structure) 
 }
 
 std::span<const ColorSchemeMetadata> color_schemes() { return kSchemes; }
-
-namespace {
-
-/// True if all polymers of a structure are one chain at one place, in each of its models, which may be frames.
-bool has_one_chain(const Structure& structure) {
-  std::set<std::pair<std::uint32_t, std::string_view>> chains;
-  for (const std::vector<Atom>* const atoms : {&structure.atoms, &structure.extra_atoms})
-    for (const Atom& atom : *atoms)
-      if (atom.kind == AtomClass::polymer) chains.emplace(atom.copy, atom.chain);
-  return chains.size() == 1 &&
-         std::ranges::all_of(structure.instances, [](const Instances& placed) { return placed.motions.size() == 1; });
-}
-
-}  // namespace
 
 ColorScheme resolved_scheme(const Structure& structure, ColorScheme scheme) {
   if (scheme.by != By::automatic) return scheme;
@@ -218,10 +214,9 @@ OpacityRule parse_opacity_rule(std::string_view text) {
   const std::size_t equals = text.rfind('=');
   const std::string_view number = equals == std::string_view::npos ? text : text.substr(equals + 1);
   double opacity = 0.0;
-  if (!parse_number(number, opacity) || !(opacity >= 0.0 && opacity <= 1.0)) {
+  if (!parse_number(number, opacity) || !(opacity >= 0.0 && opacity <= 1.0))
     throw RequestError("{} is not an opacity from 0 (hidden) to 1 (opaque), as in 'chain A=0.4' or 0.4",
                        in_quotes(number));
-  }
   OpacityRule rule;
   rule.opacity = static_cast<float>(opacity);
   if (equals != std::string_view::npos) rule.atoms = parse_selection(text.substr(0, equals));

@@ -3,8 +3,6 @@
 // of copies: all of them, or those that matter for a camera.
 #pragma once
 
-#include <optional>
-
 #include "core/color/coloring.h"
 #include "core/math/ball.h"
 #include "core/math/rigid_motion.h"

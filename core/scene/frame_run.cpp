@@ -129,11 +129,10 @@ std::vector<std::uint32_t> chosen(const Selection& selection, const std::vector<
   const std::vector<bool> selected = selection.evaluate(atoms);
   for (std::uint32_t n = 0; n < atoms.size(); ++n)
     if (selected[n]) indices.push_back(n);
-  if (indices.size() < least) {
+  if (indices.size() < least)
     throw RequestError("{}: selects {} of {} atoms; at least {} are needed",
                        option_name(fmt::format("{} {}", option, in_quotes(selection.text()))), indices.size(),
                        with_thousands(atoms.size()), least);
-  }
   return indices;
 }
 
@@ -200,11 +199,10 @@ void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& req
   }
   if (copies_atoms) assembly_ = find_assembly(structure_.assemblies, molecule.reading.assembly, structure_.file);
   const std::size_t atoms = structure_.topology->atoms.size();
-  if (atoms != trajectory_->atom_count()) {
+  if (atoms != trajectory_->atom_count())
     throw InputError(trajectory_->path(), 0, "its frames have {} atoms, but {} has {}: {}",
                      with_thousands(trajectory_->atom_count()), structure_.file, with_thousands(atoms),
                      advice_on_count(structure_.topology->atoms, trajectory_->atom_count()));
-  }
   if (!request.trajectories.empty() && !request.trust_atom_order)
     check_atom_order(
         *structure_.topology, without_added(structure_.atoms, *structure_.topology), first,

@@ -107,7 +107,6 @@ Json json_of_texts(const Property& property, const std::vector<std::string>& tex
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Kind = RepresentationRequest::Kind;
 
 /// The radius of sticks, and of tubes.
@@ -263,8 +262,6 @@ Json figure_object_json(const FigureObjectRequest& object) {
 }
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kVersionKey = "meniscus_scene";
 constexpr const char* kSuperposedKey = "superposed";  // information for readers; it sets nothing

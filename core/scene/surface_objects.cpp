@@ -184,10 +184,9 @@ RadiiChange change_of_radii(const std::vector<SurfaceObject>& objects) {
 
 std::vector<bool> hidden_atoms(const Selection& shown, const Structure& structure) {
   std::vector<bool> visible = shown.evaluate(structure);
-  if (std::find(visible.begin(), visible.end(), true) == visible.end()) {
+  if (std::find(visible.begin(), visible.end(), true) == visible.end())
     throw InputError(structure.file, 0, "none of the {} atoms used is shown by {}; {}",
                      with_thousands(structure.atoms.size()), in_quotes(shown.text()), shown.why_none(structure.atoms));
-  }
   visible.flip();
   return visible;
 }

@@ -294,12 +294,11 @@ void WholeMolecules::apply(const glm::dmat3& vectors, std::vector<glm::dvec3>& p
   for (const auto& [a, b] : bonds_) {
     const glm::dvec3 bond = positions[b] - positions[a];
     // The two vectors are equal except for rounding, or they differ by a lattice vector, which is longer than any bond.
-    if (glm::length(bond - cell->shortest(bond)) > 1e-3) {
+    if (glm::length(bond - cell->shortest(bond)) > 1e-3)
       throw InputError(where, 0,
                        message("atoms {} and {} are bonded across the periodic box to an image of their own molecule, "
                                "which cannot be made whole; leave @whole@ out",
                                a + 1, b + 1));
-    }
   }
   std::vector<std::uint32_t> atoms;
   glm::dvec3 anchor(0.0);

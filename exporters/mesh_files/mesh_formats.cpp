@@ -3,8 +3,6 @@
 // numbers.
 #include "exporters/mesh_files/mesh_formats.h"
 
-#include <cctype>
-
 #include "core/base/error.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
@@ -255,8 +253,7 @@ const MeshFormat* mesh_format(std::string_view word) {
 const MeshFormat* mesh_format_of_path(std::string_view path) {
   const std::size_t dot = path.rfind('.');
   if (dot == std::string_view::npos) return nullptr;
-  std::string ending(path.substr(dot + 1));
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = lower_case(path.substr(dot + 1));
   return mesh_format(ending == "usd" ? "usda" : ending);  // a .usd file may be text; readers inspect its content
 }
 

@@ -204,6 +204,12 @@ std::string model_text(const MeshFile& mesh) {
   return text + " </build>\n</model>\n";
 }
 
+void write_archive(OutputFile& file, std::span<const MeshFile> frames, const RunTimes* times) {
+  ZipArchive archive;
+  archive.add_stored("molecule.usda", usd_text(frames, times));
+  file.write(archive.finish());
+}
+
 }  // namespace
 
 void write_3mf(OutputFile& file, const MeshFile& mesh) {
@@ -213,16 +219,6 @@ void write_3mf(OutputFile& file, const MeshFile& mesh) {
   archive.add_deflated("3D/3dmodel.model", model_text(mesh));
   file.write(archive.finish());
 }
-
-namespace {
-
-void write_archive(OutputFile& file, std::span<const MeshFile> frames, const RunTimes* times) {
-  ZipArchive archive;
-  archive.add_stored("molecule.usda", usd_text(frames, times));
-  file.write(archive.finish());
-}
-
-}  // namespace
 
 void write_usdz(OutputFile& file, const MeshFile& mesh) { write_archive(file, {&mesh, 1}, nullptr); }
 

@@ -6,8 +6,6 @@
 #include <tuple>
 #include <unordered_map>
 
-#include <fmt/format.h>
-
 #include "core/base/error.h"
 #include "core/image/color_space.h"
 #include "core/math/box.h"
@@ -84,15 +82,6 @@ template <class Vector>
 std::string joined(const Vector& v, std::string_view between) {
   return fmt::format("{}{}{}{}{}", number_text(v.x), between, number_text(v.y), between, number_text(v.z));
 }
-
-}  // namespace
-
-std::string number_text(double value) { return finite_text(value); }
-std::string number_text(float value) { return finite_text(value); }
-std::string vector_text(const glm::dvec3& v, std::string_view between) { return joined(v, between); }
-std::string vector_text(const glm::vec3& v, std::string_view between) { return joined(v, between); }
-
-namespace {
 
 /// Makes one SceneMesh of triangles whose corners may differ in colour and normal.
 class MeshMaker {
@@ -207,6 +196,11 @@ std::vector<SceneMesh> meshes_of(const TrianglePaint& paint, const std::vector<b
 }
 
 }  // namespace
+
+std::string number_text(double value) { return finite_text(value); }
+std::string number_text(float value) { return finite_text(value); }
+std::string vector_text(const glm::dvec3& v, std::string_view between) { return joined(v, between); }
+std::string vector_text(const glm::vec3& v, std::string_view between) { return joined(v, between); }
 
 SceneItem surface_item(const SurfaceObject& object, const TriangleMesh& mesh, const glm::dvec3& origin,
                        const std::optional<CapRows>& caps) {

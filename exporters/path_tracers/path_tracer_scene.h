@@ -4,11 +4,6 @@
 // for each colour.
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <string_view>
-
 #include "core/base/output_file.h"
 #include "core/camera/camera.h"
 #include "core/math/rigid_motion.h"

@@ -223,10 +223,9 @@ class Remark350 {
 
   void take_row(std::string_view text, std::string_view line) {
     const char row = text.size() > 5 ? text[5] : ' ';
-    if (row != static_cast<char>('1' + rows_)) {
+    if (row != static_cast<char>('1' + rows_))
       throw lines_.error("BIOMT{} was found where BIOMT{} is missing; a matrix has three rows", escaped({&row, 1}),
                          rows_ + 1);
-    }
     if (row == '1') {
       first_line_ = lines_.number();
       serial_ = trimmed(line.substr(std::min<std::size_t>(line.size(), 19), 4));
@@ -235,20 +234,18 @@ class Remark350 {
     constexpr std::size_t kBegin[] = {23, 33, 43, 53}, kLength[] = {10, 10, 10, 15};
     for (std::size_t n = 0; n < 4; ++n) {
       const std::string_view field = line.size() > kBegin[n] ? line.substr(kBegin[n], kLength[n]) : std::string_view();
-      if (!parse_number(field, matrix_[rows_][n]) || std::abs(matrix_[rows_][n]) > kLargestCoordinate) {
+      if (!parse_number(field, matrix_[rows_][n]) || std::abs(matrix_[rows_][n]) > kLargestCoordinate)
         throw lines_.error("BIOMT{} has {} where a number of at most {} is expected; correct the matrix", row,
                            in_quotes(field), kLargestCoordinate);
-      }
     }
     if (++rows_ == 3) finish_matrix();
   }
 
   void finish_matrix() {
     if (rows_ == 0) return;
-    if (rows_ < 3) {
+    if (rows_ < 3)
       throw InputError(file_.path, first_line_, "matrix {} of REMARK 350 has {} of three rows", in_quotes(serial_),
                        rows_);
-    }
     rows_ = 0;
     if (assemblies_.empty()) assemblies_.push_back({"1", {}, {}});
     if (assemblies_.back().parts.empty()) assemblies_.back().parts.emplace_back();
@@ -265,18 +262,6 @@ class Remark350 {
   std::size_t rows_ = 0, first_line_ = 0;
   std::string serial_;
 };
-
-}  // namespace
-
-std::vector<Assembly> read_pdb_assemblies(const TextFile& file) {
-  std::vector<Assembly> assemblies = Remark350(file).run();
-  for (Assembly& assembly : assemblies)
-    std::erase_if(assembly.parts, [](const AssemblyPart& part) { return part.motions.empty(); });
-  std::erase_if(assemblies, [](const Assembly& assembly) { return assembly.parts.empty(); });
-  return assemblies;
-}
-
-namespace {
 
 constexpr std::size_t kMostAtoms = 99999;
 
@@ -297,6 +282,14 @@ std::string name_field(const Atom& atom) {
 double or_zero(float number) { return std::isfinite(number) ? number : 0.0; }
 
 }  // namespace
+
+std::vector<Assembly> read_pdb_assemblies(const TextFile& file) {
+  std::vector<Assembly> assemblies = Remark350(file).run();
+  for (Assembly& assembly : assemblies)
+    std::erase_if(assembly.parts, [](const AssemblyPart& part) { return part.motions.empty(); });
+  std::erase_if(assemblies, [](const Assembly& assembly) { return assembly.parts.empty(); });
+  return assemblies;
+}
 
 PdbModels::PdbModels(const std::filesystem::path& path, Existing existing, std::span<const Atom> atoms)
     : atoms_(atoms), file_(path, existing) {

@@ -88,11 +88,10 @@ std::string_view without_uncertainty(const std::string& value) {
 [[noreturn]] void refuse_without_atoms(const TextFile& file, const cif::Document& document) {
   for (const cif::Block& block : document.blocks) {
     for (const char* tag : {"_atom_site_fract_x", "_atom_site.fract_x"}) {
-      if (block.has_tag(tag)) {
+      if (block.has_tag(tag))
         throw InputError(
             file.path, 0,
             "is a small-molecule CIF with fractional coordinates; convert it to Cartesian coordinates first");
-      }
     }
   }
   throw InputError(file.path, 0, "has no table _atom_site with Cartn_x, Cartn_y, Cartn_z: no atoms");
@@ -113,10 +112,9 @@ std::int32_t residue_number(const TextFile& file, const cif::Table& table, std::
   if (digits.starts_with('+')) digits.remove_prefix(1);
   std::int32_t number = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error == std::errc::result_out_of_range) {
+  if (error == std::errc::result_out_of_range)
     throw InputError(file.path, line_of_row(file, table, number_of_row, value),
                      "the residue number {} is larger than any; correct it", in_quotes(value));
-  }
   return number;
 }
 

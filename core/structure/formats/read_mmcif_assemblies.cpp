@@ -30,12 +30,11 @@ std::map<std::string, RigidMotion> operators_of(const TextFile& file, cif::Block
     std::array<std::array<double, 4>, 3> matrix{};
     for (std::size_t n = 0; n < 12; ++n) {
       double& number = matrix[n / 4][n % 4];
-      if (!parse_number(row[n + 1], number) || std::abs(number) > kLargestCoordinate) {
+      if (!parse_number(row[n + 1], number) || std::abs(number) > kLargestCoordinate)
         throw InputError(
             file.path, 0,
             "operator {} of _pdbx_struct_oper_list has {} for {}, not a number of at most {}; correct the matrix",
             in_quotes(row.str(0)), in_quotes(row[n + 1]), tags[n + 1], kLargestCoordinate);
-      }
     }
     operators.emplace(row.str(0), rigid_motion(matrix, file.path, 0));
   }

@@ -152,10 +152,9 @@ class PdbReader {
       ++contents_.other_model_atoms;
       return;
     }
-    if (line.size() < kCoordinatesEnd) {
+    if (line.size() < kCoordinatesEnd)
       throw InputError(file_.path, number, "atom record {} is cut short at column {}; coordinates need 54 columns",
                        in_quotes(line), line.size());
-    }
     Atom atom;
     atom.model = model();
     try {

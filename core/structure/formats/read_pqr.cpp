@@ -158,11 +158,10 @@ class PqrReader {
 
   void take_atom(std::string_view line, std::size_t number, std::int32_t model) {
     const std::optional<PqrRecord> record = parse_pqr_record(line);
-    if (!record) {
+    if (!record)
       throw InputError(file_.path, number,
                        "{} cannot be split into fields: some are missing or touch; the expected line is: {}",
                        in_quotes(line), kLine);
-    }
     Atom atom;
     atom.model = model;
     atom.name = record->name;
@@ -175,10 +174,9 @@ class PqrReader {
       atom.position[axis] =
           parse_coordinate(file_, number, "xyz"[axis], record -> numbers[static_cast<std::size_t>(axis)]);
     }
-    if (!parse_single(record->numbers[3], atom.charge)) {
+    if (!parse_single(record->numbers[3], atom.charge))
       throw InputError(file_.path, number, "charge is {}, not a finite number; the expected line is: {}",
                        in_quotes(record->numbers[3]), kLine);
-    }
     atom.radius = parse_radius(file_, number, record->numbers[4], kLine);
     residues_.number(atom);
     hints_.push_back({.is_heteroatom = is_pdb_record(line, "HETATM")});

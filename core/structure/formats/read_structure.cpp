@@ -73,15 +73,13 @@ std::vector<bool> select(const Selection& selection, const std::vector<Atom>& at
 
 std::vector<bool> evaluate(const Selection& selection, const std::vector<Atom>& atoms, const RadiiChoice& radii,
                            const std::string& path, PositionScope scope) {
-  if (selection.uses_radius() && !radii.from_molecule_file()) {
+  if (selection.uses_radius() && !radii.from_molecule_file())
     throw InputError(path, 0,
                      "has no radii yet: they are assigned after the selection, so 'radius' cannot be used in it");
-  }
   std::vector<bool> selected = select(selection, atoms, scope);
-  if (std::find(selected.begin(), selected.end(), true) == selected.end()) {
+  if (std::find(selected.begin(), selected.end(), true) == selected.end())
     throw InputError(path, 0, "none of its {} atoms is selected by {}; {}", with_thousands(atoms.size()),
                      in_quotes(selection.text()), selection.why_none(atoms));
-  }
   return selected;
 }
 
@@ -325,11 +323,10 @@ void place_atoms(FileContents& contents, const ReadOptions& options, const TextF
   if (options.positions.empty())
     throw InputError(file.path, 0,
                      message("lists atoms without coordinates; add @trajectory@ with a file that has them"));
-  if (options.positions.size() != contents.atoms.size()) {
+  if (options.positions.size() != contents.atoms.size())
     throw InputError(file.path, 0, "lists {} atoms, but a frame of the trajectory has {}: {}",
                      with_thousands(contents.atoms.size()), with_thousands(options.positions.size()),
                      advice_on_count(contents.atoms, options.positions.size()));
-  }
   for (std::size_t n = 0; n < contents.atoms.size(); ++n) contents.atoms[n].position = options.positions[n];
 }
 
@@ -345,10 +342,9 @@ void list_assemblies(Structure& structure, const TextFile& file, const Reader& r
 /// Returns the requested assembly, or nothing.
 std::optional<Assembly> requested_assembly(const TextFile& file, const Reader& reader, const ReadOptions& options) {
   if (options.assembly.empty()) return {};
-  if (!reader.assemblies) {
+  if (!reader.assemblies)
     throw InputError(file.path, 0,
                      message("is {}, which describes no assemblies; leave @assembly@ out", reader.metadata.name));
-  }
   return find_assembly(reader.assemblies(file), options.assembly, file.path);
 }
 

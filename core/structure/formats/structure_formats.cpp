@@ -3,7 +3,6 @@
 #include "core/structure/formats/structure_formats.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -42,8 +41,7 @@ void refuse_known_foreign(const TextFile& file) {
 std::span<const Reader* const> readers() { return kReaders; }
 
 bool FormatMetadata::names(std::string_view path) const {
-  std::string lower(path);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string lower = lower_case(path);
   return std::ranges::any_of(fields_of(extensions), [&](std::string_view end) { return lower.ends_with(end); });
 }
 

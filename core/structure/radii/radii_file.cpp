@@ -188,11 +188,7 @@ class CharmmRadii {
 };
 
 /// Returns the first four letters of a word in upper case, by which CHARMM compares words.
-std::string keyword(std::string_view field) {
-  std::string word(field.substr(0, 4));
-  for (char& c : word) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return word;
-}
+std::string keyword(std::string_view field) { return upper_case(field.substr(0, 4)); }
 
 constexpr std::array<std::string_view, 14> kParameterSections{"BOND", "ANGL", "THET", "DIHE", "PHI",  "IMPR",  "IMPH",
                                                               "CMAP", "NBFI", "HBON", "THOL", "ATOM", "ATOMS", "END"};
@@ -249,10 +245,9 @@ void CharmmRadii::read_atom(const TextFile& file, std::size_t line, const std::v
 
 void CharmmRadii::read_type(const TextFile& file, std::size_t line, const std::vector<std::string_view>& fields) {
   double half = 0.0;
-  if (fields.size() < 4 || !parse_number(fields[3], half) || half < 0.0 || half > kLargestRadius) {
+  if (fields.size() < 4 || !parse_number(fields[3], half) || half < 0.0 || half > kLargestRadius)
     throw InputError(file.path, line, "a line of NONBONDED needs a type, two numbers and half of Rmin, from 0 to {} Å",
                      kLargestRadius);
-  }
   radii_[std::string(fields[0])] = half;
 }
 
@@ -261,12 +256,11 @@ RadiiTable CharmmRadii::table() const {
   if (radii_.empty()) throw InputError(files_, 0, "lacks NONBONDED parameters; give the CHARMM parameters (.prm) too");
   // Every residue may have the atoms of all patches.
   constexpr std::size_t kMostEntries = 1'000'000;
-  if (patch_atoms_.size() > kMostEntries / residues_.size()) {
+  if (patch_atoms_.size() > kMostEntries / residues_.size())
     throw CapacityError(
         "{}: {} residues with the atoms of patches, {} of them, are more than this program "
         "reads",
         files_, with_thousands(residues_.size()), with_thousands(patch_atoms_.size()));
-  }
   RadiiTable table(files_, "CHARMM");
   const auto add = [&](const std::string& residue, const std::string& atom, const std::string& type) {
     const auto radius = radii_.find(type);
@@ -323,9 +317,8 @@ RadiiTable read_atom_types(const TextFile& file) {
   for (std::string_view line; lines.next(line);) {
     const Fields fields = fields_before_comment(line);
     if (fields.empty()) continue;
-    if (fields.size() < 3 || (fields[0] == "radius" && fields.size() < 4)) {
+    if (fields.size() < 3 || (fields[0] == "radius" && fields.size() < 4))
       throw lines.error("is neither 'radius KEY DISTANCE RADIUS' nor 'RESIDUE ATOM KEY'");
-    }
     if (fields[0] == "radius") {
       const double explicit_radius = radius_field(file, lines.number(), fields[3]);
       const double united = fields.size() > 4 ? radius_field(file, lines.number(), fields[4]) : explicit_radius;
@@ -333,9 +326,7 @@ RadiiTable read_atom_types(const TextFile& file) {
       continue;
     }
     const auto radius = radii.find(fields[2]);
-    if (radius == radii.end()) {
-      throw lines.error("type {} has no radius line above", in_quotes(fields[2]));
-    }
+    if (radius == radii.end()) throw lines.error("type {} has no radius line above", in_quotes(fields[2]));
     std::string atom(fields[1]);
     std::erase(atom, '_');
     try {
@@ -364,9 +355,7 @@ RadiiTable read_freesasa(const TextFile& file) {
       types[std::string(fields[0])] = radius_field(file, lines.number(), fields[1]);
     } else if (section == "atoms:" && fields.size() >= 3) {
       const auto type = types.find(fields[2]);
-      if (type == types.end()) {
-        throw lines.error("{} is not one of its types", in_quotes(fields[2]));
-      }
+      if (type == types.end()) throw lines.error("{} is not one of its types", in_quotes(fields[2]));
       table.add(fields[0] == "ANY" ? "*" : std::string(fields[0]), std::string(fields[1]),
                 {type->second, type->second, std::string(fields[2])});
     } else if (section != "name:") {
@@ -384,9 +373,8 @@ RadiiTable read_lines(const TextFile& file, bool with_charge) {
   for (std::string_view line; lines.next(line);) {
     const Fields fields = fields_before_comment(line, "#!");
     if (fields.empty()) continue;
-    if (fields.size() <= place) {
+    if (fields.size() <= place)
       throw lines.error("has {} fields; RESIDUE ATOM {}RADIUS are needed", fields.size(), with_charge ? "CHARGE " : "");
-    }
     const double radius = radius_field(file, lines.number(), fields[place]);
     const bool any = fields[0] == "ANY" || fields[0] == "*";
     const bool typed = with_charge && fields.size() > 4;

@@ -142,10 +142,9 @@ FrameIndex find_frames(BinaryFile& file, const std::string& folder,
   }
   FrameIndex index = walk(file, extent_at);
   file.check_unchanged();
-  if (index.offsets.empty()) {
+  if (index.offsets.empty())
     throw InputError(file.path(), 0, "holds no complete frame{} in its {} bytes",
                      index.cut_short.empty() ? " with positions" : "", with_thousands(file.size()));
-  }
   if (!folder.empty() && !changed_just_now(file)) store_index(file, folder, index);
   return index;
 }

@@ -187,10 +187,9 @@ class Dcd final : public Trajectory {
     const std::uint64_t first = frame_bytes(atom_count_);
     const std::uint64_t others = has_fixed_atoms() ? frame_bytes(free_atoms_.size()) : first;
     const std::uint64_t rest = file_.size() - offset;
-    if (rest < first) {
+    if (rest < first)
       throw InputError(path_, 0, "holds no complete frame: {} of the {} bytes of the first", with_thousands(rest),
                        with_thousands(first));
-    }
     frame_count_ = 1 + (rest - first) / others;
     if ((rest - first) % others != 0) cut_short_ = cut_short_sentence(frame_count_);
     if (promised_frames_ < 0 || static_cast<std::uint64_t>(promised_frames_) != frame_count_) {

@@ -138,9 +138,8 @@ double length_unit(const Table& values, const std::string& path, std::vector<War
   if (unit == "nm") return kAngstromPerNanometre;
   if (unit == "pm") return 0.01;
   if (unit == "m") return 1e10;
-  if (!unit.empty() && unit != "Angstrom" && unit != "angstrom" && unit != "A" && unit != "\u00c5") {
+  if (!unit.empty() && unit != "Angstrom" && unit != "angstrom" && unit != "A" && unit != "\u00c5")
     throw InputError(path, 0, "its positions are in {}; Angstrom, nm, pm and m are understood", in_quotes(unit));
-  }
   if (unit.empty()) warnings.emplace_back("it names no unit of length; its numbers are taken to be Å");
   return 1.0;
 }
