@@ -15,19 +15,13 @@
 namespace meniscus {
 namespace {
 
-std::string shader_log(GLuint shader) {
+/// Returns the log of a shader or a program, by the functions of GL for its kind.
+template <typename GetNumber, typename GetLog>
+std::string log_of(GLuint object, GetNumber get_number, GetLog get_log) {
   GLint length = 0;
-  glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+  get_number(object, GL_INFO_LOG_LENGTH, &length);
   std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
-  glGetShaderInfoLog(shader, length, nullptr, log.data());
-  return log.substr(0, log.find('\0'));
-}
-
-std::string program_log(GLuint program) {
-  GLint length = 0;
-  glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-  std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
-  glGetProgramInfoLog(program, length, nullptr, log.data());
+  get_log(object, length, nullptr, log.data());
   return log.substr(0, log.find('\0'));
 }
 
@@ -68,7 +62,7 @@ void Program::compile(const ShaderSource& source) {
   GLint ok = GL_FALSE;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
   if (!ok) {
-    const std::string log = translate_shader_log(shader_log(shader), source.files);
+    const std::string log = translate_shader_log(log_of(shader, glGetShaderiv, glGetShaderInfoLog), source.files);
     glDeleteShader(shader);
     glDeleteProgram(name_);
     throw GpuError("{} does not compile:\n{}", path_, log);
@@ -78,7 +72,7 @@ void Program::compile(const ShaderSource& source) {
   glDeleteShader(shader);
   glGetProgramiv(name_, GL_LINK_STATUS, &ok);
   if (!ok) {
-    const std::string log = translate_shader_log(program_log(name_), source.files);
+    const std::string log = translate_shader_log(log_of(name_, glGetProgramiv, glGetProgramInfoLog), source.files);
     glDeleteProgram(name_);
     throw GpuError("{} does not link:\n{}", path_, log);
   }
