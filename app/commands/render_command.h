@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options of `meniscus render` in addition to its scene, common parts of its pictures, and scenes that commands read
-// from files: with the options that their command line sets for all, and as drafts.
+// The options of `meniscus render` in addition to its scene, common parts of its pictures, and scenes that commands
+// read from files: with the options that their command line sets for all, and as drafts.
 #pragma once
 
 #include "app/options/scene_options.h"

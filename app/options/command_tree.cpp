@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 
-
 #include "core/base/text.h"
 #include "core/properties/properties.h"
 

@@ -2,8 +2,6 @@
 // Reads a scene from a command line and the scene file that it names.
 #pragma once
 
-
-
 #include "app/options/property_options.h"
 #include "core/base/output_file.h"
 #include "core/properties/properties.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes, their objects and their values as JSON, both ways, and the files that a scene may name, since it may come from
-// anyone.
+// Scenes, their objects and their values as JSON, both ways, and the files that a scene may name, since it may come
+// from anyone.
 #pragma once
 
 #include <nlohmann/json.hpp>

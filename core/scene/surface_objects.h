@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces of a structure as objects, atoms whose surface is hidden, and areas of atoms and their derivatives, as columns
-// of tables.
+// Surfaces of a structure as objects, atoms whose surface is hidden, and areas of atoms and their derivatives, as
+// columns of tables.
 #pragma once
 
 #include "core/queries/surface_object.h"
