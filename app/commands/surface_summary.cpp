@@ -12,7 +12,6 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
-#include "app/process/memory.h"
 #include "app/process/program_main.h"
 #include "app/reports/csv_tables.h"
 #include "app/reports/notes.h"

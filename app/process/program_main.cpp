@@ -9,7 +9,6 @@
 #include <sstream>
 #include <system_error>
 
-#include "app/process/memory.h"
 #include "app/process/system_process.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "app/options/scene_options.h"
-#include "app/process/memory.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/ordered_jobs.h"

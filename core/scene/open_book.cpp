@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the plane of an interface from its buried atoms, and turns both sides about it.
-#include "core/scene/open_book.h"
+#include "core/scene/molecule.h"
 
 #include <glm/matrix.hpp>
 
