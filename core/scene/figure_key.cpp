@@ -4,6 +4,7 @@
 
 #include "core/color/lipophilicity.h"
 #include "core/scene/run_framing.h"
+#include "core/scene/scene.h"
 
 namespace meniscus {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/scene/scene.h"
 
 namespace meniscus {
 namespace {
