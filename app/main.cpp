@@ -252,10 +252,9 @@ bool is_command(std::string_view word) {
   for (const Command& command : commands()) names.emplace_back(command.name);
   const std::string_view nearest = nearest_word(word, names);
   if (const std::string advice = advice_on_pdb_code(word); !advice.empty())
-    throw UsageError(fmt::format("{} is not a command{}", in_quotes(word), advice));
-  throw UsageError(fmt::format("{} is not a command{} and not a file; the commands are {}; see meniscus --help",
-                               in_quotes(word), nearest.empty() ? "" : fmt::format(" (did you mean {}?)", nearest),
-                               fmt::join(names, ", ")));
+    throw UsageError("{} is not a command{}", in_quotes(word), advice);
+  throw UsageError("{} is not a command{} and not a file; the commands are {}; see meniscus --help", in_quotes(word),
+                   nearest.empty() ? "" : fmt::format(" (did you mean {}?)", nearest), fmt::join(names, ", "));
 }
 
 /// Returns the words as typed, with shortcuts expanded: `meniscus my.pdb` means `meniscus render my.pdb`, also with -
@@ -309,7 +308,7 @@ void run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const std::string fault =
         dynamic_cast<const CLI::ExtrasError*>(&error) ? unknown_option_fault(program, words) : error.what();
-    throw UsageError(fmt::format("{}; see {} --help", fault, command_path(named_command(program))));
+    throw UsageError("{}; see {} --help", fault, command_path(named_command(program)));
   }
   finish_standard_output();
 }

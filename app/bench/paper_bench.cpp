@@ -34,8 +34,7 @@ struct PaperFigure {
 constexpr PaperFigure kPaper[] = {{"1A3I", 68}, {"1CRN", 31}, {"1RWE", 16}, {"1J4N", 7}, {"1VIS", 5}, {"1TII", 3}};
 
 std::optional<double> paper_figure(const std::string& name) {
-  std::string upper = name.substr(0, 4);
-  std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  const std::string upper = upper_case(name.substr(0, 4));
   for (const PaperFigure& figure : kPaper)
     if (upper == figure.name) return figure.frames_per_second;
   return {};

@@ -61,8 +61,8 @@ void refuse_options(const SceneOptions& options) {
                              property->key == "legend.file" || property->key == "molecule.file" ||
                              std::ranges::find(kDeviceOptions, property->long_option()) != kDeviceOptions.end();
     if (!is_possible && options.taken().has(*property) && options.typed(property->key))
-      throw UsageError(fmt::format("{} after --: a bundle decides that by itself, or does not have it; leave it out",
-                                   property->long_option()));
+      throw UsageError("{} after --: a bundle decides that by itself, or does not have it; leave it out",
+                       property->long_option());
   }
 }
 
@@ -84,7 +84,7 @@ farm::BundledCommand parsed(const Words& words, RenderCommand& command) {
   if (second != words.end()) bundled.renderer.assign(second + 1, words.end());
   const farm::CommandKind& kind = farm::kind_of(bundled.words);
   if (!bundled.renderer.empty() && kind.steps.size() < 2)
-    throw UsageError(fmt::format("no renderer is started for {}; leave out what follows the second --", kind.name));
+    throw UsageError("no renderer is started for {}; leave out what follows the second --", kind.name);
   CLI::App app("", bundled.words.back());
   app.set_help_flag();
   let_the_last_count(app);
@@ -102,7 +102,7 @@ farm::BundledCommand parsed(const Words& words, RenderCommand& command) {
     refuse_options(declared);
     declared.take();
   } catch (const CLI::ParseError& error) {
-    throw UsageError(fmt::format("after --: {}", error.what()));
+    throw UsageError("after --: {}", error.what());
   }
   if (command.scene.molecule.file == "-") throw UsageError("standard input cannot be bundled; name a FILE");
   bundled.command = command;
@@ -116,22 +116,20 @@ std::vector<farm::Engine> engines_of(const BundleCommand& command) {
   for (const std::string& word : CLI::detail::split(command.engines, ',')) {
     const std::vector<std::string> known = words_of(property_of("bundle.engine"));
     if (std::ranges::find(known, word) == known.end())
-      throw UsageError(fmt::format("--engine: {} is not one of {}", in_quotes(word), fmt::join(known, ", ")));
+      throw UsageError("--engine: {} is not one of {}", in_quotes(word), fmt::join(known, ", "));
     std::ranges::copy_if(farm::engines(), std::back_inserter(chosen),
                          [&](const farm::Engine& engine) { return word == "all" || word == engine.name; });
   }
   for (const farm::Engine& engine : chosen)
     if (engine.needs_farm_path && command.options.farm_path.empty())
-      throw UsageError(
-          fmt::format("--engine {} needs --farm-path: its commands have no working directory", engine.name));
+      throw UsageError("--engine {} needs --farm-path: its commands have no working directory", engine.name);
   return chosen;
 }
 
 void check_film_name(const std::string& name) {
   if (name.find('/') != std::string::npos || name.starts_with('.') || name.starts_with('-') || !is_film_path(name) ||
       !is_utf8(name))
-    throw UsageError(
-        fmt::format("--film {} is not a plain name that ends in .mp4, .mov, .mkv, .webm or .gif", in_quotes(name)));
+    throw UsageError("--film {} is not a plain name that ends in .mp4, .mov, .mkv, .webm or .gif", in_quotes(name));
 }
 
 void bundle(BundleCommand command) {
@@ -222,9 +220,8 @@ void verify(const std::filesystem::path& folder, const std::optional<farm::InPla
   }
   const std::size_t all = bundle.frames.size(), good = all - faults.size();
   if (!faults.empty() && (!in_place || good == 0))
-    throw RunError(kExitInput,
-                   fmt::format("{}: {} of {} frames are not good; {}", folder.string(), with_thousands(faults.size()),
-                               with_thousands(all), advice(faults, shell_word(folder.string()))));
+    throw RunError(kExitInput, "{}: {} of {} frames are not good; {}", folder.string(), with_thousands(faults.size()),
+                   with_thousands(all), advice(faults, shell_word(folder.string())));
   farm::remove_leftovers(folder);
   if (bundle.film) farm::encode_film(bundle, folder, faults, in_place.value_or(farm::InPlace::hold));
   fmt::print(std::cout, "{} frames are good", with_thousands(good));
@@ -278,7 +275,7 @@ std::vector<std::uint64_t> frames_of_chunk(const farm::Bundle& bundle, const std
   std::int64_t k = 0, n = 0;
   if (!parse_whole_number(text.substr(0, slash), k) || slash == text.size() ||
       !parse_whole_number(text.substr(slash + 1), n) || k < 1 || k > n)
-    throw UsageError(fmt::format("--chunk is {}; it must be K/N with K from 1 to N, such as 3/10", in_quotes(text)));
+    throw UsageError("--chunk is {}; it must be K/N with K from 1 to N, such as 3/10", in_quotes(text));
   // Workers of neighbouring shares on a machine of several GPUs take one each.
   ::setenv(kWorkerVariable, std::to_string(k - 1).c_str(), 0);
   return farm::chunk_of(bundle, static_cast<std::uint64_t>(k), static_cast<std::uint64_t>(n));
@@ -292,8 +289,8 @@ std::vector<std::uint64_t> listed_frames(const farm::Bundle& bundle, const std::
   std::vector<std::uint64_t> frames;
   std::ranges::copy_if(bundle.frames, std::back_inserter(frames), [&](std::uint64_t n) { return wanted.contains(n); });
   if (frames.empty())
-    throw UsageError(fmt::format("--frames {}: none of them is in this bundle; it has {}", in_quotes(text),
-                                 frame_list_text(bundle.frames)));
+    throw UsageError("--frames {}: none of them is in this bundle; it has {}", in_quotes(text),
+                     frame_list_text(bundle.frames));
   return frames;
 }
 

@@ -147,9 +147,8 @@ void run(const DeclaredFilm& declared) {
   const FilmCommand& command = declared.state;
   const bool is_film = is_film_path(command.scene.output);
   if (command.medium != FilmMedium::pictures && is_film)
-    throw UsageError(fmt::format("-o {}: --to {} writes a folder; name one, or leave --to out",
-                                 in_quotes(command.scene.output),
-                                 command.medium == FilmMedium::povray ? "povray" : "blender"));
+    throw UsageError("-o {}: --to {} writes a folder; name one, or leave --to out", in_quotes(command.scene.output),
+                     command.medium == FilmMedium::povray ? "povray" : "blender");
   Storyboard storyboard(declared);
   if (command.medium == FilmMedium::pictures)
     PictureFilm(storyboard).make();

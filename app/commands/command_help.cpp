@@ -8,10 +8,8 @@
 #include <fmt/ranges.h>
 
 #include "app/commands/command_table.h"
-#include "app/commands/manual_pages.h"
 #include "app/options/command_tree.h"
 #include "app/options/property_options.h"
-#include "app/options/scene_schema.h"
 #include "app/process/program_main.h"
 #include "app/reports/command_manual.h"
 #include "core/base/output_file.h"
@@ -68,12 +66,6 @@ constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
     {"turntable", "rotate spin"},
     {"xtc", "gromacs"},
 };
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& letter : lower) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  return lower;
-}
 
 std::vector<std::string_view> words_in(std::string_view text) {
   std::vector<std::string_view> words;
@@ -307,8 +299,8 @@ void show(const CLI::App& program, const std::string& name) {
   }
   const std::vector<std::string> names = page_names(program);
   const std::string_view nearest = nearest_word(name, std::vector<std::string_view>(names.begin(), names.end()));
-  throw UsageError(fmt::format("nothing in the help speaks of {}{}; meniscus help lists the pages", in_quotes(name),
-                               nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
+  throw UsageError("nothing in the help speaks of {}{}; meniscus help lists the pages", in_quotes(name),
+                   nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest));
 }
 
 /// Writes a page of section 1 for every command, and pages of section 7 for common topics.

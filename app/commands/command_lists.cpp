@@ -40,15 +40,6 @@ void list_colors() {
              "they have the colour in the\nmiddle of the map.\n");
 }
 
-}  // namespace
-
-void add_colors(CLI::App& command) {
-  describe(command, "  meniscus colors");
-  command.callback(list_colors);
-}
-
-namespace {
-
 constexpr std::size_t kIndent = 18, kWidth = 100;
 
 void print_wrapped(std::string_view heading, std::string_view text) {
@@ -88,19 +79,6 @@ void print_json() {
   fmt::print(std::cout, "{}\n", formats.dump(2));
 }
 
-}  // namespace
-
-void add_formats(CLI::App& command) {
-  describe(command,
-           "  meniscus formats\n"
-           "  meniscus formats --json");
-  auto json = std::make_shared<bool>(false);
-  PropertyOptions(command).add("report.json", *json);
-  command.callback([json] { *json ? print_json() : print_table(); });
-}
-
-namespace {
-
 struct Shell {
   const char* name;
   std::string (*completion)(const CommandEntry& program);
@@ -118,6 +96,20 @@ void run(const CLI::App& program, const std::string& name) {
 }
 
 }  // namespace
+
+void add_colors(CLI::App& command) {
+  describe(command, "  meniscus colors");
+  command.callback(list_colors);
+}
+
+void add_formats(CLI::App& command) {
+  describe(command,
+           "  meniscus formats\n"
+           "  meniscus formats --json");
+  auto json = std::make_shared<bool>(false);
+  PropertyOptions(command).add("report.json", *json);
+  command.callback([json] { *json ? print_json() : print_table(); });
+}
 
 void add_completion(CLI::App& command) {
   describe(command,

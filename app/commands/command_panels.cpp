@@ -2,7 +2,7 @@
 // `meniscus panels`: makes one picture of several scenes, side by side; `meniscus looks`: of one molecule in all looks.
 
 #include "app/commands/command_table.h"
-#include "app/commands/shared_scenes.h"
+#include "app/commands/render_command.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_main.h"
@@ -10,7 +10,7 @@
 #include "core/base/progress.h"
 #include "core/base/text.h"
 #include "core/render/image_output.h"
-#include "core/scene/frozen_selections.h"
+#include "core/scene/frame_run.h"
 #include "core/scene/panel_page.h"
 #include "core/scene/renderers.h"
 #include "core/scene/scene_lengths.h"
@@ -53,9 +53,9 @@ Structure read_structure(const SceneCommand& command, const std::string& path) {
   log_run(command, run);
   if (run.numbers().size() != 1)
     throw UsageError(
-        fmt::format("{}: a panel shows one frame, and this scene has {}; make a picture of one "
-                    "of them with render --frames N",
-                    escaped(path), with_thousands(run.numbers().size())));
+        "{}: a panel shows one frame, and this scene has {}; make a picture of one "
+        "of them with render --frames N",
+        escaped(path), with_thousands(run.numbers().size()));
   return run.at(run.numbers().front());
 }
 
@@ -68,16 +68,15 @@ void superpose(const PanelsCommand& page, std::span<const SceneCommand> panels, 
   for (std::size_t n = 1; n < structures.size(); ++n) {
     Structure& moved = structures[n];
     if (!moved.instances.empty() || panels[n].scene.molecule.color.by == ColorScheme::By::volume)
-      throw UsageError(fmt::format("--superpose-on: {} has {}, which cannot be moved; leave one of them out",
-                                   escaped(page.files[n]),
-                                   moved.instances.empty() ? "a volume map" : "copies as instances"));
+      throw UsageError("--superpose-on: {} has {}, which cannot be moved; leave one of them out",
+                       escaped(page.files[n]), moved.instances.empty() ? "a volume map" : "copies as instances");
     const std::vector<AtomPair> pairs =
         corresponding_atoms(first.atoms, of_first, moved.atoms, chosen->evaluate(moved.atoms));
     if (pairs.empty())
       throw UsageError(
-          fmt::format("--superpose-on {}: {} has no chain that corresponds to one of {} by its sequence, "
-                      "with three of these atoms or more; choose other atoms",
-                      in_quotes(chosen->text()), escaped(page.files[n]), escaped(page.files.front())));
+          "--superpose-on {}: {} has no chain that corresponds to one of {} by its sequence, "
+          "with three of these atoms or more; choose other atoms",
+          in_quotes(chosen->text()), escaped(page.files[n]), escaped(page.files.front()));
     const Superposition fit = superposition(first.atoms, moved.atoms, pairs);
     for (std::vector<Atom>* const atoms : {&moved.atoms, &moved.extra_atoms})
       for (Atom& atom : *atoms) atom.position = fit.motion(atom.position);

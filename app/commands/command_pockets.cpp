@@ -15,9 +15,8 @@
 #include "core/base/text.h"
 #include "core/pockets/pockets.h"
 #include "core/queries/cavity_tracks.h"
-#include "core/scene/frozen_selections.h"
-#include "core/scene/molecule_pockets.h"
-#include "core/scene/scene_paths.h"
+#include "core/scene/frame_run.h"
+#include "core/scene/scene_json.h"
 #include "core/structure/selection/selection.h"
 #include "exporters/mesh_files/mesh_file_maker.h"
 #include "exporters/mesh_files/mesh_formats.h"
@@ -42,10 +41,9 @@ constexpr std::uint64_t kPocketBytesPerAtom = 10 * kSurfaceBytesPerAtom;
 std::vector<bool> taken_out(const PocketsCommand& command, const Structure& structure) {
   std::vector<bool> taken = command.ligand.evaluate(structure.atoms);
   if (std::ranges::find(taken, false) == taken.end())
-    throw InputError(
-        structure.file, 0,
-        fmt::format("--ligand {1} takes out all {0} atoms, so nothing is left for pockets; name other atoms",
-                    with_thousands(taken.size()), in_quotes(command.ligand.text())));
+    throw InputError(structure.file, 0,
+                     "--ligand {1} takes out all {0} atoms, so nothing is left for pockets; name other atoms",
+                     with_thousands(taken.size()), in_quotes(command.ligand.text()));
   return taken;
 }
 
@@ -166,22 +164,18 @@ void print_pockets(const PocketsCommand& requested) {
   PocketTables(command).make();
 }
 
-}  // namespace
-
-namespace {
-
 void check_mesh_path(const std::string& path) {
   const MeshFormat* const format = mesh_format_of_path(path);
   if (!format || format->solid || format->atoms)
-    throw UsageError(fmt::format("--mesh {}: this format cannot hold several solids; choose one of {}", in_quotes(path),
-                                 mesh_format_words()));
+    throw UsageError("--mesh {}: this format cannot hold several solids; choose one of {}", in_quotes(path),
+                     mesh_format_words());
 }
 
 // Throws unless the path of a run has a place for the number of the frame.
 void check_numbered(const char* option, const std::string& path) {
   if (path.empty() || NumberedPath::parse(path)) return;
-  throw UsageError(fmt::format("{} {}: each frame needs a file of its own; put # where its number goes, as in {}",
-                               option, in_quotes(path), in_quotes(numbered_name(path))));
+  throw UsageError("{} {}: each frame needs a file of its own; put # where its number goes, as in {}", option,
+                   in_quotes(path), in_quotes(numbered_name(path)));
 }
 
 void check_run(const PocketsCommand& command) {
@@ -200,8 +194,7 @@ void check_request(const PocketsCommand& command) {
     throw UsageError("standard output holds one thing at a time: --json, or --csv -");
   if (!command.mesh.empty()) check_mesh_path(command.mesh);
   if (!command.figure.empty() && !command.figure.ends_with(".json"))
-    throw UsageError(
-        fmt::format("--figure {}: scenes are JSON; choose a name that ends in .json", in_quotes(command.figure)));
+    throw UsageError("--figure {}: scenes are JSON; choose a name that ends in .json", in_quotes(command.figure));
   if (!command.figure.empty() && command.scene.molecule.file == "-")
     throw UsageError("--figure: a scene names its molecule's file, which standard input is not");
   if (!command.figure.empty() && command.scene.frames.interpolate > 1)

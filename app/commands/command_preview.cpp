@@ -34,9 +34,8 @@
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/scene/copied_atoms.h"
+#include "core/queries/copies.h"
 #include "core/scene/frame_run.h"
-#include "core/scene/frozen_selections.h"
 #include "core/scene/molecule.h"
 #include "core/scene/renderers.h"
 #include "core/scene/run_framing.h"
@@ -209,7 +208,7 @@ std::string token_of(const PreviewCommand& command) {
   }
   if (token.empty()) return token;
   if (const std::string fault = token_fault(token); !fault.empty())
-    throw UsageError(fmt::format("{}: {}", command.token_file.empty() ? "MENISCUS_TOKEN" : command.token_file, fault));
+    throw UsageError("{}: {}", command.token_file.empty() ? "MENISCUS_TOKEN" : command.token_file, fault);
   return token;
 }
 
@@ -229,7 +228,7 @@ void serve(DeclaredPreview& declared) {
   options.trusted_hosts = command.trusted_hosts;
   for (const std::string& host : options.trusted_hosts)
     if (const std::string fault = host_fault(host); !fault.empty())
-      throw UsageError(fmt::format("--trust-host {}: {}", in_quotes(host), fault));
+      throw UsageError("--trust-host {}: {}", in_quotes(host), fault);
   options.token = token_of(command);
   options.ready = [&](const ServedAddress& address) { show_address(command, address); };
   const PictureDevice device(command.scene.molecule.surface);

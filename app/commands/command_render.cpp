@@ -6,8 +6,6 @@
 #include "app/commands/command_table.h"
 #include "app/commands/picture_sink.h"
 #include "app/commands/render_command.h"
-#include "app/commands/resumed_run.h"
-#include "app/commands/shared_scenes.h"
 #include "app/film/film.h"
 #include "app/options/named_files.h"
 #include "app/options/property_options.h"
@@ -19,10 +17,9 @@
 #include "core/render/image_output.h"
 #include "core/render/picture_file.h"
 #include "core/scene/frame_run.h"
-#include "core/scene/frozen_selections.h"
 #include "core/scene/renderers.h"
 #include "core/scene/representations.h"
-#include "core/scene/scene_paths.h"
+#include "core/scene/scene_json.h"
 #include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/transition.h"
@@ -130,12 +127,10 @@ void check_layers(const Scene& scene) {
   const PictureOutput& image = scene.image;
   const char* const layers = image.aovs ? "--aovs" : image.cryptomatte ? "--cryptomatte" : "";
   if (image.motion_blur > 1 && (*layers || image.extent))
-    throw UsageError(
-        fmt::format("--motion-blur and {} cannot be combined; leave one of them out", *layers ? layers : "--extent"));
+    throw UsageError("--motion-blur and {} cannot be combined; leave one of them out", *layers ? layers : "--extent");
   if (*layers && !holds_aovs(scene.output))
-    throw UsageError(fmt::format("{} needs an .exr output; other formats hold colour only", layers));
-  if (*layers && image.extent)
-    throw UsageError(fmt::format("{} needs the complete surface; leave --extent out", layers));
+    throw UsageError("{} needs an .exr output; other formats hold colour only", layers);
+  if (*layers && image.extent) throw UsageError("{} needs the complete surface; leave --extent out", layers);
   if (image.primaries != Primaries::rec709 && !holds_aovs(scene.output))
     throw UsageError("--color-space acescg needs an .exr output; other formats and films are sRGB");
 }
@@ -150,14 +145,14 @@ void check_scene(const RenderCommand& command) {
   } else {
     if (const std::string_view format = bare_trajectory_format(scene.molecule.file); !format.empty())
       throw UsageError(
-          fmt::format("{} is a trajectory ({}), which has no atoms of its own: name its topology before it, "
-                      "as in meniscus render topology.pdb {}",
-                      in_quotes(scene.molecule.file), format, in_quotes(scene.molecule.file)));
+          "{} is a trajectory ({}), which has no atoms of its own: name its topology before it, "
+          "as in meniscus render topology.pdb {}",
+          in_quotes(scene.molecule.file), format, in_quotes(scene.molecule.file));
     if (is_film_path(scene.output))
       throw UsageError(
-          fmt::format("-o {} is a film, and {} one molecule; add --frames all for the models of that file, "
-                      "--trajectory FILE, or --turntable 1",
-                      in_quotes(scene.output), in_quotes(scene.molecule.file)));
+          "-o {} is a film, and {} one molecule; add --frames all for the models of that file, "
+          "--trajectory FILE, or --turntable 1",
+          in_quotes(scene.output), in_quotes(scene.molecule.file));
     check_image_path(scene.output);
   }
   check_cost(command, scene, scene.picture.size());
@@ -300,27 +295,6 @@ void run(RenderCommand command) {
 }
 
 }  // namespace
-
-ImageSettings image_settings(const RenderCommand& command) {
-  const Scene& scene = command.scene;
-  ImageSettings settings{scene.image.background, command.existing(), scene.look.has_linear_alpha()};
-  settings.dots_per_inch = scene.picture.dots_per_inch;
-  settings.names_program = command.names_program;
-  if (command.provenance) settings.command = command_line();
-  if (command.keeps_scene) settings.scene = scene_text(scene, "", *command.added);
-  settings.exr.primaries = scene.image.primaries;
-  settings.made_of = command.made_of;
-  settings.tiff = scene.image.tiff;
-  return settings;
-}
-
-RenderSettings picture_settings(const RenderCommand& command, const PictureLayout& layout) {
-  RenderSettings settings = render_settings(command.scene, layout);
-  // Exact times are needed only for pictures with printed times.
-  if (command.stats || (!command.scene.frames.is_requested() && !command.reporting.quiet))
-    settings.timing = StageTiming::exact;
-  return settings;
-}
 
 void add_render(CLI::App& command) {
   describe(

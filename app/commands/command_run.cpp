@@ -9,9 +9,8 @@
 #include "core/base/text.h"
 #include "core/camera/camera_json.h"
 #include "core/queries/copies.h"
-#include "core/scene/copied_atoms.h"
-#include "core/scene/figure_key.h"
-#include "core/scene/frozen_selections.h"
+#include "core/scene/figure.h"
+#include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
 #include "core/scene/representations.h"
 #include "core/scene/scene_lengths.h"
@@ -263,10 +262,10 @@ void check_caps_of_map(const Scene& scene, std::string_view reason) {
   const char* const option =
       scene.molecule.color.by == ColorScheme::By::volume ? "--color-map-file" : "--color lipophilicity";
   if (!scene.figure.cuts.empty() && !scene.figure.cap.color)
-    throw UsageError(fmt::format("{} with --clip needs --cap-color: {}", option, reason));
+    throw UsageError("{} with --clip needs --cap-color: {}", option, reason);
   for (const FigureObjectRequest& object : scene.figure.objects)
     if (!object.shapes && !object.color && !object.cuts.empty() && !object.cap.color)
-      throw UsageError(fmt::format("{} with a \"clip\" in --object needs its \"cap_color\": {}", option, reason));
+      throw UsageError("{} with a \"clip\" in --object needs its \"cap_color\": {}", option, reason);
 }
 
 void check_saved_camera(const SceneCommand& command) {

@@ -19,8 +19,7 @@
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/tessellate.h"
 #include "core/queries/cavity_tracks.h"
-#include "core/scene/area_columns.h"
-#include "core/scene/frozen_selections.h"
+#include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
 
 namespace meniscus {
@@ -204,18 +203,6 @@ class SurfaceTables {
   std::string held_;  ///< for a single molecule: printed once its tables are complete
 };
 
-}  // namespace
-
-void print_surface(const SurfaceCommand& requested) {
-  check_outputs(requested);
-  SurfaceCommand command = requested;
-  command.scene.frames.context = command.context;
-  freeze_selections(command.scene);
-  SurfaceTables(command).make();
-}
-
-namespace {
-
 bool is_stdout(const std::string& path) { return path == "-"; }
 
 std::vector<std::string> tables_of(const SurfaceCommand& command) {
@@ -238,15 +225,11 @@ TakenProperties surface_command_properties() {
        {{"report.open_sky"}, {"report.csv_atoms"}, "it is a column of --csv FILE; add that"}});
 }
 
-}  // namespace
-
-bool SurfaceCommand::prints_csv() const { return std::ranges::any_of(tables_of(*this), is_stdout); }
-
-// Opens the outputs before the work begins, so that errors come early, and removes them again.
+/// Throws UsageError for outputs that conflict, OutputError for outputs that cannot be written. Opens the outputs
+/// before the work begins, so that errors come early, and removes them again.
 void check_outputs(const SurfaceCommand& command) {
   if (command.plot == "-" || (!command.plot.empty() && !command.plot.ends_with(".svg")))
-    throw UsageError(
-        fmt::format("--plot {}: plots are written as files whose names end in .svg", in_quotes(command.plot)));
+    throw UsageError("--plot {}: plots are written as files whose names end in .svg", in_quotes(command.plot));
   if (command.resumes) throw UsageError("--resume continues a table of many files; add --csv-summary FILE");
   std::vector<std::string> paths = tables_of(command);
   if (std::ranges::count_if(paths, is_stdout) + command.json > 1)
@@ -279,6 +262,20 @@ void check_outputs(const SurfaceCommand& command) {
   for (const std::string& path : paths)
     if (!is_stdout(path)) check_output(path, command.existing());
 }
+
+/// Prints the numbers of the molecule, or a line or a row for every frame as soon as it is finished, in every requested
+/// output. Files get their final names at the end, with the frames that could be made.
+void print_surface(const SurfaceCommand& requested) {
+  check_outputs(requested);
+  SurfaceCommand command = requested;
+  command.scene.frames.context = command.context;
+  freeze_selections(command.scene);
+  SurfaceTables(command).make();
+}
+
+}  // namespace
+
+bool SurfaceCommand::prints_csv() const { return std::ranges::any_of(tables_of(*this), is_stdout); }
 
 void add_surface(CLI::App& command) {
   describe(

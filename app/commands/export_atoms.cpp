@@ -8,8 +8,8 @@
 #include "app/reports/notes.h"
 #include "core/base/text.h"
 #include "core/queries/copies.h"
-#include "core/scene/figure_key.h"
-#include "core/scene/frozen_selections.h"
+#include "core/scene/figure.h"
+#include "core/scene/frame_run.h"
 #include "exporters/blender/mns_file.h"
 #include "exporters/blender/sequence_manifest.h"
 

@@ -10,7 +10,6 @@
 #include "core/base/text.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/queries/copies.h"
-#include "core/scene/copied_atoms.h"
 #include "exporters/blender/mns_file.h"
 #include "exporters/blender/sequence_manifest.h"
 #include "exporters/blender/surface_file.h"

@@ -23,15 +23,14 @@ const MeshFormat& format_of(const Scene& scene) {
   const std::string& word = scene.mesh.format;
   if (const std::filesystem::path path(scene.output); word == "usdc" || (word.empty() && path.extension() == ".usdc")) {
     const std::string text = std::filesystem::path(path).replace_extension(".usda").string();
-    throw UsageError(fmt::format("{}: only USD as text is written; write that, then: usdcat {} -o {}",
-                                 in_quotes(scene.output), shell_word(text), shell_word(scene.output)));
+    throw UsageError("{}: only USD as text is written; write that, then: usdcat {} -o {}", in_quotes(scene.output),
+                     shell_word(text), shell_word(scene.output));
   }
   const MeshFormat* const found = word.empty() ? mesh_format_of_path(scene.output) : mesh_format(word);
   if (found) return *found;
-  if (!word.empty())
-    throw UsageError(fmt::format("--format: {} is not one of {}", in_quotes(word), mesh_format_words()));
-  throw UsageError(fmt::format("{} does not end like a mesh file; choose its format by --format: {}",
-                               in_quotes(scene.output), mesh_format_words()));
+  if (!word.empty()) throw UsageError("--format: {} is not one of {}", in_quotes(word), mesh_format_words());
+  throw UsageError("{} does not end like a mesh file; choose its format by --format: {}", in_quotes(scene.output),
+                   mesh_format_words());
 }
 
 std::string scale_sentence(const MeshFormat& format, double scale) {
@@ -46,8 +45,8 @@ void refuse_what_does_not_fit(const MeshFormat& format, const Figure& figure, co
   if (!format.solid) return;
   const bool whole = std::ranges::all_of(molecule.objects, &SurfaceObject::whole);
   if (molecule.objects.size() > 1 || !whole || hides || !figure.extras.shapes.empty())
-    throw RequestError(fmt::format(
-        "{} holds one complete closed surface; leave --by, --cavities, --show and shapes out", format.word));
+    throw RequestError("{} holds one complete closed surface; leave --by, --cavities, --show and shapes out",
+                       format.word);
 }
 
 void log_report(const SceneCommand& command, const MeshFormat& format, const MeshFileMaker& maker,
@@ -130,11 +129,11 @@ struct OneFile {
 // Checks the output before anything is computed.
 void check_one_file(const MeshFormat& format, const Scene& scene) {
   if (!format.write_run)
-    throw UsageError(fmt::format("-o {}: each frame needs a file of its own; put # where its number goes, as in {}",
-                                 in_quotes(scene.output), in_quotes(numbered_name(scene.output))));
+    throw UsageError("-o {}: each frame needs a file of its own; put # where its number goes, as in {}",
+                     in_quotes(scene.output), in_quotes(numbered_name(scene.output)));
   if (!scene.frames.only.empty())
-    throw UsageError(fmt::format("--only: one file holds all frames; put # where their numbers go, as in {}",
-                                 in_quotes(numbered_name(scene.output))));
+    throw UsageError("--only: one file holds all frames; put # where their numbers go, as in {}",
+                     in_quotes(numbered_name(scene.output)));
 }
 
 void export_to_mesh(const SceneCommand& requested) {

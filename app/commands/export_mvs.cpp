@@ -22,7 +22,7 @@ constexpr double kLargeArchive = 50e6;
 void check(const SceneCommand& command) {
   const Scene& scene = command.scene;
   const auto refuse = [](const char* option, const char* why) {
-    throw UsageError(fmt::format("{}: MolViewSpec has no {}; leave it out, or use export page", option, why));
+    throw UsageError("{}: MolViewSpec has no {}; leave it out, or use export page", option, why);
   };
   const auto is_film = [](const FigureObjectRequest& object) { return object.thickens; };
   const auto is_hatched = [](const FigureObjectRequest& object) { return object.cap.hatching > 0.0; };

@@ -5,7 +5,7 @@
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
-#include "app/commands/shared_scenes.h"
+#include "app/commands/render_command.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/preview/server/serve.h"
@@ -24,7 +24,7 @@
 #include "core/scene/cut.h"
 #include "core/scene/figure.h"
 #include "core/scene/molecule.h"
-#include "core/scene/scene_paths.h"
+#include "core/scene/scene_json.h"
 #include "core/scene/scene_values.h"
 #include "exporters/page/page_file.h"
 #include "exporters/page/scene_page.h"
@@ -74,13 +74,13 @@ void named(const std::string& name, const Work& work) {
   try {
     work();
   } catch (const RequestError& error) {
-    throw RequestError(fmt::format("--named-view {}: {}", in_quotes(name), error.what()));
+    throw RequestError("--named-view {}: {}", in_quotes(name), error.what());
   }
 }
 
 NamedViews::NamedViews(const std::vector<std::string>& texts, const SceneCommand& page, bool trusts_scenes) {
   const auto refuse = [](const std::string& text, const std::string& why) {
-    throw UsageError(fmt::format("--named-view {}: {}", in_quotes(text), why));
+    throw UsageError("--named-view {}: {}", in_quotes(text), why);
   };
   for (const std::string& text : texts) {
     const std::size_t sign = std::min(text.find('='), text.size());
@@ -201,9 +201,9 @@ class PageRun {
         run_.is_run() ? fmt::format("choose fewer frames (--stride {}), or ", (bytes + kMostBytes - 1) / kMostBytes)
                       : std::string();
     throw UsageError(
-        fmt::format("the page would have about {} bytes, and browsers open no more than {}; {}show fewer "
-                    "atoms (--show, --select)",
-                    with_thousands(bytes), with_thousands(kMostBytes), fewer));
+        "the page would have about {} bytes, and browsers open no more than {}; {}show fewer "
+        "atoms (--show, --select)",
+        with_thousands(bytes), with_thousands(kMostBytes), fewer);
   }
 
   FigureRun& run_;

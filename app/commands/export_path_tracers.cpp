@@ -12,7 +12,7 @@
 #include "app/reports/notes.h"
 #include "core/base/text.h"
 #include "core/mesh/mesh_objects.h"
-#include "exporters/path_tracers/scene_folder.h"
+#include "exporters/path_tracers/path_tracer_scene.h"
 
 namespace meniscus {
 namespace {

@@ -13,7 +13,7 @@
 #include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
-#include "core/scene/frozen_selections.h"
+#include "core/scene/frame_run.h"
 #include "core/scene/surface_computer.h"
 #include "exporters/vdb/vdb_file.h"
 
@@ -45,8 +45,8 @@ void export_to_vdb(const VdbCommand& requested) {
   const Scene& scene = command.scene;
   const auto numbered = NumberedPath::parse(scene.output);
   if (scene.frames.is_requested() && !numbered)
-    throw UsageError(fmt::format("-o {}: each frame needs a file of its own; put # where its number goes, as in {}",
-                                 in_quotes(scene.output), in_quotes(numbered_name(scene.output))));
+    throw UsageError("-o {}: each frame needs a file of its own; put # where its number goes, as in {}",
+                     in_quotes(scene.output), in_quotes(numbered_name(scene.output)));
   freeze_selections(command.scene);
   NumberRun run(command);
   const auto make_worker = [&](const std::shared_ptr<MoleculeBuilder>& builder) -> NumberRun::Worker {

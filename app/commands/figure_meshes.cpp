@@ -9,10 +9,9 @@
 #include "core/mesh/section_mesh.h"
 #include "core/mesh/velocity.h"
 #include "core/queries/copies.h"
-#include "core/scene/copied_atoms.h"
-#include "core/scene/figure_key.h"
-#include "exporters/mesh_files/vertex_numbers.h"
-#include "exporters/path_tracers/scene_folder.h"
+#include "core/scene/figure.h"
+#include "exporters/mesh_files/mesh_formats.h"
+#include "exporters/path_tracers/path_tracer_scene.h"
 
 namespace meniscus {
 namespace {

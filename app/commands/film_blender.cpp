@@ -29,9 +29,9 @@ void check(Storyboard& storyboard) {
     check_blender(scene.run.scene());
     if (scene.run.is_run())
       throw UsageError(
-          fmt::format("{}: --to blender takes scenes of one molecule, and this is one of a run of frames; give it to "
-                      "meniscus export blender",
-                      in_quotes(storyboard.command().files[n])));
+          "{}: --to blender takes scenes of one molecule, and this is one of a run of frames; give it to "
+          "meniscus export blender",
+          in_quotes(storyboard.command().files[n]));
   }
 }
 

@@ -6,9 +6,11 @@
 #include "app/film/film.h"
 #include "app/options/named_files.h"
 #include "app/reports/run_frames.h"
+#include "core/base/output_file.h"
 #include "core/camera/camera.h"
 #include "core/render/annotation.h"
 #include "core/scene/frame_run.h"
+#include "core/scene/scene.h"
 
 namespace meniscus {
 
@@ -93,5 +95,15 @@ class PictureSink {
   FrameAnnotations annotations_;
   std::mutex legend_;  ///< its letters come from one font, which only one thread uses at a time
 };
+
+/// Returns what pictures or tables are made of as 64 hexadecimal digits: a digest of the scene, the program's version,
+/// and the sizes and times of the files that the scene names. Each picture of a run that may be resumed has it as a
+/// note.
+std::string made_of(const Scene& scene);
+
+/// Returns the places, in order, of paths whose picture is not there whole or has another note. Throws UsageError for
+/// pictures with another note, unless they may be replaced; and for files that are not PNG, which have no notes.
+std::vector<std::size_t> missing_pictures(const std::vector<std::string>& paths, const std::string& made_of,
+                                          Existing existing);
 
 }  // namespace meniscus

@@ -13,7 +13,7 @@
 #include "core/base/text.h"
 #include "core/queries/surface_object.h"
 #include "core/render/legend.h"
-#include "core/scene/figure_key.h"
+#include "core/scene/figure.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
 #include "core/scene/scene_picture.h"
@@ -248,9 +248,9 @@ OpenedScene SceneOpener::operator()(const std::filesystem::path& path) const {
   }
   PreviewCommand& opened = declared.state;
   if (!is_of_this_molecule(opened.scene))
-    throw RequestError(fmt::format(
+    throw RequestError(
         "open: {} has other atoms, frames or numbers than {}, which is shown; start another preview with --scene",
-        escaped(path.string()), escaped(begun_.molecule.file)));
+        escaped(path.string()), escaped(begun_.molecule.file));
   Scene& shown = opened.scene;
   shown.molecule.color = color_of(shown.molecule);
   OpenedScene scene{PreviewFigure(shown)};

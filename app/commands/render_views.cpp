@@ -30,8 +30,8 @@
 #include "core/render/gl_renderer.h"
 #include "core/render/picture.h"
 #include "core/render/picture_file.h"
-#include "core/scene/figure_key.h"
-#include "core/scene/frozen_selections.h"
+#include "core/scene/figure.h"
+#include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
 #include "core/scene/run_framing.h"
 #include "core/scene/surface_objects.h"
@@ -58,7 +58,7 @@ double milliseconds(const std::vector<StageTime>& times, std::initializer_list<s
 /// Throws UsageError for options that need a complete surface, and for --device cpu.
 void check_view_options(const MoleculeRequest& request) {
   const auto refuse = [](const char* option) {
-    throw UsageError(fmt::format("{} needs the complete surface; leave --extent out", option));
+    throw UsageError("{} needs the complete surface; leave --extent out", option);
   };
   if (request.surface.cpu)
     throw UsageError("--extent needs GL; leave out --device cpu, or --extent: the picture is the same");

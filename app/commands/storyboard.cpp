@@ -2,7 +2,7 @@
 // Reads the scenes of a storyboard, counts its pictures, and goes through them.
 #include "app/commands/storyboard.h"
 
-#include "app/commands/shared_scenes.h"
+#include "app/commands/render_command.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
@@ -20,15 +20,14 @@ std::vector<double> seconds_in(const std::string& text, std::size_t count, const
     const std::size_t comma = std::min(text.find(',', at), text.size());
     double number = 0.0;
     if (!parse_number(std::string_view(text).substr(at, comma - at), number) || number < 0.0 || number > kLongest)
-      throw UsageError(
-          fmt::format("{} {}: give seconds from 0 to {:g}, such as 2 or 1,2.5,1", option, in_quotes(text), kLongest));
+      throw UsageError("{} {}: give seconds from 0 to {:g}, such as 2 or 1,2.5,1", option, in_quotes(text), kLongest);
     seconds.push_back(number);
     at = comma + 1;
   }
   if (seconds.size() == 1) seconds.resize(count, seconds.front());
   if (seconds.size() != count)
-    throw UsageError(fmt::format("{} {}: there are {} {}; give one number, or one for each", option, in_quotes(text),
-                                 count, of_what));
+    throw UsageError("{} {}: there are {} {}; give one number, or one for each", option, in_quotes(text), count,
+                     of_what);
   return seconds;
 }
 
@@ -67,7 +66,7 @@ void of_scene(const std::string& file, const std::function<void()>& work) {
   try {
     work();
   } catch (const RequestError& error) {
-    throw RequestError(fmt::format("{}: {}", escaped(file), error.what()));
+    throw RequestError("{}: {}", escaped(file), error.what());
   }
 }
 

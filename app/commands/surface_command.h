@@ -22,13 +22,6 @@ struct SurfaceCommand : SceneCommand {
   bool prints_csv() const;
 };
 
-/// Throws UsageError for outputs that conflict, OutputError for outputs that cannot be written.
-void check_outputs(const SurfaceCommand& command);
-
-/// Prints the numbers of the molecule, or a line or a row for every frame as soon as it is finished, in every requested
-/// output (surface_tables.cpp). Files get their final names at the end, with the frames that could be made.
-void print_surface(const SurfaceCommand& command);
-
 /// Writes the numbers of many molecules for --csv-summary, one row per file (surface_summary.cpp). Computes the
 /// molecule's file and further files, in place of the trajectories of a run, several at once. Rows go to FILE.part, in
 /// the order of the files, each as soon as it is complete; at the end FILE.part becomes FILE. A file that cannot be

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Computes the files of `meniscus surface --csv-summary` in a pipeline, and keeps tables that a later call can
 // continue.
-#include "app/commands/resumed_run.h"
+#include "app/commands/picture_sink.h"
 #include "app/commands/surface_command.h"
 
 #include <cerrno>
@@ -12,7 +12,6 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
-#include "app/process/memory.h"
 #include "app/process/program_main.h"
 #include "app/reports/csv_tables.h"
 #include "app/reports/notes.h"
@@ -136,8 +135,8 @@ class Summary {
     progress.end();
     for (LastingTable* table : {&atoms_, &residues_, &summary_}) table->finish(command_.existing());
     if (failed_ == 0) return;
-    throw RunError(first_failure_->first, fmt::format("{} of {} files failed; the first: {}", with_thousands(failed_),
-                                                      with_thousands(files_.size()), first_failure_->second));
+    throw RunError(first_failure_->first, "{} of {} files failed; the first: {}", with_thousands(failed_),
+                   with_thousands(files_.size()), first_failure_->second);
   }
 
  private:
@@ -157,10 +156,10 @@ class Summary {
       std::ifstream old(summary_.part());
       std::string line;
       if (std::getline(old, line) && line != summary_.note())
-        throw UsageError(fmt::format(
+        throw UsageError(
             "--resume: {} was begun with other options or by another version; choose another name, or leave --resume "
             "out and add --force to begin again",
-            escaped(summary_.part())));
+            escaped(summary_.part()));
       while (std::getline(old, line) && !old.eof())
         if (is_whole(line + "\n")) done.insert(first_cell(line));
       std::error_code ignored;  // a missing file has failed, or will fail
@@ -169,9 +168,9 @@ class Summary {
         if (fs::last_write_time(file, ignored) > written) done.erase(csv_cell(file));
     } else if (summary_.has_part() && !command_.force) {
       throw UsageError(
-          fmt::format("{} is there, of a call that did not come to its end; add --resume to continue it, or --force "
-                      "to begin anew",
-                      escaped(summary_.part())));
+          "{} is there, of a call that did not come to its end; add --resume to continue it, or --force "
+          "to begin anew",
+          escaped(summary_.part()));
     }
     const auto is_done = [&](const std::string& row) { return done.contains(first_cell(row)); };
     atoms_.begin(is_done);
@@ -262,8 +261,7 @@ void check_summary(const SurfaceCommand& command) {
                                                  {command.context.has_value(), "--context"},
                                                  {scene.frames.is_requested(), "--frames, or another option for runs"}};
   for (const auto& [is_given, option] : others)
-    if (is_given)
-      throw UsageError(fmt::format("--csv-summary is for many molecules, one row each; leave {} out", option));
+    if (is_given) throw UsageError("--csv-summary is for many molecules, one row each; leave {} out", option);
   for (const std::string& path : {command.summary_csv, command.atom_csv, command.residue_csv}) {
     if (path == "-")
       throw UsageError(

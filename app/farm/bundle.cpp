@@ -52,7 +52,7 @@ Json json_of(const Chunking& chunking) {
 /// The JSON library would convert a negative number or a fraction.
 std::uint64_t whole_number(const Json& json) {
   if (!json.is_number_unsigned())
-    throw RequestError(fmt::format("is damaged: {} is not a whole number", shortened(json.dump(), kLongestShown)));
+    throw RequestError("is damaged: {} is not a whole number", shortened(json.dump(), kLongestShown));
   return json.get<std::uint64_t>();
 }
 
@@ -91,9 +91,9 @@ Film read_film(const Json& json) {
 Bundle bundle_from_json(const Json& json) {
   if (json.at("schema") != "meniscus-farm-bundle") throw RequestError("is not a farm bundle");
   if (json.at("schema_version") != kSchemaVersion)
-    throw RequestError(fmt::format("has schema version {}; this program reads {}: use the program of version {}",
-                                   shortened(json.at("schema_version").dump(), kLongestShown), kSchemaVersion,
-                                   in_quotes(json.value("program_version", "?"))));
+    throw RequestError("has schema version {}; this program reads {}: use the program of version {}",
+                       shortened(json.at("schema_version").dump(), kLongestShown), kSchemaVersion,
+                       in_quotes(json.value("program_version", "?")));
   Bundle bundle;
   bundle.program_version = json.at("program_version").get<std::string>();
   bundle.command = json.at("command").get<Words>();
@@ -124,8 +124,8 @@ const CommandKind& kind_of(const Words& command) {
   const std::string name = command.empty() ? "" : exports ? command[0] + " " + command[1] : command[0];
   const auto found = std::ranges::find(kinds, name, &CommandKind::name);
   if (found == kinds.end())
-    throw RequestError(
-        fmt::format("{} cannot be bundled; render and export povray, blender, mitsuba and pbrt can", in_quotes(name)));
+    throw RequestError("{} cannot be bundled; render and export povray, blender, mitsuba and pbrt can",
+                       in_quotes(name));
   return *found;
 }
 

@@ -100,7 +100,7 @@ HiddenFolder::HiddenFolder(const fs::path& parent, std::string_view name) : path
   const StopBarrier barrier;
   std::error_code error;
   fs::create_directory(path_, error);
-  if (error) throw OutputError(parent.string(), fmt::format("no folder can be made in it: {}", error.message()));
+  if (error) throw OutputError(parent.string(), "no folder can be made in it: {}", error.message());
 }
 
 void write_file(const fs::path& path, std::string_view bytes) {
@@ -172,8 +172,6 @@ void remove_leftovers(const fs::path& folder) {
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 DecodedImage decoded(const Bundle& bundle, const fs::path& folder, std::uint64_t frame) {
   return image_codec().decode((folder / bundle.result(Step::render, frame)).string());

@@ -18,9 +18,8 @@
 #include "core/camera/camera_json.h"
 #include "core/render/image_output.h"
 #include "core/scene/annotations.h"
-#include "core/scene/figure_key.h"
+#include "core/scene/figure.h"
 #include "core/scene/frame_run.h"
-#include "core/scene/frozen_selections.h"
 #include "core/scene/run_framing.h"
 #include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
@@ -95,8 +94,8 @@ class BundleInputs {
     for (const Item& item : items_) {
       const fs::path inside = item.source.lexically_relative(place);
       if (!inside.empty() && *inside.begin() != "..")
-        throw OutputError(folder.string(),
-                          fmt::format("holds {}, which this command reads; choose another folder", inside.string()));
+        throw OutputError(folder.string(), "holds {}, which this command reads; choose another folder",
+                          inside.string());
     }
   }
 
@@ -190,8 +189,7 @@ void make_trial(const Bundle& bundle, const fs::path& folder, Chunking& measured
   try {
     measured.seconds_per_frame = std::max(work(bundle, order, ProgressStyle::none), 1e-3);
   } catch (const RunError& error) {
-    throw RunError(error.code(),
-                   fmt::format("the trial frame failed: {}; with --chunk-frames N no trial is made", error.what()));
+    throw RunError(error.code(), "the trial frame failed: {}; with --chunk-frames N no trial is made", error.what());
   }
   const StopBarrier barrier;
   for (const char* made : {"images", "scene"}) fs::remove_all(folder / made);
@@ -264,7 +262,7 @@ MadeBundle described(const BundleOptions& options, const BundledCommand& given, 
                         legend_style(scene.legend.style, scene.annotations.letters));
   bundle.command = bundled_words(given, default_camera(scene, cameras, shown), range, inputs);
   for (const std::string& word : bundle.command)
-    if (!is_utf8(word)) throw UsageError(fmt::format("after --: {} is not UTF-8, as a bundle is", in_quotes(word)));
+    if (!is_utf8(word)) throw UsageError("after --: {} is not UTF-8, as a bundle is", in_quotes(word));
   if (bundle.maker(bundle.steps().back()) == Maker::blender) inputs.add_addon(options.addon);
   bundle.inputs = inputs.measured();
   bundle.chunking = options.chunking;
@@ -320,8 +318,6 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Returns three times the time that a task was measured to take, and ten minutes for a slow start. The text is empty
 /// where nothing was measured, so that the site's default counts.
@@ -379,9 +375,9 @@ void require_plain_path(const std::string& farm_path) {
   constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/";
   if (farm_path.find_first_not_of(kPlain) != std::string::npos || farm_path.starts_with('-'))
     throw RequestError(
-        fmt::format("--farm-path {}: has other characters than letters, digits and ._-/, which some "
-                    "engine would read as more than a path; choose another path",
-                    in_quotes(farm_path)));
+        "--farm-path {}: has other characters than letters, digits and ._-/, which some "
+        "engine would read as more than a path; choose another path",
+        in_quotes(farm_path));
 }
 
 void write_job_files(const Engine& engine, const Bundle& bundle, const std::string& farm_path, const fs::path& folder) {

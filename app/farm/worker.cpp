@@ -172,8 +172,8 @@ class Worker {
     }
     progress_.end();
     if (!failed_.empty())
-      throw RunError(first_code_, fmt::format("{} of {} frames failed; the first, {}", with_thousands(failed_.size()),
-                                              with_thousands(order_.frames.size()), first_error_));
+      throw RunError(first_code_, "{} of {} frames failed; the first, {}", with_thousands(failed_.size()),
+                     with_thousands(order_.frames.size()), first_error_);
     return seconds_;
   }
 
@@ -277,10 +277,9 @@ void make_by_lines(const std::function<Words(const Frames& frames, bool alone)>&
     const std::uint64_t culprit = frames.front();
     if (code <= kSignalCode) {
       // The process ended by itself before the last frame, and another one would do the same.
-      throw RunError(code == kExitOk ? kExitInternal : static_cast<ExitCode>(code),
-                     fmt::format("frame {}{} not made: {}", culprit,
-                                 frames.size() == 1 ? " was" : fmt::format(" and {} more were", frames.size() - 1),
-                                 reason.empty() ? fmt::format("exit code {}", code) : reason));
+      throw RunError(code == kExitOk ? kExitInternal : static_cast<ExitCode>(code), "frame {}{} not made: {}", culprit,
+                     frames.size() == 1 ? " was" : fmt::format(" and {} more were", frames.size() - 1),
+                     reason.empty() ? fmt::format("exit code {}", code) : reason);
     }
     if (tried == culprit) {
       frames.erase(frames.begin());
@@ -294,8 +293,8 @@ double work(const Bundle& bundle, const Order& order, ProgressStyle progress) {
   // Frames of one film must not come from two programs.
   if (bundle.program_version != build_version())
     throw InputError((order.folder / "bundle.json").string(), 0,
-                     fmt::format("was made by meniscus {}, and this is {}; use one build on all machines",
-                                 in_quotes(bundle.program_version), build_version()));
+                     "was made by meniscus {}, and this is {}; use one build on all machines",
+                     in_quotes(bundle.program_version), build_version());
   check_inputs(bundle, order.folder, false);
   return Worker(bundle, order, progress).run();
 }

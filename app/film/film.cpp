@@ -86,25 +86,25 @@ const Codec& codec_of(const std::string& path, const FilmFormat& format) {
   }
   if (is_opaque)
     throw UsageError(
-        fmt::format("--background transparent: {} keeps no transparency; name a .webm, .mov, .gif or pictures, or "
-                    "choose a colour, such "
-                    "as --background white",
-                    format.codec.empty() ? "a " + ending + " film" : format.codec));
-  throw UsageError(fmt::format("--codec {}: {} films hold {}", format.codec, ending, fmt::join(fitting, ", ")));
+        "--background transparent: {} keeps no transparency; name a .webm, .mov, .gif or pictures, or "
+        "choose a colour, such "
+        "as --background white",
+        format.codec.empty() ? "a " + ending + " film" : format.codec);
+  throw UsageError("--codec {}: {} films hold {}", format.codec, ending, fmt::join(fitting, ", "));
 }
 
 /// Returns the requested value if the codec has it; its own choice if the request is 0.
 int chosen(const Codec& codec, const char* option, const std::vector<int>& possible, int requested) {
   if (requested == 0) return possible.front();
   if (holds(possible, requested)) return requested;
-  throw UsageError(fmt::format("{} {}: {} has {}", option, requested, codec.name, fmt::join(possible, " or ")));
+  throw UsageError("{} {}: {} has {}", option, requested, codec.name, fmt::join(possible, " or "));
 }
 
 int rate_factor_of(const Codec& codec, const FilmFormat& format) {
   const int requested = format.rate_factor.value_or(codec.rate_factor);
-  if (codec.worst == 0) throw UsageError(fmt::format("--crf {}: {} has no rate factor", requested, codec.name));
+  if (codec.worst == 0) throw UsageError("--crf {}: {} has no rate factor", requested, codec.name);
   if (requested < 0 || requested > codec.worst)
-    throw UsageError(fmt::format("--crf {}: for {} give 0 (best) to {}", requested, codec.name, codec.worst));
+    throw UsageError("--crf {}: for {} give 0 (best) to {}", requested, codec.name, codec.worst);
   return requested;
 }
 
@@ -184,11 +184,11 @@ Size number(const BinaryFile& file, Size offset, Size bytes) {
   return value;
 }
 
-[[noreturn]] void cut_short(Size offset) { throw Error(fmt::format("is cut short at byte {}", offset)); }
+[[noreturn]] void cut_short(Size offset) { throw Error("is cut short at byte {}", offset); }
 
 Part first_of(const std::vector<Part>& parts, Size kind, std::string_view name) {
   const auto found = std::ranges::find(parts, kind, &Part::kind);
-  if (found == parts.end()) throw Error(fmt::format("has no {}", name));
+  if (found == parts.end()) throw Error("has no {}", name);
   return *found;
 }
 
@@ -228,8 +228,7 @@ Size pictures_of_mp4(const BinaryFile& file) {
   if (equal == 0 && box.end - box.begin < kSizes + 4 * count) cut_short(box.begin);
   Size bytes = equal * count;
   for (Size n = 0; equal == 0 && n < count; ++n) bytes += number(file, box.begin + kSizes + 4 * n, 4);
-  if (bytes > data.end - data.begin)
-    throw Error(fmt::format("lacks {} bytes of its pictures", bytes - (data.end - data.begin)));
+  if (bytes > data.end - data.begin) throw Error("lacks {} bytes of its pictures", bytes - (data.end - data.begin));
   return count;
 }
 
@@ -246,7 +245,7 @@ std::vector<Part> elements(const BinaryFile& file, Size begin, Size end) {
     const Size id_length = length_at(begin, 4), size_at = begin + id_length, size_length = length_at(size_at, 8);
     const Size unknown = (Size{1} << (7 * size_length)) - 1;
     const Size size = number(file, size_at, size_length) & unknown, content = size_at + size_length;
-    if (size == unknown) throw Error(fmt::format("was not finished: the size at byte {} is left open", size_at));
+    if (size == unknown) throw Error("was not finished: the size at byte {} is left open", size_at);
     if (size > end - content) cut_short(begin);
     found.push_back({number(file, begin, id_length), content, content + size});
     begin = content + size;
@@ -290,7 +289,7 @@ Size pictures_of_gif(const BinaryFile& file) {
   while (at < file.size()) {
     const Size kind = number(file, at, 1);
     if (kind == kTrailer) {
-      if (at + 1 != file.size()) throw Error(fmt::format("continues after its end at byte {}", at));
+      if (at + 1 != file.size()) throw Error("continues after its end at byte {}", at);
       return count;
     }
     if (kind == kExtension) {
@@ -300,28 +299,11 @@ Size pictures_of_gif(const BinaryFile& file) {
       at = end_of_pieces(file, at + kDescriptor + palette(number(file, at + 9, 1)) + 1);
       ++count;
     } else {
-      throw Error(fmt::format("has no block at byte {}", at));
+      throw Error("has no block at byte {}", at);
     }
   }
   cut_short(file.size());
 }
-
-}  // namespace
-
-std::string film_fault(const std::filesystem::path& path, std::uint64_t pictures) {
-  try {
-    const BinaryFile file(path.string());
-    const auto ending = path.extension();
-    const Size found = ending == ".gif"                        ? pictures_of_gif(file)
-                       : ending == ".mkv" || ending == ".webm" ? pictures_of_matroska(file)
-                                                               : pictures_of_mp4(file);
-    return found == pictures ? "" : fmt::format("holds {} of {} pictures", found, pictures);
-  } catch (const Error& error) {
-    return error.what();
-  }
-}
-
-namespace {
 
 std::string pixel_format(const FilmPixels& pixels) {
   return fmt::format("rgb{}{}", pixels.channels == 4 ? "a" : "",
@@ -356,13 +338,26 @@ void await_end(pid_t process) {
 
 }  // namespace
 
+std::string film_fault(const std::filesystem::path& path, std::uint64_t pictures) {
+  try {
+    const BinaryFile file(path.string());
+    const auto ending = path.extension();
+    const Size found = ending == ".gif"                        ? pictures_of_gif(file)
+                       : ending == ".mkv" || ending == ".webm" ? pictures_of_matroska(file)
+                                                               : pictures_of_mp4(file);
+    return found == pictures ? "" : fmt::format("holds {} of {} pictures", found, pictures);
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
 void check_film_size(const FilmEncoder& encoder, glm::ivec2 size) {
   if (size.x < encoder.least.x || size.y < encoder.least.y)
-    throw UsageError(fmt::format("--size {}x{}: a film of this codec has at least {}x{}", size.x, size.y,
-                                 encoder.least.x, encoder.least.y));
+    throw UsageError("--size {}x{}: a film of this codec has at least {}x{}", size.x, size.y, encoder.least.x,
+                     encoder.least.y);
   if (size.x % encoder.unit.x == 0 && size.y % encoder.unit.y == 0) return;
-  throw UsageError(fmt::format("--size {}x{}: this film needs {}; one with --chroma 444 does not", size.x, size.y,
-                               encoder.unit.y == 1 ? "an even width" : "even numbers"));
+  throw UsageError("--size {}x{}: this film needs {}; one with --chroma 444 does not", size.x, size.y,
+                   encoder.unit.y == 1 ? "an even width" : "even numbers");
 }
 
 FilmWriter::FilmWriter(const std::string& path, Existing existing, glm::ivec2 size, double frames_per_second,
@@ -397,9 +392,10 @@ FilmWriter::FilmWriter(const std::string& path, Existing existing, glm::ivec2 si
   if (error == 0) return;
   ::close(pictures_);
   ::close(complaints_);
-  throw OutputError(path, fmt::format("films need the program ffmpeg, which cannot be started: {}; install it, or "
-                                      "write pictures: frame_#####.png",
-                                      std::strerror(error)));
+  throw OutputError(path,
+                    "films need the program ffmpeg, which cannot be started: {}; install it, or "
+                    "write pictures: frame_#####.png",
+                    std::strerror(error));
 }
 
 FilmWriter::~FilmWriter() {

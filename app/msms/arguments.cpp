@@ -32,7 +32,7 @@ class Words {
     return word;
   }
   std::string_view value_of(std::string_view option, std::string_view what) {
-    if (empty()) throw UsageError(fmt::format("-{}: a value is missing; give {}", option, what));
+    if (empty()) throw UsageError("-{}: a value is missing; give {}", option, what);
     return next();
   }
   double number_of(std::string_view option, double least, double most) {
@@ -40,7 +40,7 @@ class Words {
     const std::string_view word = value_of(option, what);
     double number = 0.0;
     if (!parse_number(word, number) || !(number >= least && number <= most))
-      throw UsageError(fmt::format("-{} {}: give {}", option, in_quotes(word), what));
+      throw UsageError("-{} {}: give {}", option, in_quotes(word), what);
     return number;
   }
   std::int64_t whole_number_of(std::string_view option, std::int64_t least, std::int64_t most) {
@@ -48,7 +48,7 @@ class Words {
     const std::string_view word = value_of(option, what);
     std::int64_t number = 0;
     if (!parse_whole_number(word, number) || number < least || number > most)
-      throw UsageError(fmt::format("-{} {}: give {}", option, in_quotes(word), what));
+      throw UsageError("-{} {}: give {}", option, in_quotes(word), what);
     return number;
   }
 
@@ -64,7 +64,7 @@ struct Option {
 void ignore(Arguments&, std::string_view, Words&) {}
 
 [[noreturn]] void refuse(Arguments&, std::string_view name, Words&) {
-  throw UsageError(fmt::format("-{} is not supported; a server is started by -socketPort NUMBER", name));
+  throw UsageError("-{} is not supported; a server is started by -socketPort NUMBER", name);
 }
 
 void take_cavity(Arguments& arguments, std::string_view name, Words& words) {
@@ -76,14 +76,13 @@ void take_cavity(Arguments& arguments, std::string_view name, Words& words) {
 
 void take_surface(Arguments& arguments, std::string_view name, Words& words) {
   const std::string_view kind = words.value_of(name, "tses or ases");
-  if (kind != "tses" && kind != "ases")
-    throw UsageError(fmt::format("-{} {}: give tses or ases", name, in_quotes(kind)));
+  if (kind != "tses" && kind != "ases") throw UsageError("-{} {}: give tses or ases", name, in_quotes(kind));
   arguments.mesh = kind == "tses";
 }
 
 void take_file(std::string& file, std::string_view name, Words& words) {
   file = words.value_of(name, "the name of a file");
-  if (file.empty()) throw UsageError(fmt::format("-{}: the name is empty", name));
+  if (file.empty()) throw UsageError("-{}: the name is empty", name);
 }
 
 constexpr std::array kOptions{
@@ -120,8 +119,8 @@ const Option& option_of(std::string_view word) {
   names.reserve(kOptions.size());
   for (const Option& option : kOptions) names.push_back(option.name);
   const std::string_view nearest = nearest_word(name, names);
-  throw UsageError(fmt::format("{} is not an option{}; -h lists all", in_quotes(word),
-                               nearest.empty() ? "" : fmt::format(" (did you mean -{}?)", nearest)));
+  throw UsageError("{} is not an option{}; -h lists all", in_quotes(word),
+                   nearest.empty() ? "" : fmt::format(" (did you mean -{}?)", nearest));
 }
 
 }  // namespace
@@ -139,7 +138,7 @@ Arguments parse_arguments(std::span<const char* const> given) {
       arguments.help = true;
       return arguments;
     }
-    if (word.front() != '-') throw UsageError(fmt::format("{} belongs to no option; -h lists all", in_quotes(word)));
+    if (word.front() != '-') throw UsageError("{} belongs to no option; -h lists all", in_quotes(word));
     const Option& option = option_of(word);
     option.take(arguments, option.name, words);
   }
@@ -226,11 +225,10 @@ std::uint32_t ChosenSurface::component_touching(const std::vector<std::uint32_t>
   }
   const bool known = wanted.size() == numbers.size();
   if (!known || (!cavity && !outer))
-    throw InputError(
-        spheres.rows.file, 0,
-        fmt::format("find_first_rs_face: no position of the probe touches the spheres {} of -one_cavity; they "
-                    "are numbered from 0 to {}",
-                    fmt::join(numbers, ", "), spheres.rows.count - 1));
+    throw InputError(spheres.rows.file, 0,
+                     "find_first_rs_face: no position of the probe touches the spheres {} of -one_cavity; they "
+                     "are numbered from 0 to {}",
+                     fmt::join(numbers, ", "), spheres.rows.count - 1);
   return cavity ? *cavity : *outer;
 }
 
@@ -243,9 +241,9 @@ std::vector<ReducedComponentSize> ChosenSurface::sizes() const {
 
 std::vector<AtomAreas> ChosenSurface::areas() const {
   if (chosen_.size() * computed_.surface.atoms.size() > kMostAreas)
-    throw CapacityError(fmt::format(
+    throw CapacityError(
         "the areas of {} spheres in {} components are too many for one table; leave -af or -all_components out",
-        computed_.surface.atoms.size(), chosen_.size()));
+        computed_.surface.atoms.size(), chosen_.size());
   // All other components form one group, after the selected ones.
   const auto others = static_cast<std::uint32_t>(chosen_.size());
   std::vector<std::uint32_t> group(computed_.components.count, others);

@@ -30,17 +30,16 @@ Spheres spheres_of(std::vector<Ball> balls, std::vector<std::string> names, cons
   for (std::uint32_t n = 0; n < balls.size(); ++n) {
     if (!within_limits(balls[n]))
       throw InputError(file, 0,
-                       fmt::format("sphere {} is {} {} {} {}; coordinates of at most {} Å and a radius from 0 to {} Å "
-                                   "are read",
-                                   n + 1, balls[n].center.x, balls[n].center.y, balls[n].center.z, balls[n].radius,
-                                   kLargestCoordinate, kLargestRadius));
+                       "sphere {} is {} {} {} {}; coordinates of at most {} Å and a radius from 0 to {} Å "
+                       "are read",
+                       n + 1, balls[n].center.x, balls[n].center.y, balls[n].center.z, balls[n].radius,
+                       kLargestCoordinate, kLargestRadius);
     if (balls[n].radius == 0) continue;
     spheres.balls.push_back(balls[n]);
     spheres.rows.of_atom.push_back(n);
   }
   if (spheres.balls.empty())
-    throw InputError(file, 0,
-                     fmt::format("holds no sphere with a radius above 0, of {}; there is no surface", balls.size()));
+    throw InputError(file, 0, "holds no sphere with a radius above 0, of {}; there is no surface", balls.size());
   const auto [smallest, largest] =
       std::minmax_element(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) { return a.radius < b.radius; });
   spheres.smallest_radius = smallest->radius;
@@ -65,17 +64,16 @@ void leave_out_hydrogens(Spheres& spheres) {
   spheres.balls.resize(kept);
   spheres.rows.of_atom.resize(kept);
   if (kept == 0)
-    throw InputError(spheres.rows.file, 0,
-                     fmt::format("holds no sphere but those of radius {} Å, which -noh leaves out", kHydrogenRadius));
+    throw InputError(spheres.rows.file, 0, "holds no sphere but those of radius {} Å, which -noh leaves out",
+                     kHydrogenRadius);
 }
 
 Spheres read_spheres(const std::string& file) {
   const TextFile text = read_text_file(file);
   for (const Reader* reader : readers())
     if (!kXyzrReader.recognizes(text.text) && reader->recognizes(text.text))
-      throw InputError(text.path, 0,
-                       fmt::format("is {}, not a list of spheres; convert it: meniscus-pdb_to_xyzr {} > balls.xyzr",
-                                   reader->metadata.name, shell_word(text.path)));
+      throw InputError(text.path, 0, "is {}, not a list of spheres; convert it: meniscus-pdb_to_xyzr {} > balls.xyzr",
+                       reader->metadata.name, shell_word(text.path));
   FileContents contents = kXyzrReader.read(text, {});
   std::vector<Ball> balls;
   std::vector<std::string> names;

@@ -29,16 +29,15 @@ constexpr const char* kClient = "the client of -socketPort";
 LocalSocket listening_on(std::uint16_t port) {
   std::optional<LocalSocket> listener = LocalSocket::listening_on(port);
   if (!listener)
-    throw UsageError(
-        fmt::format("-socketPort {}: the port is not available: {}; try another", port, LocalSocket::last_error()));
+    throw UsageError("-socketPort {}: the port is not available: {}; try another", port, LocalSocket::last_error());
   return std::move(*listener);
 }
 
 LocalSocket first_client(const LocalSocket& listener) {
   if (!listener.has_caller(kWaitForClient))
-    throw InputError(kClient, 0, fmt::format("did not come within {} s", kWaitForClient / 1000));
+    throw InputError(kClient, 0, "did not come within {} s", kWaitForClient / 1000);
   std::optional<LocalSocket> client = listener.caller(kWaitForBlock);
-  if (!client) throw InputError(kClient, 0, fmt::format("is gone again: {}", LocalSocket::last_error()));
+  if (!client) throw InputError(kClient, 0, "is gone again: {}", LocalSocket::last_error());
   return std::move(*client);
 }
 
@@ -48,7 +47,7 @@ void receive(const LocalSocket& client, std::span<T, kExtent> values) {
   while (!bytes.empty()) {
     const std::ptrdiff_t got = client.receive(bytes);
     if (got == 0) throw InputError(kClient, 0, "closed the connection before it had sent all");
-    if (got < 0) throw InputError(kClient, 0, fmt::format("stopped sending: {}", LocalSocket::last_error()));
+    if (got < 0) throw InputError(kClient, 0, "stopped sending: {}", LocalSocket::last_error());
     bytes = bytes.subspan(static_cast<std::size_t>(got));
   }
 }
@@ -56,7 +55,7 @@ void receive(const LocalSocket& client, std::span<T, kExtent> values) {
 void send(const LocalSocket& client, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const std::ptrdiff_t sent = client.send(bytes);
-    if (sent <= 0) throw OutputError(kClient, fmt::format("stopped receiving: {}", LocalSocket::last_error()));
+    if (sent <= 0) throw OutputError(kClient, "stopped receiving: {}", LocalSocket::last_error());
     bytes = bytes.subspan(static_cast<std::size_t>(sent));
   }
 }
@@ -81,11 +80,10 @@ Spheres receive_spheres(const LocalSocket& client, Arguments& arguments) {
   arguments.probe_radius = probe_and_density[0];
   arguments.density = probe_and_density[1];
   if (!is_probe_radius(arguments.probe_radius) || !is_density(arguments.density))
-    throw InputError(
-        kClient, 0,
-        fmt::format("asks for a probe of {} Å and {} vertices per Å²", probe_and_density[0], probe_and_density[1]));
+    throw InputError(kClient, 0, "asks for a probe of {} Å and {} vertices per Å²", probe_and_density[0],
+                     probe_and_density[1]);
   if (numbers[2] < 1 || static_cast<std::size_t>(numbers[2]) > kMostSpheres)
-    throw InputError(kClient, 0, fmt::format("announces {} spheres; 1 to {} are read", numbers[2], kMostSpheres));
+    throw InputError(kClient, 0, "announces {} spheres; 1 to {} are read", numbers[2], kMostSpheres);
   const auto count = static_cast<std::size_t>(numbers[2]);
   std::vector<Ball> balls;
   for (std::vector<SentSphere> part; balls.size() < count;) {
@@ -120,21 +118,6 @@ void send_mesh(const LocalSocket& client, const MsmsMesh& mesh, const Spheres& s
   send(client, rows);
   send(client, "MSMS END\n");
 }
-
-}  // namespace
-
-void serve(std::uint16_t port) {
-  const LocalSocket listener = listening_on(port);
-  const LocalSocket client = first_client(listener);
-  send(client, "MSMS of meniscus-msms " MENISCUS_VERSION "\n");
-  Arguments arguments;
-  const Spheres spheres = receive_spheres(client, arguments);
-  ChosenSurface surface(arguments, spheres);
-  surface.triangulate();
-  send_mesh(client, surface.mesh(0), spheres);
-}
-
-namespace {
 
 /// The version of MSMS with these files and lines.
 constexpr const char* kAnswersAs = "2.6.1";
@@ -260,6 +243,17 @@ ExitCode run(std::span<const char* const> words) {
 }
 
 }  // namespace
+
+void serve(std::uint16_t port) {
+  const LocalSocket listener = listening_on(port);
+  const LocalSocket client = first_client(listener);
+  send(client, "MSMS of meniscus-msms " MENISCUS_VERSION "\n");
+  Arguments arguments;
+  const Spheres spheres = receive_spheres(client, arguments);
+  ChosenSurface surface(arguments, spheres);
+  surface.triangulate();
+  send_mesh(client, surface.mesh(0), spheres);
+}
 
 }  // namespace meniscus::msms
 

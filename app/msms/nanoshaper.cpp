@@ -47,8 +47,7 @@ struct Value {
   std::string_view key, text;
 
   [[noreturn]] void refuse(const std::string& instead) const {
-    throw InputError(file.path, static_cast<int>(line),
-                     fmt::format("{} is {}; give {}", key, in_quotes(text), instead));
+    throw InputError(file.path, static_cast<int>(line), "{} is {}; give {}", key, in_quotes(text), instead);
   }
   double number(double least, double most) const {
     double value = 0.0;
@@ -164,13 +163,12 @@ void take(const Value& value, ShaperSettings& settings) {
 ShaperSettings read_shaper_settings(const std::string& path) {
   const TextFile file = read_text_file(path, kLargestSettings);
   ShaperSettings settings;
-  LineReader lines(file.text);
+  LineReader lines(file);
   for (std::string_view line; lines.next(line);) {
     line = trimmed(line);
     if (line.empty() || line.front() == '#' || line.front() == '%') continue;
     const std::size_t equals = line.find('=');
-    if (equals == std::string_view::npos)
-      throw InputError(file.path, lines.number(), fmt::format("{} is not of the form key = value", in_quotes(line)));
+    if (equals == std::string_view::npos) throw lines.error("{} is not of the form key = value", in_quotes(line));
     take({file, lines.number(), trimmed(line.substr(0, equals)), trimmed(line.substr(equals + 1))}, settings);
   }
   if (settings.spheres.empty()) throw InputError(file.path, 0, "has no XYZR_FileName, the file of spheres; add it");

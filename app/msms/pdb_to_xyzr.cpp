@@ -41,7 +41,7 @@ Request parse(std::span<const char* const> words, bool named) {
     } else if (word == "--help") {
       request.help = true;
     } else if (has_file || (word.size() > 1 && word.front() == '-')) {
-      throw UsageError(fmt::format("{} is not understood; see --help", in_quotes(word)));
+      throw UsageError("{} is not understood; see --help", in_quotes(word));
     } else {
       request.file = word;
       has_file = true;

@@ -4,11 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string_view>
-#include <vector>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "core/base/text.h"
 #include "core/properties/properties.h"

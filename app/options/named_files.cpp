@@ -3,13 +3,6 @@
 #include "app/options/named_files.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "app/options/command_tree.h"
 #include "app/process/program_main.h"
@@ -122,8 +115,8 @@ void NamedFiles::check() const {
   for (std::size_t a = 0; a < outputs_.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
       if (outputs_[a].first != outputs_[b].first && can_be_one_file(outputs_[a].second, outputs_[b].second))
-        throw UsageError(fmt::format("{} and {} name the same file, {}; choose two", outputs_[b].first,
-                                     outputs_[a].first, in_quotes(outputs_[a].second)));
+        throw UsageError("{} and {} name the same file, {}; choose two", outputs_[b].first, outputs_[a].first,
+                         in_quotes(outputs_[a].second));
 }
 
 }  // namespace meniscus

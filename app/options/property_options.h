@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The properties that a command takes, options for them, and a scene as options of a command line.
+// The properties that a command takes, options for them, a scene as options of a command line, and the keys of scene
+// files for people and for editors of JSON.
 #pragma once
 
-#include <concepts>
-#include <functional>
-#include <initializer_list>
-#include <optional>
 #include <set>
-#include <span>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -143,5 +135,12 @@ std::vector<std::string> render_words(const Scene& scene);
 
 /// Returns the words as one line for a shell, quoted if necessary.
 std::string shell_line(std::span<const std::string> words);
+
+/// Returns the page `meniscus help scenes`.
+std::string scene_help();
+
+/// Returns a JSON schema (draft 2020-12) of scene files, ending with a newline. docs/reference/scene.schema.json has
+/// the same text.
+std::string scene_schema();
 
 }  // namespace meniscus

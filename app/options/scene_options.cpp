@@ -3,18 +3,11 @@
 // line.
 #include "app/options/scene_options.h"
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdlib>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
-#include <utility>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "app/film/film.h"
@@ -31,11 +24,10 @@
 #include "core/color/color_maps.h"
 #include "core/image/png_file.h"
 #include "core/mesh/tessellate.h"
-#include "core/scene/scene_paths.h"
+#include "core/scene/scene_json.h"
 #include "core/scene/scene_values.h"
 #include "core/structure/formats/structure_formats.h"
 #include "exporters/mesh_files/mesh_formats.h"
-#include "exporters/mesh_files/vertex_numbers.h"
 
 namespace meniscus {
 namespace {
@@ -260,10 +252,9 @@ void SceneOptions::check_inputs() const {
       std::error_code ignored;
       if (path == "-" || std::filesystem::exists(path_of_text(path), ignored)) continue;
       if (typed(property->key) || file_.empty()) BinaryFile(path, Contents::atoms);
-      throw InputError(
-          file_, 0,
-          fmt::format("scene: {} is {}, but there is no such file, nor one of this name in the working folder",
-                      property->key, in_quotes(path)));
+      throw InputError(file_, 0,
+                       "scene: {} is {}, but there is no such file, nor one of this name in the working folder",
+                       property->key, in_quotes(path));
     }
   }
 }
@@ -322,8 +313,8 @@ void SceneOptions::take_setting(const SceneSetting& setting) {
   Scene alone;
   set_value(alone, property, setting.texts);
   if (!value_texts(alone, property).empty())
-    throw UsageError(fmt::format("{}: {}: {} cannot show that ({}); leave it out of the scene, or choose render",
-                                 escaped(file_), setting.place, command_path(command_), property.long_option()));
+    throw UsageError("{}: {}: {} cannot show that ({}); leave it out of the scene, or choose render", escaped(file_),
+                     setting.place, command_path(command_), property.long_option());
 }
 
 void SceneOptions::take(const std::vector<std::string>& named) {
@@ -429,10 +420,10 @@ void check_cost(const SceneCommand& command, const Scene& scene, glm::ivec2 size
   constexpr double kRaysPerHour = 6e9;  // per core, of a molecule that fills the picture
   const double rays = static_cast<double>(size.x) * size.y * scene.image.samples * scene.image.motion_blur;
   if (rays <= kMostRays || command.any_cost) return;
-  throw UsageError(fmt::format(
+  throw UsageError(
       "{} x {} pixels with {} rays each are {:.2g} rays, about {:.3g} hours of one processor core; make the picture "
       "smaller (--size), take fewer rays (--samples), or add --any-cost",
-      size.x, size.y, scene.image.samples * scene.image.motion_blur, rays, rays / kRaysPerHour));
+      size.x, size.y, scene.image.samples * scene.image.motion_blur, rays, rays / kRaysPerHour);
 }
 
 SceneOutput::SceneOutput(const SceneCommand& command) : command_(command) {
@@ -487,9 +478,9 @@ std::string read_scene_text(const std::string& file) {
   if (is_carrier)
     throw InputError(
         file, 0,
-        fmt::format("is a {} that carries no scene; pictures made with --no-provenance, frames of runs and pictures of "
-                    "other programs have none",
-                    extension == ".html" ? "page" : "picture"));
+        "is a {} that carries no scene; pictures made with --no-provenance, frames of runs and pictures of "
+        "other programs have none",
+        extension == ".html" ? "page" : "picture");
   return std::string(read_text_file(file, kLargestScene).text);
 }
 

@@ -2,18 +2,6 @@
 // Reads a scene from a command line and the scene file that it names.
 #pragma once
 
-#include <cstddef>
-#include <map>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-#include <CLI/CLI.hpp>
-
 #include "app/options/property_options.h"
 #include "core/base/output_file.h"
 #include "core/properties/properties.h"

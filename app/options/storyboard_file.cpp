@@ -2,10 +2,8 @@
 // Writes storyboard files, and reads them and their scenes.
 #include "app/options/storyboard_file.h"
 
-#include <cstddef>
 #include <filesystem>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
@@ -57,7 +55,7 @@ std::optional<std::string> scene_of_storyboard(const std::string& name) {
   if (!story || !parse_number(std::string_view(name).substr(end + 1), number)) return {};
   for (std::size_t n = 0; n < story->scenes.size(); ++n)
     if (number == static_cast<double>(n + 1)) return story->scenes[n];
-  throw InputError(name, 0, fmt::format("the storyboard has {} scenes", story->scenes.size()));
+  throw InputError(name, 0, "the storyboard has {} scenes", story->scenes.size());
 }
 
 }  // namespace meniscus

@@ -8,7 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/camera/camera_json.h"
-#include "core/scene/copied_atoms.h"
+#include "core/queries/copies.h"
 
 namespace meniscus {
 namespace {

@@ -25,7 +25,6 @@
 #include "core/properties/properties.h"
 #include "core/render/image_output.h"
 #include "core/scene/scene_json.h"
-#include "core/scene/scene_paths.h"
 #include "core/scene/scene_values.h"
 
 namespace meniscus {

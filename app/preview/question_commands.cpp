@@ -15,7 +15,7 @@
 #include "core/color/color_schemes.h"
 #include "core/color/ordered_classes.h"
 #include "core/properties/properties.h"
-#include "core/scene/copied_atoms.h"
+#include "core/queries/copies.h"
 #include "core/structure/element_tables.h"
 
 namespace meniscus {

@@ -89,8 +89,7 @@ int exit_code(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : kSi
 
 struct Pipe {
   Pipe() {
-    if (!system_process::make_pipe(ends))
-      throw CapacityError(fmt::format("no pipe to a child: {}", std::strerror(errno)));
+    if (!system_process::make_pipe(ends)) throw CapacityError("no pipe to a child: {}", std::strerror(errno));
   }
   ~Pipe() {
     for (const int end : ends)
@@ -122,7 +121,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
     pid_ = ::fork();
     if (pid_ == 0)
       become(program.c_str(), argv.data(), environment.data(), folder.c_str(), output.ends[1], report.ends[1], parent);
-    if (pid_ < 0) throw CapacityError(fmt::format("{} cannot be started: {}", arguments[0], std::strerror(errno)));
+    if (pid_ < 0) throw CapacityError("{} cannot be started: {}", arguments[0], std::strerror(errno));
     registry().running.push_back(pid_);
   }
   output.close_writing();
@@ -130,8 +129,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
   int error = 0;
   if (::read(report.ends[0], &error, sizeof error) == sizeof error) {
     wait();
-    throw InputError(arguments[0], 0,
-                     fmt::format("cannot be started: {}; is it installed, and in PATH?", std::strerror(error)));
+    throw InputError(arguments[0], 0, "cannot be started: {}; is it installed, and in PATH?", std::strerror(error));
   }
   output_ = std::exchange(output.ends[0], -1);
 }

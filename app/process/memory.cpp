@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads limits of the system and its control groups, and remembers when memory was short.
-#include "app/process/memory.h"
+#include "app/process/program_main.h"
 
 #include <algorithm>
 #include <atomic>

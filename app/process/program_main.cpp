@@ -9,7 +9,6 @@
 #include <sstream>
 #include <system_error>
 
-#include "app/process/memory.h"
 #include "app/process/system_process.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
@@ -77,9 +76,19 @@ void stop(int signal) {
   system_process::end(exit_code.value_or(128 + signal));
 }
 
-}  // namespace
-
+/// From this call on, SIGINT, SIGTERM, SIGHUP and SIGUSR1 remove unfinished files before the program ends, as the
+/// signal would have ended it. SIGXFSZ is ignored, so that a file too large is an OutputError. Call it once, before
+/// other threads are started.
 void clean_up_on_signals() { system_process::await_stop(stop); }
+
+namespace fs = std::filesystem;
+
+std::string& remembered() {
+  static std::string line;
+  return line;
+}
+
+}  // namespace
 
 std::unique_lock<std::mutex> hold_stops() { return std::unique_lock(handling().mutex); }
 
@@ -92,17 +101,6 @@ StopHandler::~StopHandler() {
   const auto held = hold_stops();
   std::erase_if(handling().all, [this](const Registered& one) { return one.handler == this; });
 }
-
-namespace {
-
-namespace fs = std::filesystem;
-
-std::string& remembered() {
-  static std::string line;
-  return line;
-}
-
-}  // namespace
 
 std::filesystem::path addon_folder() {
   std::error_code none;

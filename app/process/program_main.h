@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The frame of each of our programs: its exit codes, first and last steps, signals that stop it, version and command
-// line.
+// line, and its memory: how much it may use, and what happens when it runs out.
 #pragma once
 
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <istream>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -34,7 +36,9 @@ ExitCode exit_code_of(const std::exception& error);
 /// The error of a run of frames if some failed, or if its trajectory was cut short.
 class RunError : public Error {
  public:
-  RunError(ExitCode code, const std::string& message) : Error(message), code_(code) {}
+  template <typename... Values>
+  RunError(ExitCode code, fmt::format_string<Values...> text, Values&&... values)
+      : Error(fmt::format(text, std::forward<Values>(values)...)), code_(code) {}
   ExitCode code() const { return code_; }
 
  private:
@@ -46,11 +50,6 @@ class UsageError : public RequestError {
  public:
   using RequestError::RequestError;
 };
-
-/// From this call on, SIGINT, SIGTERM, SIGHUP and SIGUSR1 remove unfinished files before the program ends, as the
-/// signal would have ended it. SIGXFSZ is ignored, so that a file too large is an OutputError. Call it once, before
-/// other threads are started.
-void clean_up_on_signals();
 
 /// While a StopHandler lives, these signals call its `stop` first, on a separate thread, and the program ends with its
 /// `exit_code`, if that is given. Younger handlers are called first, and the exit code of the youngest counts.
@@ -93,5 +92,35 @@ void finish_standard_output();
 /// exception leaves the work, its line on standard error begins with `name`, and the exit code is that of the
 /// exception. The text of `name` must live as long as the program.
 int program_main(const char* name, const std::function<ExitCode()>& work);
+
+/// Returns the memory of the machine in bytes, or less where a control group of a batch system or container allows
+/// less.
+std::uint64_t memory_size();
+
+/// Returns the smallest limit, in bytes, of control groups and of the groups around them; UINT64_MAX if there is no
+/// limit. Lines of /proc/PID/cgroup name the groups (NUMBER:CONTROLLERS:/GROUP, cgroups(7)), which are mounted below
+/// the given folder.
+std::uint64_t memory_limit(std::istream& groups, const std::filesystem::path& mounted);
+
+/// Says that all libraries are loaded. Libraries do not survive a limit of memory or threads: some crash while they are
+/// loaded, others wait for ever for a thread that could not be started. Under such a limit, and only then, either ends
+/// in a line on standard error and exit code 5; the wait is watched until this call at the beginning of main().
+void libraries_are_loaded();
+
+/// True if there is such a limit.
+bool memory_is_limited();
+
+/// From this call on, a `new` that gets no memory is remembered; it throws std::bad_alloc as ever. Call it at the
+/// beginning of main().
+void remember_failed_allocations();
+
+/// True if a `new` got no memory since then. Requests of C libraries are not counted.
+bool memory_ran_out() noexcept;
+
+/// After this call freed memory stays with the process, and tables of less than 32 MiB are taken from it. Larger tables
+/// go back to the system at once, so that the memory at the peak grows by a few per cent only. New memory costs a page
+/// fault for each 4 KiB, a tenth of the time of a small surface. The call has no effect with C libraries that lack such
+/// a setting.
+void keep_freed_memory();
 
 }  // namespace meniscus

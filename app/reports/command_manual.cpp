@@ -6,42 +6,21 @@
 #include "app/reports/command_manual.h"
 
 #include <algorithm>
-#include <cctype>
+#include <map>
 
-#include <fmt/format.h>
+#include "core/base/text.h"
 
 namespace meniscus {
 namespace {
 
 /// Escapes text for groff, which takes backslashes, hyphens, quotes and a few other characters for typography.
 std::string plain(std::string_view text) {
+  static const std::map<char, std::string_view> kEscapes{
+      {'\\', "\\e"}, {'-', "\\-"}, {'\'', "\\(aq"}, {'"', "\\(dq"}, {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"}};
   std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '\\':
-        result += "\\e";
-        break;
-      case '-':
-        result += "\\-";
-        break;
-      case '\'':
-        result += "\\(aq";
-        break;
-      case '"':
-        result += "\\(dq";
-        break;
-      case '`':
-        result += "\\(ga";
-        break;
-      case '^':
-        result += "\\(ha";
-        break;
-      case '~':
-        result += "\\(ti";
-        break;
-      default:
-        result += c;
-    }
+  for (const char& c : text) {
+    const auto escape = kEscapes.find(c);
+    result += escape == kEscapes.end() ? std::string_view(&c, 1) : escape->second;
   }
   // A line that begins with a dot would be a macro.
   return result.starts_with('.') ? "\\&" + result : result;
@@ -60,14 +39,9 @@ std::string as_it_is(std::string_view text) {
   return result + ".fi\n";
 }
 
-std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
 std::string heading(std::string_view name, std::string_view section, std::string_view summary,
                     const ManMargins& margins) {
-  return fmt::format(".TH {} {} {} \"{}\" Meniscus\n.SH NAME\n{} \\- {}\n", plain(upper(std::string(name))), section,
+  return fmt::format(".TH {} {} {} \"{}\" Meniscus\n.SH NAME\n{} \\- {}\n", plain(upper_case(name)), section,
                      margins.date, plain(margins.version), plain(name), plain(summary));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Manual pages and completion scripts of commands.
+// Manual pages and completion scripts of commands, and the pages of the manual, which are compiled into the program.
 #pragma once
 
 #include "app/options/command_tree.h"
@@ -33,5 +33,25 @@ std::string zsh_completion(const CommandEntry& program);
 
 /// Returns a script to be put into a folder of fish's completions as NAME.fish.
 std::string fish_completion(const CommandEntry& program);
+
+/// A page of the manual.
+struct ManualPage {
+  std::string_view path;  ///< below docs: "how-to/figures.md"
+  std::string_view markdown;
+
+  /// Returns the name by which users request the page: "figures".
+  constexpr std::string_view name() const {
+    const std::string_view file = path.substr(path.rfind('/') + 1);
+    return file.substr(0, file.rfind('.'));
+  }
+  /// Returns the page's first heading.
+  constexpr std::string_view title() const {
+    const std::string_view line = markdown.substr(0, markdown.find('\n'));
+    return line.substr(line.find_first_not_of("# ") == line.npos ? line.size() : line.find_first_not_of("# "));
+  }
+};
+
+/// Returns all pages, by path.
+std::span<const ManualPage> manual_pages();
 
 }  // namespace meniscus

@@ -5,7 +5,6 @@
 #include "core/base/output_file.h"
 #include "core/queries/cavity_tracks.h"
 #include "core/queries/surface_object.h"
-#include "core/scene/area_columns.h"
 #include "core/scene/molecule.h"
 #include "core/structure/structure.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes pockets as tables and JSON, looks for hints to give, and colours the atoms around pockets.
+// Finds the pockets of molecules, writes them as tables and JSON, looks for hints to give, and colours the atoms around
+// them.
 #include "app/reports/pocket_report.h"
 
 #include <iterator>
@@ -9,10 +10,70 @@
 #include <nlohmann/json.hpp>
 
 #include "app/reports/csv_tables.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/named_colors.h"
+#include "core/pockets/pockets.h"
 
 namespace meniscus {
+namespace {
+
+SurfaceRequest with_probe(SurfaceRequest computing, double probe_radius) {
+  computing.kind = SurfaceKind::ses;
+  computing.probe_radius = probe_radius;
+  computing.planes = ClipPlanes::listed;  // because parts are cut out by planes
+  return computing;
+}
+
+void renumber(std::vector<std::uint32_t>& atoms, const std::vector<std::uint32_t>& number) {
+  for (std::uint32_t& a : atoms)
+    if (a != kNone) a = number[a];
+}
+
+std::vector<LeftOutResidue> residues_of(const Structure& structure, const std::vector<bool>& left_out,
+                                        const Pockets& found) {
+  const PocketLocator pocket_of(found);
+  std::vector<LeftOutResidue> residues;
+  for (std::uint32_t a = 0; a < left_out.size(); ++a) {
+    if (!left_out[a]) continue;
+    const Atom& atom = structure.atoms[a];
+    if (residues.empty() || structure.atoms[residues.back().first_atom].residue != atom.residue)
+      residues.push_back({a, 0, std::vector<std::size_t>(found.pockets.size(), 0)});
+    ++residues.back().atoms;
+    if (const auto pocket = pocket_of(atom.position)) ++residues.back().in_pocket[*pocket];
+  }
+  return residues;
+}
+
+}  // namespace
+
+PocketComputer::PocketComputer(SurfaceRequest computing, const PocketRequest& request)
+    : request_(request),
+      small_(with_probe(computing, request.probe_radius)),
+      large_(with_probe(computing, request.large_probe_radius)) {}
+
+MoleculePockets PocketComputer::compute(const Structure& structure, const std::vector<bool>& left_out) {
+  std::vector<Ball> balls;
+  std::vector<std::uint32_t> number;
+  for (std::uint32_t a = 0; a < structure.atoms.size(); ++a) {
+    if (!left_out.empty() && left_out[a]) continue;
+    balls.push_back({structure.atoms[a].position, structure.atoms[a].radius});
+    number.push_back(a);
+  }
+  if (balls.empty()) throw RequestError("{}: no atoms are left to form pockets", structure.file);
+  MoleculePockets result;
+  result.atom_count = balls.size();
+  result.found = find_pockets(balls, request_, [this](std::span<const Ball> atoms, double probe_radius) {
+    return (probe_radius == request_.large_probe_radius ? large_ : small_).compute(atoms);
+  });
+  for (Pocket& pocket : result.found.pockets) {
+    renumber(pocket.cavity.atoms, number);
+    renumber(pocket.atom, number);
+  }
+  result.left_out = residues_of(structure, left_out, result.found);
+  return result;
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -252,19 +313,6 @@ std::string filling_chains(const PocketReport& report) {
       fmt::join(chains, ", "), selection);
 }
 
-}  // namespace
-
-std::vector<std::string> pocket_hints(const PocketReport& report) {
-  std::vector<std::string> hints;
-  for (std::string hint : {unplaced_ligands(report), filling_chains(report)})
-    if (!hint.empty()) hints.push_back(std::move(hint));
-  return hints;
-}
-
-namespace {
-
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kOfOthers = "#d9d9d9";
 
 /// Returns a rule for --color.
@@ -275,6 +323,13 @@ std::string rule_of(const Structure& structure, const Pocket& pocket, std::size_
 }
 
 }  // namespace
+
+std::vector<std::string> pocket_hints(const PocketReport& report) {
+  std::vector<std::string> hints;
+  for (std::string hint : {unplaced_ligands(report), filling_chains(report)})
+    if (!hint.empty()) hints.push_back(std::move(hint));
+  return hints;
+}
 
 std::string pocket_figure(const PocketReport& report, const std::string& scene, const std::string& left_out) {
   Json figure = Json::parse(scene);

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "app/options/scene_options.h"
-#include "app/process/memory.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/ordered_jobs.h"
@@ -234,18 +233,15 @@ void run_frames(FrameRun& frames, const SceneCommand& command, std::vector<Frame
   }
   progress.end();
   log_faults(command, empty, unlabelled);
-  if (failures.count > 0) {
-    throw RunError(failures.code,
-                   fmt::format("{} of {} frames failed; the first, frame {}: {}", with_thousands(failures.count),
-                               with_thousands(frames.chunk().size()), failures.frame, failures.message));
-  }
+  if (failures.count > 0)
+    throw RunError(failures.code, "{} of {} frames failed; the first, frame {}: {}", with_thousands(failures.count),
+                   with_thousands(frames.chunk().size()), failures.frame, failures.message);
   const Trajectory& trajectory = frames.trajectory();
   const bool reaches_end = std::ranges::any_of(
       frames.chunk(), [&](std::uint64_t number) { return frames.source(number) + 1 == trajectory.frame_count(); });
-  if (!trajectory.cut_short().empty() && reaches_end) {
-    throw RunError(kExitIncomplete, fmt::format("{}: {}; every whole frame asked for is done", trajectory.path(),
-                                                trajectory.cut_short()));
-  }
+  if (!trajectory.cut_short().empty() && reaches_end)
+    throw RunError(kExitIncomplete, "{}: {}; every whole frame asked for is done", trajectory.path(),
+                   trajectory.cut_short());
 }
 
 }  // namespace meniscus

@@ -6,7 +6,6 @@
 
 #include "app/reports/csv_tables.h"
 #include "core/queries/surface_parts.h"
-#include "core/scene/area_columns.h"
 #include "core/scene/molecule.h"
 #include "core/structure/selection/selection.h"
 

@@ -37,12 +37,10 @@ BinaryFile::BinaryFile(const std::string& path, Contents contents) : path_(path)
   std::optional<State> state = system_file::state_of(file);
   if (!state) unreadable(path, errno);
   if (state->kind == State::Kind::folder)
-    throw InputError(path, 0,
-                     fmt::format("is a folder; give the name of a {} file", atoms ? "molecule" : "trajectory"));
+    throw InputError(path, 0, "is a folder; give the name of a {} file", atoms ? "molecule" : "trajectory");
   if (state->kind != State::Kind::file)
-    throw InputError(path, 0,
-                     fmt::format("is a pipe or device; save it as a file first{}",
-                                 atoms ? ", or give - to read standard input" : ""));
+    throw InputError(path, 0, "is a pipe or device; save it as a file first{}",
+                     atoms ? ", or give - to read standard input" : "");
   descriptor_ = system_file::open_to_read(file);
   if (descriptor_ < 0 || !(state = system_file::state_of(descriptor_))) {
     const int error = errno;
@@ -52,7 +50,7 @@ BinaryFile::BinaryFile(const std::string& path, Contents contents) : path_(path)
   size_ = current_size_ = state->size;
   modified_ = current_modified_ = state->modified;
   try {
-    if (size_ == 0) throw InputError(path, 0, fmt::format("is empty: no {}", atoms ? "atoms" : "frames"));
+    if (size_ == 0) throw InputError(path, 0, "is empty: no {}", atoms ? "atoms" : "frames");
     tail_ = last_bytes();
   } catch (...) {
     system_file::close(descriptor_);
@@ -63,15 +61,12 @@ BinaryFile::BinaryFile(const std::string& path, Contents contents) : path_(path)
 BinaryFile::~BinaryFile() { system_file::close(descriptor_); }
 
 void BinaryFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
-  if (offset > size_ || bytes.size() > size_ - offset) {
-    throw InputError(path_, 0,
-                     fmt::format("is cut short or damaged: it ends at byte {}, but {} bytes at byte {} are needed",
-                                 with_thousands(size_), with_thousands(bytes.size()), with_thousands(offset)));
-  }
+  if (offset > size_ || bytes.size() > size_ - offset)
+    throw InputError(path_, 0, "is cut short or damaged: it ends at byte {}, but {} bytes at byte {} are needed",
+                     with_thousands(size_), with_thousands(bytes.size()), with_thousands(offset));
   while (!bytes.empty()) {
     const std::ptrdiff_t count = system_file::read_at(descriptor_, bytes.data(), bytes.size(), offset);
-    if (count < 0)
-      throw InputError(path_, 0, fmt::format("cannot be read at byte {}: {}", offset, std::strerror(errno)));
+    if (count < 0) throw InputError(path_, 0, "cannot be read at byte {}: {}", offset, std::strerror(errno));
     if (count == 0) throw InputError(path_, 0, "became shorter while it was read; run again once it is complete");
     offset += static_cast<std::uint64_t>(count);
     bytes = bytes.subspan(static_cast<std::size_t>(count));

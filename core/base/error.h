@@ -6,12 +6,18 @@
 #include <string>
 #include <utility>
 
+#include <fmt/core.h>
+
 namespace meniscus {
 
-/// The base class of all errors that a user can meet. Bugs of Meniscus itself are found by asserts instead.
+/// The base class of all errors that a user can meet. Bugs of Meniscus itself are found by asserts instead. Errors take
+/// their text as it is, or format it by fmt::format() if values follow it.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+  template <typename First, typename... Values>
+  Error(fmt::format_string<First, Values...> text, First&& first, Values&&... values)
+      : std::runtime_error(fmt::format(text, std::forward<First>(first), std::forward<Values>(values)...)) {}
 };
 
 /// Input that cannot be read or is not valid. The text is "file:line: what is wrong, the value, what to do"; line 0
@@ -20,6 +26,10 @@ class InputError : public Error {
  public:
   InputError(const std::string& file, std::size_t line, const std::string& what)
       : Error((line ? file + ':' + std::to_string(line) : file) + ": " + what) {}
+  template <typename First, typename... Values>
+  InputError(const std::string& file, std::size_t line, fmt::format_string<First, Values...> text, First&& first,
+             Values&&... values)
+      : InputError(file, line, fmt::format(text, std::forward<First>(first), std::forward<Values>(values)...)) {}
 };
 
 /// A selection that cannot be understood. what() is a sentence, a line with the expression and a line with a caret
@@ -57,6 +67,9 @@ class CapacityError : public Error {
 class OutputError : public Error {
  public:
   OutputError(const std::string& path, const std::string& what) : Error(path + ": " + what) {}
+  template <typename First, typename... Values>
+  OutputError(const std::string& path, fmt::format_string<First, Values...> text, First&& first, Values&&... values)
+      : OutputError(path, fmt::format(text, std::forward<First>(first), std::forward<Values>(values)...)) {}
 };
 
 /// The surface cannot be closed, so that there is no surface. The message names the atoms.

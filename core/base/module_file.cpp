@@ -25,8 +25,7 @@ namespace fs = std::filesystem;
 void require_address_space(const ModuleFile& module) {
   void* const room = ::mmap(nullptr, module.room, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (room == MAP_FAILED)
-    throw CapacityError(
-        fmt::format("{} need {} MiB of address space more (ulimit -v)", module.purpose, module.room >> 20));
+    throw CapacityError("{} need {} MiB of address space more (ulimit -v)", module.purpose, module.room >> 20);
   ::munmap(room, module.room);
 }
 
@@ -48,12 +47,11 @@ void* load_from_module(const ModuleFile& module, const char* function) {
   if (address) return address;
   if (!handle && path == module.name)
     throw RequestError(
-        fmt::format("{} need {} next to the program, but it is missing; it is in the packages for Debian and in "
-                    "builds from source (meniscus help install)",
-                    module.purpose, module.name));
+        "{} need {} next to the program, but it is missing; it is in the packages for Debian and in "
+        "builds from source (meniscus help install)",
+        module.purpose, module.name);
   const char* const why = ::dlerror();
-  throw CapacityError(
-      fmt::format("{} need {}, which cannot be loaded: {}", module.purpose, module.name, why ? why : path.c_str()));
+  throw CapacityError("{} need {}, which cannot be loaded: {}", module.purpose, module.name, why ? why : path.c_str());
 }
 
 #else
@@ -61,14 +59,13 @@ void* load_from_module(const ModuleFile& module, const char* function) {
 namespace meniscus {
 
 void* load_from_module(const ModuleFile& module, const char*) {
-  throw Error(
-      fmt::format("{} are for the program meniscus: the library alone does not have {}", module.purpose, module.name));
+  throw Error("{} are for the program meniscus: the library alone does not have {}", module.purpose, module.name);
 }
 
 #endif
 
 void refuse_module(const ModuleFile& module) {
-  throw Error(fmt::format("{} belongs to another build; install it together with the program", module.name));
+  throw Error("{} belongs to another build; install it together with the program", module.name);
 }
 
 }  // namespace meniscus

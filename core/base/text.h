@@ -50,6 +50,10 @@ std::string wrapped(std::string_view text, std::size_t width, std::size_t indent
 /// Returns a number with separators: 5469 becomes "5,469".
 std::string with_thousands(std::uint64_t count);
 
+/// Return the text with all letters of ASCII in lower or in upper case.
+std::string lower_case(std::string_view text);
+std::string upper_case(std::string_view text);
+
 /// Returns the text quoted as one word of a POSIX shell. Any text is allowed.
 std::string shell_word(std::string_view text);
 

@@ -20,6 +20,10 @@
 namespace meniscus {
 namespace {
 
+[[noreturn]] void refuse_too_large(const std::string& path, std::size_t largest) {
+  throw CapacityError("{}: holds more than {} bytes, more than this program reads", path, with_thousands(largest));
+}
+
 constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 
 std::string read_bytes(const std::string& path, std::size_t largest) {
@@ -63,10 +67,9 @@ void refuse_long_lines(const std::string& path, std::string_view text) {
   std::size_t line = 1;
   for (std::size_t begin = 0; begin < text.size(); ++line) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    if (end - begin > kLongestLine) {
-      throw CapacityError(fmt::format("{}:{}: the line has {} bytes, more than {}; is this a molecule file?", path,
-                                      line, with_thousands(end - begin), with_thousands(kLongestLine)));
-    }
+    if (end - begin > kLongestLine)
+      throw CapacityError("{}:{}: the line has {} bytes, more than {}; is this a molecule file?", path, line,
+                          with_thousands(end - begin), with_thousands(kLongestLine));
     begin = end + 1;
   }
 }
@@ -92,9 +95,8 @@ TextFile text_of_bytes(const std::string& path, std::string bytes) {
   refuse_packed(path, text);
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     throw InputError(path, 0, "is UTF-16 text; save it as UTF-8 or ASCII");
-  if (const std::size_t nul = text.find('\0'); nul != std::string::npos) {
-    throw InputError(path, 0, fmt::format("is binary, not text: byte {} is zero; molecule files are text", nul));
-  }
+  if (const std::size_t nul = text.find('\0'); nul != std::string::npos)
+    throw InputError(path, 0, "is binary, not text: byte {} is zero; molecule files are text", nul);
   unify_line_ends(text);
   if (text.find_first_not_of(" \t\n\v\f") == std::string::npos) throw InputError(path, 0, "is empty: no atoms");
   refuse_long_lines(path, text);
@@ -195,27 +197,22 @@ bool parse_whole_number(std::string_view field, std::int64_t& number) {
 }
 
 double check_extent(const TextFile& file, std::size_t line, char axis, double coordinate) {
-  if (std::abs(coordinate) > kLargestCoordinate) {
-    throw InputError(file.path, line,
-                     fmt::format("coordinate {} is {} Å, beyond the extent of ±{} Å; is the unit right?", axis,
-                                 coordinate, kLargestCoordinate));
-  }
+  if (std::abs(coordinate) > kLargestCoordinate)
+    throw InputError(file.path, line, "coordinate {} is {} Å, beyond the extent of ±{} Å; is the unit right?", axis,
+                     coordinate, kLargestCoordinate);
   return coordinate;
 }
 
 void refuse_short_frame(const TextFile& file, std::size_t line, std::size_t count, std::size_t found) {
-  throw InputError(file.path, line,
-                   fmt::format("the count says {} atoms, but the file ends after {} of them; is it cut short?",
-                               with_thousands(count), with_thousands(found)));
+  throw InputError(file.path, line, "the count says {} atoms, but the file ends after {} of them; is it cut short?",
+                   with_thousands(count), with_thousands(found));
 }
 
 double parse_coordinate(const TextFile& file, std::size_t line, char axis, std::string_view field) {
   double number = 0.0;
-  if (!parse_number(field, number)) {
-    throw InputError(
-        file.path, line,
-        fmt::format("coordinate {} is {}, not a finite number; correct or remove the atom", axis, in_quotes(field)));
-  }
+  if (!parse_number(field, number))
+    throw InputError(file.path, line, "coordinate {} is {}, not a finite number; correct or remove the atom", axis,
+                     in_quotes(field));
   return check_extent(file, line, axis, number);
 }
 
@@ -227,17 +224,13 @@ bool try_parse_coordinate(std::string_view field, double unit, double& coordinat
 
 double parse_radius(const TextFile& file, std::size_t line, std::string_view field, std::string_view columns) {
   double radius = 0.0;
-  if (!parse_number(field, radius)) {
-    throw InputError(
-        file.path, line,
-        fmt::format("radius is {}, not a finite number; the expected line is: {}", in_quotes(field), columns));
-  }
-  if (radius < 0.0) throw InputError(file.path, line, fmt::format("radius is {} Å; it must not be negative", radius));
-  if (radius > kLargestRadius) {
-    throw InputError(
-        file.path, line,
-        fmt::format("radius is {} Å, above the limit of {} Å; is the unit right?", radius, kLargestRadius));
-  }
+  if (!parse_number(field, radius))
+    throw InputError(file.path, line, "radius is {}, not a finite number; the expected line is: {}", in_quotes(field),
+                     columns);
+  if (radius < 0.0) throw InputError(file.path, line, "radius is {} Å; it must not be negative", radius);
+  if (radius > kLargestRadius)
+    throw InputError(file.path, line, "radius is {} Å, above the limit of {} Å; is the unit right?", radius,
+                     kLargestRadius);
   return radius;
 }
 
@@ -272,8 +265,7 @@ std::string unpack_gzip(const std::string& path, const std::string& packed, std:
     } else if (state == Z_BUF_ERROR || (state == Z_OK && next == packed.size() && stream.avail_out > 0)) {
       throw InputError(path, 0, "is cut short: its gzip data ends too early; fetch it again");
     } else if (state != Z_OK) {
-      throw InputError(
-          path, 0, fmt::format("is damaged: gzip says '{}'; fetch it again", stream.msg ? stream.msg : "wrong data"));
+      throw InputError(path, 0, "is damaged: gzip says '{}'; fetch it again", stream.msg ? stream.msg : "wrong data");
     }
   }
 }

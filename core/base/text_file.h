@@ -37,10 +37,11 @@ inline constexpr int kDeepestJson = 64;
 /// True if arrays and objects are nested more than kDeepestJson levels deep. The text need not be valid JSON.
 bool is_nested_too_deep(std::string_view json);
 
-/// Reads a text line by line.
+/// Reads a text or a file line by line.
 class LineReader {
  public:
   explicit LineReader(std::string_view text) : rest_(text) {}
+  explicit LineReader(const TextFile& file) : rest_(file.text), path_(file.path) {}
 
   /// Reads the next line without its line end; false after the last one.
   bool next(std::string_view& line) {
@@ -56,8 +57,14 @@ class LineReader {
   bool only_blanks_left() const { return rest_.find_first_not_of(" \t\n") == std::string_view::npos; }
   std::size_t bytes_left() const { return rest_.size(); }  ///< after the line last read
 
+  /// Returns the error of the line of the file that was last read, with a text for fmt::format().
+  template <typename... Values>
+  InputError error(fmt::format_string<Values...> text, Values&&... values) const {
+    return {std::string(path_), number_, fmt::format(text, std::forward<Values>(values)...)};
+  }
+
  private:
-  std::string_view rest_;
+  std::string_view rest_, path_;
   std::size_t number_ = 0;
 };
 
@@ -111,12 +118,6 @@ bool parse_single(std::string_view field, float& number);
 /// than `largest` bytes.
 std::string unpack_gzip(const std::string& path, const std::string& packed, std::size_t largest);
 
-/// Throws CapacityError for a file of more than `largest` bytes.
-[[noreturn]] inline void refuse_too_large(const std::string& path, std::size_t largest) {
-  throw CapacityError(
-      fmt::format("{}: holds more than {} bytes, more than this program reads", path, with_thousands(largest)));
-}
-
 /// Throws InputError if the bytes begin like a file of another packer. The message has the command that unpacks it.
 inline void refuse_packed(const std::string& path, std::string_view bytes) {
   struct Packer {
@@ -133,9 +134,8 @@ inline void refuse_packed(const std::string& path, std::string_view bytes) {
                                             {"ustar", "tar", "tar -xf", 257}}};
   for (const auto& [magic, name, unpack, at] : kPackers)
     if (bytes.size() >= at && bytes.substr(at).starts_with(magic))
-      throw InputError(
-          path, 0,
-          fmt::format("is packed with {}; only gzip is read, unpack it first: {} {}", name, unpack, shell_word(path)));
+      throw InputError(path, 0, "is packed with {}; only gzip is read, unpack it first: {} {}", name, unpack,
+                       shell_word(path));
 }
 
 }  // namespace meniscus

@@ -2,17 +2,13 @@
 // Computes the rays and matrices of cameras, frames molecules, and interpolates paths.
 #include "core/camera/camera.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 #define GLM_ENABLE_EXPERIMENTAL
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtx/quaternion.hpp>
 #include <glm/mat3x3.hpp>

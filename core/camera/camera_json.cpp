@@ -63,16 +63,16 @@ class CameraReader {
   void expect_only(std::initializer_list<std::string_view> keys) const {
     for (const auto& [key, value] : json_.items())
       if (std::ranges::find(keys, key) == keys.end())
-        throw InputError(file_, 0, fmt::format("camera: unknown key {}", shown(Json(key))));
+        throw InputError(file_, 0, "camera: unknown key {}", shown(Json(key)));
   }
 
  private:
   const Json& member(const char* key) const {
-    if (!json_.contains(key)) throw InputError(file_, 0, fmt::format("camera: \"{}\" is missing", key));
+    if (!json_.contains(key)) throw InputError(file_, 0, "camera: \"{}\" is missing", key);
     return json_.at(key);
   }
   [[noreturn]] void fail(const char* key, const char* what) const {
-    throw InputError(file_, 0, fmt::format("camera: \"{}\" is {}; it {}", key, shown(json_.at(key)), what));
+    throw InputError(file_, 0, "camera: \"{}\" is {}; it {}", key, shown(json_.at(key)), what);
   }
 
   const Json& json_;

@@ -195,13 +195,13 @@ ViewBasis turned(ViewBasis basis, std::span<const Turn> turns) {
   return basis;
 }
 
-namespace {
-
 glm::dvec3 middle_of(std::span<const Ball> balls) {
   glm::dvec3 sum(0.0);
   for (const Ball& ball : balls) sum += ball.center;
   return sum / static_cast<double>(balls.size());
 }
+
+namespace {
 
 /// Returns the camera with these axes, as far from the pivot as before, with the pivot at the same place in the
 /// picture.

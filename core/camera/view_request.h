@@ -66,6 +66,9 @@ struct ViewRequest {
   double aspect() const { return static_cast<double>(width) / height; }
 };
 
+/// Returns the mean of the centres of these balls.
+glm::dvec3 middle_of(std::span<const Ball> balls);
+
 /// The balls in front of a camera.
 struct ViewedBalls {
   std::span<const Ball> shown;         ///< all shown balls; at least one

@@ -141,17 +141,14 @@ Coloring color_object(const Structure& structure, std::span<const std::uint32_t>
 
 namespace {
 
-using By = ColorScheme::By;
-
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<double, 2> kPlaces{0.0, 1.0},
     kGrades{1.0, 9.0};  // ranges of positions in a chain, and of ConSurf's grades
 
 [[noreturn]] void no_atom_named(const Structure& structure, const NumberFile& file, const char* what,
                                 std::size_t count) {
-  throw InputError(file.path, 0,
-                   fmt::format("names {} {}, but none of them is among the atoms used of {}", with_thousands(count),
-                               what, structure.file));
+  throw InputError(file.path, 0, "names {} {}, but none of them is among the atoms used of {}", with_thousands(count),
+                   what, structure.file);
 }
 
 /// Returns the only chain of polymers, or of all atoms if there are none, for numbers of residues without chains.
@@ -164,9 +161,9 @@ std::string only_chain(const Structure& structure, const NumberFile& file) {
   if (chains.size() != 1)
     throw InputError(
         file.path, 0,
-        fmt::format("names residues without their chains, but the atoms used of {} belong to {} chains, such as {} and "
-                    "{}; add a column 'chain'",
-                    structure.file, chains.size(), in_quotes(*chains.begin()), in_quotes(*std::next(chains.begin()))));
+        "names residues without their chains, but the atoms used of {} belong to {} chains, such as {} and "
+        "{}; add a column 'chain'",
+        structure.file, chains.size(), in_quotes(*chains.begin()), in_quotes(*std::next(chains.begin())));
   return *chains.begin();
 }
 
@@ -207,11 +204,9 @@ std::vector<double> numbers_of_file(const Structure& structure, const NumberFile
   for (const Atom& atom : structure.atoms) {
     if (given == read && atom.index < given) numbers.push_back(file.numbers[atom.index]);
   }
-  if (numbers.size() != used) {
-    throw InputError(file.path, 0,
-                     fmt::format("holds {} numbers; {} holds {} atoms, of which {} are used; {}", with_thousands(given),
-                                 structure.file, with_thousands(read), with_thousands(used), kNumberLayouts));
-  }
+  if (numbers.size() != used)
+    throw InputError(file.path, 0, "holds {} numbers; {} holds {} atoms, of which {} are used; {}",
+                     with_thousands(given), structure.file, with_thousands(read), with_thousands(used), kNumberLayouts);
   return numbers;
 }
 
@@ -293,38 +288,25 @@ std::vector<double> numbers_of(const Structure& structure, const ColorScheme& sc
   return numbers;
 }
 
-struct ScaleWords {
+/// The title, the unit and the usual map of a scale.
+struct ScaleStyle {
+  By by;
   std::string_view title, unit;
+  ColorMap map = ColorMap::viridis;
 };
-
-ScaleWords words_of(By by) {
-  switch (by) {
-    case By::bfactor:
-      return {"B-factor", "Å²"};
-    case By::occupancy:
-      return {"occupancy", ""};
-    case By::charge:
-      return {"partial charge", "e"};
-    case By::hydrophobicity:
-      return {"hydrophobicity (Kyte & Doolittle 1982)", ""};
-    case By::index:
-      return {"place in the file", ""};
-    case By::radial:
-      return {"distance from the middle", "Å"};
-    case By::rainbow:
-      return {"place in the chain", ""};
-    case By::conservation:
-      return {"conservation", ""};
-    case By::buried:
-      return {"buried area", "Å²"};
-    case By::rmsf:
-      return {"fluctuation (RMSF)", "Å"};
-    case By::accessibility:
-      return {"relative accessibility (Tien et al. 2013)", ""};
-    default:
-      return {"number from file", ""};
-  }
-}
+constexpr ScaleStyle kScaleStyles[] = {
+    {By::bfactor, "B-factor", "Å²"},
+    {By::occupancy, "occupancy", ""},
+    {By::charge, "partial charge", "e", ColorMap::red_white_blue},
+    {By::hydrophobicity, "hydrophobicity (Kyte & Doolittle 1982)", "", ColorMap::blue_white_red},
+    {By::index, "place in the file", ""},
+    {By::radial, "distance from the middle", "Å"},
+    {By::rainbow, "place in the chain", "", ColorMap::rainbow},
+    {By::conservation, "conservation", "", ColorMap::consurf},
+    {By::buried, "buried area", "Å²", ColorMap::ylorrd},
+    {By::rmsf, "fluctuation (RMSF)", "Å", ColorMap::ylorrd},
+    {By::accessibility, "relative accessibility (Tien et al. 2013)", ""},
+    {By::file, "number from file", ""}};
 
 [[noreturn]] void no_numbers(const Structure& structure, const ColorScheme& scheme) {
   switch (scheme.by) {
@@ -355,14 +337,6 @@ ScaleWords words_of(By by) {
   }
 }
 
-ColorMap default_map(By by) {
-  if (by == By::charge) return ColorMap::red_white_blue;
-  if (by == By::rainbow) return ColorMap::rainbow;
-  if (by == By::conservation) return ColorMap::consurf;
-  if (by == By::buried || by == By::rmsf) return ColorMap::ylorrd;
-  return by == By::hydrophobicity ? ColorMap::blue_white_red : ColorMap::viridis;
-}
-
 std::array<double, 2> automatic_range(const std::vector<double>& defined, By by) {
   if (by == By::hydrophobicity) return {-4.5, 4.5};
   if (by == By::rainbow || by == By::accessibility) return kPlaces;
@@ -376,11 +350,10 @@ std::array<double, 2> automatic_range(const std::vector<double>& defined, By by)
 
 void count_classes(ColorScale& scale, const std::vector<double>& defined, const std::string& file) {
   const std::set<double> different(defined.begin(), defined.end());
-  if (different.size() > kCategoricalCount) {
+  if (different.size() > kCategoricalCount)
     throw InputError(file, 0,
                      message("has {} different numbers, but the categorical map has {} colours; choose another @map@",
                              with_thousands(different.size()), kCategoricalCount));
-  }
   scale.classes.assign(different.begin(), different.end());
 }
 
@@ -399,12 +372,13 @@ ColorScale color_scale(const Structure& structure, const ColorScheme& scheme) {
   if (scheme.by == By::volume) return scheme.volume->scale;
   if (scheme.by == By::lipophilicity) return lipophilicity_scale(scheme);
   ColorScale scale;
-  const ScaleWords words = words_of(scheme.by);
-  scale.title = scheme.by == By::file && !scheme.file.column.empty() ? scheme.file.column : std::string(words.title);
-  scale.unit = std::string(words.unit);
+  const auto file = std::prev(std::end(kScaleStyles));
+  const ScaleStyle& style = *std::ranges::find(std::begin(kScaleStyles), file, scheme.by, &ScaleStyle::by);
+  scale.title = scheme.by == By::file && !scheme.file.column.empty() ? scheme.file.column : std::string(style.title);
+  scale.unit = std::string(style.unit);
   if (!scheme.title.empty()) scale.title = scheme.title;
   if (!scheme.unit.empty()) scale.unit = scheme.unit;
-  scale.map = scheme.map.value_or(default_map(scheme.by));
+  scale.map = scheme.map.value_or(style.map);
   scale.own_map = scheme.own_map;
   scale.missing_color = scheme.missing.value_or(default_missing_color(scale.map));
   if (scheme.is_measured() && scheme.file.numbers.empty()) no_numbers(structure, scheme);

@@ -55,44 +55,44 @@ constexpr std::array<std::uint32_t, 6> kRainbow{0x0072b2, 0x56b4e9, 0x009e73, 0x
 // These tones are as light as the colours of chains. Any two differ by at least 7.1 in CIEDE2000 for any colour vision.
 constexpr std::array<std::uint32_t, 6> kPastel{0x84a9ea, 0x8ad0de, 0xc3e7b4, 0xf7e294, 0xe8a474, 0xcb7a78};
 
+// In the order of ColorMap.
 constexpr ColorMapMetadata kMaps[] = {
-    {ColorMap::viridis, "viridis", "N. J. Smith, S. van der Walt and E. Firing, matplotlib 1.5 (2015), CC0 1.0"},
+    {ColorMap::viridis, "viridis", "N. J. Smith, S. van der Walt and E. Firing, matplotlib 1.5 (2015), CC0 1.0",
+     kViridis},
     {ColorMap::cividis, "cividis",
-     "J. R. Nunez, C. R. Anderton and R. S. Renslow, PLoS ONE 13, e0199239 (2018), CC BY 4.0; sampled"},
-    {ColorMap::magma, "magma", "N. J. Smith and S. van der Walt, matplotlib 1.5 (2015), CC0 1.0"},
-    {ColorMap::blue_white_red, "blue-white-red", "linear between its three colours"},
-    {ColorMap::red_white_blue, "red-white-blue", "the reverse: red is negative, as is usual for electrostatics"},
+     "J. R. Nunez, C. R. Anderton and R. S. Renslow, PLoS ONE 13, e0199239 (2018), CC BY 4.0; sampled", kCividis},
+    {ColorMap::magma, "magma", "N. J. Smith and S. van der Walt, matplotlib 1.5 (2015), CC0 1.0", kMagma},
+    {ColorMap::blue_white_red, "blue-white-red", "linear between its three colours", kBlueWhiteRed},
+    {ColorMap::red_white_blue, "red-white-blue", "the reverse: red is negative, as is usual for electrostatics",
+     kRedWhiteBlue},
     {ColorMap::blues, "blues",
-     "C. A. Brewer, ColorBrewer 2.0 (2013), Apache 2.0; light, without its palest and darkest"},
+     "C. A. Brewer, ColorBrewer 2.0 (2013), Apache 2.0; light, without its palest and darkest", kBlues},
     {ColorMap::ylorrd, "ylorrd",
-     "C. A. Brewer, ColorBrewer 2.0 (2013), Apache 2.0; light, without its palest and darkest"},
+     "C. A. Brewer, ColorBrewer 2.0 (2013), Apache 2.0; light, without its palest and darkest", kYlOrRd},
     {ColorMap::consurf, "consurf",
-     "grades 1 to 9: H. Ashkenazy et al., Nucleic Acids Res. 44, W344 (2016); @color-range 1:9@"},
-    {ColorMap::rainbow, "rainbow", "linear between hues of Okabe and Ito, from blue to red; for @color rainbow@"},
+     "grades 1 to 9: H. Ashkenazy et al., Nucleic Acids Res. 44, W344 (2016); @color-range 1:9@", kConsurf},
+    {ColorMap::rainbow, "rainbow", "linear between hues of Okabe and Ito, from blue to red; for @color rainbow@",
+     kRainbow},
     {ColorMap::pastel, "pastel",
-     "linear between our own light tones, from blue to red; for a single chain (@color auto@)"},
-    {ColorMap::categorical, "categorical", "M. Okabe and K. Ito, Color Universal Design (2008)"},
+     "linear between our own light tones, from blue to red; for a single chain (@color auto@)", kPastel},
+    {ColorMap::categorical, "categorical", "M. Okabe and K. Ito, Color Universal Design (2008)", kViridis},
 };
 
-template <std::size_t size>
-glm::vec3 between(const std::array<std::uint32_t, size>& table, double t) {
-  constexpr std::size_t kLast = size - 1;
-  const double place = std::clamp(t, 0.0, 1.0) * kLast;
-  const std::size_t below = std::min(static_cast<std::size_t>(place), kLast - 1);
+const ColorMapMetadata& metadata_of(ColorMap map) { return kMaps[static_cast<std::size_t>(map)]; }
+
+glm::vec3 between(std::span<const std::uint32_t> table, double t) {
+  const std::size_t last = table.size() - 1;
+  const double place = std::clamp(t, 0.0, 1.0) * static_cast<double>(last);
+  const std::size_t below = std::min(static_cast<std::size_t>(place), last - 1);
   const auto fraction = static_cast<float>(place - static_cast<double>(below));
   return (1.0f - fraction) * color_from_hex(table[below]) + fraction * color_from_hex(table[below + 1]);
-}
-
-template <std::size_t size>
-glm::vec3 nearest(const std::array<std::uint32_t, size>& table, double t) {
-  return color_from_hex(table[static_cast<std::size_t>(std::clamp(t, 0.0, 1.0) * (size - 1) + 0.5)]);
 }
 
 }  // namespace
 
 std::span<const ColorMapMetadata> color_maps() { return kMaps; }
 
-std::string_view map_name(ColorMap map) { return std::ranges::find(kMaps, map, &ColorMapMetadata::map)->name; }
+std::string_view map_name(ColorMap map) { return metadata_of(map).name; }
 
 std::optional<ColorMap> parse_color_map(std::string_view text) {
   const auto found = std::ranges::find(kMaps, text, &ColorMapMetadata::name);
@@ -101,28 +101,8 @@ std::optional<ColorMap> parse_color_map(std::string_view text) {
 }
 
 glm::vec3 mapped_color(ColorMap map, double t) {
-  switch (map) {
-    case ColorMap::cividis:
-      return between(kCividis, t);
-    case ColorMap::magma:
-      return between(kMagma, t);
-    case ColorMap::blue_white_red:
-      return between(kBlueWhiteRed, t);
-    case ColorMap::red_white_blue:
-      return between(kRedWhiteBlue, t);
-    case ColorMap::blues:
-      return between(kBlues, t);
-    case ColorMap::ylorrd:
-      return between(kYlOrRd, t);
-    case ColorMap::consurf:
-      return nearest(kConsurf, t);
-    case ColorMap::rainbow:
-      return between(kRainbow, t);
-    case ColorMap::pastel:
-      return between(kPastel, t);
-    default:
-      return between(kViridis, t);
-  }
+  if (map != ColorMap::consurf) return between(metadata_of(map).colors, t);
+  return color_from_hex(kConsurf[static_cast<std::size_t>(std::clamp(t, 0.0, 1.0) * (kConsurf.size() - 1) + 0.5)]);
 }
 
 std::size_t map_steps(ColorMap map) { return map == ColorMap::consurf ? kConsurf.size() : 0; }

@@ -28,7 +28,8 @@ enum class ColorMap : std::uint8_t {
 struct ColorMapMetadata {
   ColorMap map;
   std::string_view name;
-  std::string_view source;  ///< authors, year, licence
+  std::string_view source;                  ///< authors, year, licence
+  std::span<const std::uint32_t> colors{};  ///< sRGB, 0xrrggbb, at even steps; of another map for the categorical one
 };
 
 /// All maps, in the order the help names them.

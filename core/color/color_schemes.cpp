@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads colour schemes and rules as users write them.
+// Reads colour schemes and rules as users write them, and colour maps from text and JSON.
 #include "core/color/color_schemes.h"
 
 #include <cmath>
 #include <functional>
 #include <iterator>
 #include <set>
+
+#include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -76,6 +78,16 @@ constexpr ColorSchemeMetadata kSchemes[] = {
     {"conservation", By::conservation, "grades of @color-by-file@, 1 (variable) to 9 (conserved); consurf",
      "H. Ashkenazy et al., Nucleic Acids Res. 44, W344 (2016)"}};
 
+/// True if all polymers of a structure are one chain at one place, in each of its models, which may be frames.
+bool has_one_chain(const Structure& structure) {
+  std::set<std::pair<std::uint32_t, std::string_view>> chains;
+  for (const std::vector<Atom>* const atoms : {&structure.atoms, &structure.extra_atoms})
+    for (const Atom& atom : *atoms)
+      if (atom.kind == AtomClass::polymer) chains.emplace(atom.copy, atom.chain);
+  return chains.size() == 1 &&
+         std::ranges::all_of(structure.instances, [](const Instances& placed) { return placed.motions.size() == 1; });
+}
+
 }  // namespace
 
 bool has_chain_color(const Atom& atom) {
@@ -90,20 +102,6 @@ std::map<std::string, std::size_t> places_of_chains(const Structure& structure) 
 }
 
 std::span<const ColorSchemeMetadata> color_schemes() { return kSchemes; }
-
-namespace {
-
-/// True if all polymers of a structure are one chain at one place, in each of its models, which may be frames.
-bool has_one_chain(const Structure& structure) {
-  std::set<std::pair<std::uint32_t, std::string_view>> chains;
-  for (const std::vector<Atom>* const atoms : {&structure.atoms, &structure.extra_atoms})
-    for (const Atom& atom : *atoms)
-      if (atom.kind == AtomClass::polymer) chains.emplace(atom.copy, atom.chain);
-  return chains.size() == 1 &&
-         std::ranges::all_of(structure.instances, [](const Instances& placed) { return placed.motions.size() == 1; });
-}
-
-}  // namespace
 
 ColorScheme resolved_scheme(const Structure& structure, ColorScheme scheme) {
   if (scheme.by != By::automatic) return scheme;
@@ -192,10 +190,9 @@ ColorRule parse_color_rule(std::string_view text) {
   const std::string_view word = equals == std::string_view::npos ? text : text.substr(equals + 1);
   std::optional<ColorScheme> paint = parse_color_scheme(word);
   if (equals == std::string_view::npos || !paint)
-    throw RequestError(fmt::format("{} is not one of {}", in_quotes(word), color_scheme_words()));
+    throw RequestError("{} is not one of {}", in_quotes(word), color_scheme_words());
   if (paint->by == By::kind || paint->by == By::component || paint->by == By::accessibility || paint->of_points())
-    throw RequestError(
-        fmt::format("{} cannot colour some of the atoms; it colours the whole surface", in_quotes(word)));
+    throw RequestError("{} cannot colour some of the atoms; it colours the whole surface", in_quotes(word));
   return {parse_selection(text.substr(0, equals)), *std::move(paint)};
 }
 
@@ -217,10 +214,9 @@ OpacityRule parse_opacity_rule(std::string_view text) {
   const std::size_t equals = text.rfind('=');
   const std::string_view number = equals == std::string_view::npos ? text : text.substr(equals + 1);
   double opacity = 0.0;
-  if (!parse_number(number, opacity) || !(opacity >= 0.0 && opacity <= 1.0)) {
-    throw RequestError(fmt::format("{} is not an opacity from 0 (hidden) to 1 (opaque), as in 'chain A=0.4' or 0.4",
-                                   in_quotes(number)));
-  }
+  if (!parse_number(number, opacity) || !(opacity >= 0.0 && opacity <= 1.0))
+    throw RequestError("{} is not an opacity from 0 (hidden) to 1 (opaque), as in 'chain A=0.4' or 0.4",
+                       in_quotes(number));
   OpacityRule rule;
   rule.opacity = static_cast<float>(opacity);
   if (equals != std::string_view::npos) rule.atoms = parse_selection(text.substr(0, equals));
@@ -252,6 +248,91 @@ ColorRule named_color_rule(std::string_view text) {
 
 std::string color_rule_text(const ColorRule& rule) {
   return rule.atoms.text() + "=" + scheme_word(rule.paint) + (rule.name.empty() ? "" : ":" + rule.name);
+}
+
+namespace {
+
+constexpr std::size_t kMostColors = 4096;
+
+class RampReader {
+ public:
+  explicit RampReader(const TextFile& file) : file_(file) {}
+
+  ColorRamp read() {
+    if (trimmed(file_.text).starts_with('['))
+      read_json();
+    else
+      read_lines();
+    if (ramp_.colors.size() < 2)
+      throw InputError(file_.path, 0, "holds {} colours; a map has at least two", ramp_.colors.size());
+    finish_places();
+    return std::move(ramp_);
+  }
+
+ private:
+  void add(std::size_t line, const std::optional<double>& place, std::string_view color) {
+    const auto fail = [&](const std::string& what) { throw InputError(file_.path, line, what); };
+    const std::optional<glm::vec3> read = parse_color(color);
+    if (!read) fail(fmt::format("{} is not a colour; write #rrggbb, #rgb or a name such as red", in_quotes(color)));
+    if (ramp_.colors.size() == kMostColors) fail(fmt::format("a map has at most {} colours", kMostColors));
+    if (!ramp_.colors.empty() && place.has_value() == ramp_.places.empty())
+      fail("some colours have a position, others do not");
+    if (place && !ramp_.places.empty() && !(*place > ramp_.places.back()))
+      fail(fmt::format("the position {:g} does not follow {:g}; positions must increase", *place, ramp_.places.back()));
+    if (place) ramp_.places.push_back(*place);
+    ramp_.colors.push_back(*read);
+  }
+
+  void read_lines() {
+    LineReader lines(file_);
+    std::string_view line;
+    while (lines.next(line)) {
+      std::string text(line.substr(0, line.find("# ")));
+      std::ranges::replace_if(
+          text, [](char c) { return c == ',' || c == ';'; }, ' ');
+      const std::vector<std::string_view> fields = fields_of(text, 3);
+      if (fields.empty() || fields[0] == "#") continue;
+      std::optional<double> place;
+      if (double number = 0.0; fields.size() == 2 && parse_number(fields[0], number)) place = number;
+      if (fields.size() > 2 || (fields.size() == 2 && !place))
+        throw lines.error("{} is neither a colour nor a position and a colour", in_quotes(trimmed(line)));
+      add(lines.number(), place, fields.back());
+    }
+  }
+
+  void read_json() {
+    const nlohmann::json list = is_nested_too_deep(file_.text) ? nlohmann::json(nlohmann::json::value_t::discarded)
+                                                               : nlohmann::json::parse(file_.text, nullptr, false);
+    if (list.is_discarded()) throw InputError(file_.path, 0, "begins as a JSON list, but is not valid JSON");
+    for (const nlohmann::json& entry : list) {
+      const bool pair = entry.is_array() && entry.size() == 2 && entry[0].is_number() && entry[1].is_string();
+      if (!pair && !entry.is_string())
+        throw InputError(file_.path, 0,
+                         "entry {} is neither a colour such as \"#ff0000\" nor a pair of a position and a colour",
+                         ramp_.colors.size() + 1);
+      add(0, pair ? std::optional(entry[0].get<double>()) : std::nullopt,
+          pair ? entry[1].get<std::string>() : entry.get<std::string>());
+    }
+  }
+
+  void finish_places() {
+    const double first = ramp_.places.empty() ? 0.0 : ramp_.places.front();
+    const double width = ramp_.places.empty() ? 1.0 : ramp_.places.back() - first;
+    if (ramp_.places.empty())
+      for (std::size_t n = 0; n < ramp_.colors.size(); ++n)
+        ramp_.places.push_back(static_cast<double>(n) / static_cast<double>(ramp_.colors.size() - 1));
+    for (double& place : ramp_.places) place = (place - first) / width;
+  }
+
+  const TextFile& file_;
+  ColorRamp ramp_;
+};
+
+}  // namespace
+
+ColorRamp read_color_ramp(const std::string& path) {
+  const TextFile file = read_text_file(path, std::size_t{1} << 20);
+  return RampReader(file).read();
 }
 
 }  // namespace meniscus

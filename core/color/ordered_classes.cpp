@@ -17,9 +17,17 @@ namespace meniscus {
 namespace {
 
 struct Row {
-  const char* name;
+  std::string_view name;
   std::uint32_t color;
 };
+
+/// Returns the place of a class among those of a result, where it is added if it is new.
+std::uint8_t place_of(const Row& row, ClassedAtoms& result) {
+  const auto found = std::ranges::find(result.classes, row.name, &ColorClass::name);
+  const auto place = static_cast<std::uint8_t>(found - result.classes.begin());
+  if (found == result.classes.end()) result.classes.push_back({std::string(row.name), color_from_hex(row.color)});
+  return place;
+}
 
 constexpr std::array<Row, 4> kSecondary{
     {{"helix", 0xd55e00}, {"strand", 0xf0e442}, {"coil", 0xcccccc}, {"other", 0x56b4e9}}};
@@ -53,19 +61,15 @@ ClassedAtoms secondary_classes(const Structure& structure) {
     occurs[rows.back()] = true;
   }
   ClassedAtoms result;
-  std::array<std::uint8_t, kSecondary.size()> place{};
-  for (std::size_t n = 0; n < kSecondary.size(); ++n) {
-    if (!occurs[n]) continue;
-    place[n] = static_cast<std::uint8_t>(result.classes.size());
-    result.classes.push_back({kSecondary[n].name, color_from_hex(kSecondary[n].color)});
-  }
-  for (const std::size_t row : rows) result.of_atom.push_back(place[row]);
+  for (std::size_t n = 0; n < kSecondary.size(); ++n)
+    if (occurs[n]) place_of(kSecondary[n], result);
+  for (const std::size_t row : rows) result.of_atom.push_back(place_of(kSecondary[row], result));
   return result;
 }
 
 ClassedAtoms confidence_classes(const Structure& structure) {
   ClassedAtoms result;
-  for (const Row& row : kConfidence) result.classes.push_back({row.name, color_from_hex(row.color)});
+  for (const Row& row : kConfidence) place_of(row, result);
   const bool own = has_own_confidence(structure);
   std::size_t without = 0;
   for (const Atom& atom : structure.atoms) {
@@ -86,20 +90,7 @@ ClassedAtoms confidence_classes(const Structure& structure) {
 
 namespace {
 
-/// Collects classes in the order of their first use.
-class OccurringClasses {
- public:
-  std::uint8_t place(std::string_view name, std::uint32_t color) {
-    const auto found = std::ranges::find(classes, name, &ColorClass::name);
-    if (found != classes.end()) return static_cast<std::uint8_t>(found - classes.begin());
-    classes.push_back({std::string(name), color_from_hex(color)});
-    return static_cast<std::uint8_t>(classes.size() - 1);
-  }
-
-  std::vector<ColorClass> classes;
-};
-
-constexpr std::uint32_t kOther = 0xb4b4b4, kWhiteHalf = 0xf5f5f5;
+constexpr Row kOther{"other", 0xb4b4b4}, kWhiteHalf{"white half", 0xf5f5f5};
 
 // In the order of BeadClass.
 constexpr std::array<Row, 6> kBeads{{{"charged", 0xd55e00},
@@ -109,11 +100,10 @@ constexpr std::array<Row, 6> kBeads{{{"charged", 0xd55e00},
                                      {"water", 0x0072b2},
                                      {"backbone", 0xf0e442}}};
 
-}  // namespace
-
+/// Returns each sugar that occurs, by its symbol (core/structure/sugars.h). For sugars with a half white symbol, atoms
+/// outside the ring are in the class "white half"; atoms outside sugars are in "other".
 ClassedAtoms sugar_classes(const Structure& structure) {
   ClassedAtoms result;
-  OccurringClasses classes;
   const std::span<const Atom> atoms(structure.atoms);
   std::size_t last = 0;
   for (std::size_t first = 0; first < atoms.size(); first = last) {
@@ -122,25 +112,25 @@ ClassedAtoms sugar_classes(const Structure& structure) {
     const std::span<const Atom> residue = atoms.subspan(first, last - first);
     const Sugar* const sugar = sugar_of(residue);
     if (!sugar) {
-      result.of_atom.insert(result.of_atom.end(), residue.size(), classes.place("other", kOther));
+      result.of_atom.insert(result.of_atom.end(), residue.size(), place_of(kOther, result));
       continue;
     }
-    result.of_atom.insert(result.of_atom.end(), residue.size(), classes.place(sugar->name, sugar->color));
+    result.of_atom.insert(result.of_atom.end(), residue.size(), place_of({sugar->name, sugar->color}, result));
     if (!sugar->is_divided()) continue;
     const SugarRing ring = ring_of(residue);
     const auto in_ring = [&](std::size_t n) {
       return std::find(ring.atoms.begin(), ring.atoms.begin() + ring.count, n) != ring.atoms.begin() + ring.count;
     };
     for (std::size_t n = 0; n < residue.size(); ++n)
-      if (!in_ring(n)) result.of_atom[first + n] = classes.place("white half", kWhiteHalf);
+      if (!in_ring(n)) result.of_atom[first + n] = place_of(kWhiteHalf, result);
   }
-  result.classes = std::move(classes.classes);
   return result;
 }
 
+/// Returns the classes of Martini's beads that occur: "charged", "polar", "intermediate", "apolar", "water"; "backbone"
+/// of Martini 2, where it depends on the fold; "other" for atoms that are not beads.
 ClassedAtoms bead_classes(const Structure& structure) {
   ClassedAtoms result;
-  OccurringClasses classes;
   const MartiniVersion version = martini_version(structure.atoms);
   std::vector<std::optional<Bead>> beads;
   std::array<bool, kBeads.size()> occurs{};
@@ -150,14 +140,13 @@ ClassedAtoms bead_classes(const Structure& structure) {
     if (beads.back()) occurs[static_cast<std::size_t>(beads.back()->kind)] = true;
   }
   for (std::size_t n = 0; n < kBeads.size(); ++n)
-    if (occurs[n]) classes.place(kBeads[n].name, kBeads[n].color);
-  for (const std::optional<Bead>& bead : beads) {
-    const Row row = bead ? kBeads[static_cast<std::size_t>(bead->kind)] : Row{"other", kOther};
-    result.of_atom.push_back(classes.place(row.name, row.color));
-  }
-  result.classes = std::move(classes.classes);
+    if (occurs[n]) place_of(kBeads[n], result);
+  for (const std::optional<Bead>& bead : beads)
+    result.of_atom.push_back(place_of(bead ? kBeads[static_cast<std::size_t>(bead->kind)] : kOther, result));
   return result;
 }
+
+}  // namespace
 
 bool has_ordered_classes(ColorScheme::By by) { return by >= ColorScheme::By::secondary && by <= ColorScheme::By::bead; }
 

@@ -35,14 +35,6 @@ ClassedAtoms secondary_classes(const Structure& structure);
 /// one.
 ClassedAtoms confidence_classes(const Structure& structure);
 
-/// Returns each sugar that occurs, by its symbol (core/structure/sugars.h). For sugars with a half white symbol, atoms
-/// outside the ring are in the class "white half"; atoms outside sugars are in "other".
-ClassedAtoms sugar_classes(const Structure& structure);
-
-/// Returns the classes of Martini's beads that occur: "charged", "polar", "intermediate", "apolar", "water"; "backbone"
-/// of Martini 2, where it depends on the fold; "other" for atoms that are not beads.
-ClassedAtoms bead_classes(const Structure& structure);
-
 /// True if this scheme has one of these lists of classes.
 bool has_ordered_classes(ColorScheme::By by);
 ClassedAtoms ordered_classes(const Structure& structure, ColorScheme::By by);

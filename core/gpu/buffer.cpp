@@ -107,8 +107,8 @@ void Buffer::bind(std::uint32_t binding) const {
   GLint64 limit = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
   if (byte_count_ > static_cast<std::size_t>(limit))
-    throw CapacityError(fmt::format("a GPU buffer of {} MiB is needed; this driver's limit is {} MiB",
-                                    (byte_count_ + (1 << 20) - 1) >> 20, limit >> 20));
+    throw CapacityError("a GPU buffer of {} MiB is needed; this driver's limit is {} MiB",
+                        (byte_count_ + (1 << 20) - 1) >> 20, limit >> 20);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_);
 }
 
@@ -132,7 +132,7 @@ void TexelBuffer::attach(const Buffer& storage) {
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
   const std::size_t texels = storage.byte_count() / (format_ == TexelFormat::uint1 ? 4 : 16);
   if (texels > static_cast<std::size_t>(limit))
-    throw CapacityError(fmt::format("{} texels are needed; this driver's limit is {}", texels, limit));
+    throw CapacityError("{} texels are needed; this driver's limit is {}", texels, limit);
   // The view covers all of the buffer's memory, so nothing changes while the memory stays the same.
   if (shown_ == storage.memory()) return;
   if (!texture_) glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);

@@ -75,8 +75,8 @@ void check_gl(const char* what) {
   const GLenum error = glGetError();
   if (error == GL_NO_ERROR) return;
   if (error == GL_CONTEXT_LOST) require_living_context();
-  if (error == GL_OUT_OF_MEMORY) throw CapacityError(fmt::format("the GPU ran out of memory while {}", what));
-  throw GpuError(fmt::format("GL error 0x{:04x} while {}", error, what));
+  if (error == GL_OUT_OF_MEMORY) throw CapacityError("the GPU ran out of memory while {}", what);
+  throw GpuError("GL error 0x{:04x} while {}", error, what);
 }
 
 }  // namespace meniscus

@@ -5,20 +5,15 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <cstddef>
 #include <iterator>
+
+#include "core/base/text.h"
 
 namespace meniscus {
 namespace {
 
 constexpr std::string_view kUuidPrefix = "gpu-";
 constexpr std::size_t kShortestUuid = 8;  // in digits
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::ranges::transform(result, result.begin(), [](unsigned char c) { return std::tolower(c); });
-  return result;
-}
 
 std::optional<int> parse_index(std::string_view text) {
   int index = -1;
@@ -29,15 +24,15 @@ std::optional<int> parse_index(std::string_view text) {
 
 /// True for a UUID or PCI address: hexadecimal digits and separators.
 bool looks_like_a_name(std::string_view text) {
-  if (lower(text).starts_with(kUuidPrefix)) text.remove_prefix(kUuidPrefix.size());
+  if (lower_case(text).starts_with(kUuidPrefix)) text.remove_prefix(kUuidPrefix.size());
   const auto fits = [](unsigned char c) { return std::isxdigit(c) || c == '-' || c == ':' || c == '.'; };
   return text.size() >= kShortestUuid && std::ranges::all_of(text, fits);
 }
 
 bool is_called(const GlDevice& device, std::string_view name) {
-  const std::string wanted = lower(name), uuid = lower(device.uuid);
+  const std::string wanted = lower_case(name), uuid = lower_case(device.uuid);
   if (!uuid.empty() && (uuid.starts_with(wanted) || uuid.starts_with(std::string(kUuidPrefix) + wanted))) return true;
-  return !device.pci.empty() && lower(device.pci) == wanted;
+  return !device.pci.empty() && lower_case(device.pci) == wanted;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -57,7 +52,8 @@ std::vector<GlDevice> cuda_listed(std::string_view list, const std::vector<GlDev
     list.remove_prefix(std::min(comma + 1, list.size()));
     const std::optional<int> index = parse_index(entry);
     const auto found = std::ranges::find_if(devices, [&](const GlDevice& device) {
-      return index ? device.cuda_index == index : !entry.empty() && lower(device.uuid).starts_with(lower(entry));
+      return index ? device.cuda_index == index
+                   : !entry.empty() && lower_case(device.uuid).starts_with(lower_case(entry));
     });
     if (found == devices.end()) break;
     listed.push_back(*found);

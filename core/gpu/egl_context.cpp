@@ -214,9 +214,9 @@ EglContext::EglContext(const DeviceChoice& choice) {
   const std::vector<GlDevice> devices = list_gl_devices();
   const std::vector<DeviceAttempt> attempts = device_attempts(choice, devices);
   if (attempts.empty())
-    throw GpuError(fmt::format("no {} for '{}': EGL lists {} device(s), none of that kind{}",
-                               choice.kind == DeviceChoice::Kind::gpu ? "hardware GPU" : "device", to_string(choice),
-                               devices.size(), visibility_note(choice)));
+    throw GpuError("no {} for '{}': EGL lists {} device(s), none of that kind{}",
+                   choice.kind == DeviceChoice::Kind::gpu ? "hardware GPU" : "device", to_string(choice),
+                   devices.size(), visibility_note(choice));
   std::string reasons;
   for (const DeviceAttempt& attempt : attempts) {
     std::string why_not;
@@ -224,7 +224,7 @@ EglContext::EglContext(const DeviceChoice& choice) {
     reasons += fmt::format("{}device {} ({}): {}", reasons.empty() ? "" : "; ", attempt.device.egl_index,
                            attempt.device.name, why_not);
   }
-  throw GpuError(fmt::format("no usable GL 4.5 device for '{}': {}", to_string(choice), reasons));
+  throw GpuError("no usable GL 4.5 device for '{}': {}", to_string(choice), reasons);
 }
 
 bool EglContext::try_device(const DeviceAttempt& attempt, const std::string& kernel_folder, std::string& why_not) {
@@ -286,7 +286,7 @@ void EglContext::abandon() {
 void EglContext::make_current() {
   // The bound API is per thread, and its default is OpenGL ES.
   if (!eglBindAPI(EGL_OPENGL_API) || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
-    throw GpuError(fmt::format("the GL context cannot be made current (EGL error 0x{:x})", eglGetError()));
+    throw GpuError("the GL context cannot be made current (EGL error 0x{:x})", eglGetError());
   proof_->make_current();
   KernelFiles::make_current(kernel_files_ ? &*kernel_files_ : nullptr);
 }

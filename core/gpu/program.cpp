@@ -15,19 +15,13 @@
 namespace meniscus {
 namespace {
 
-std::string shader_log(GLuint shader) {
+/// Returns the log of a shader or a program, by the functions of GL for its kind.
+template <typename GetNumber, typename GetLog>
+std::string log_of(GLuint object, GetNumber get_number, GetLog get_log) {
   GLint length = 0;
-  glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+  get_number(object, GL_INFO_LOG_LENGTH, &length);
   std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
-  glGetShaderInfoLog(shader, length, nullptr, log.data());
-  return log.substr(0, log.find('\0'));
-}
-
-std::string program_log(GLuint program) {
-  GLint length = 0;
-  glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-  std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
-  glGetProgramInfoLog(program, length, nullptr, log.data());
+  get_log(object, length, nullptr, log.data());
   return log.substr(0, log.find('\0'));
 }
 
@@ -68,19 +62,19 @@ void Program::compile(const ShaderSource& source) {
   GLint ok = GL_FALSE;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
   if (!ok) {
-    const std::string log = translate_shader_log(shader_log(shader), source.files);
+    const std::string log = translate_shader_log(log_of(shader, glGetShaderiv, glGetShaderInfoLog), source.files);
     glDeleteShader(shader);
     glDeleteProgram(name_);
-    throw GpuError(fmt::format("{} does not compile:\n{}", path_, log));
+    throw GpuError("{} does not compile:\n{}", path_, log);
   }
   glAttachShader(name_, shader);
   glLinkProgram(name_);
   glDeleteShader(shader);
   glGetProgramiv(name_, GL_LINK_STATUS, &ok);
   if (!ok) {
-    const std::string log = translate_shader_log(program_log(name_), source.files);
+    const std::string log = translate_shader_log(log_of(name_, glGetProgramiv, glGetProgramInfoLog), source.files);
     glDeleteProgram(name_);
-    throw GpuError(fmt::format("{} does not link:\n{}", path_, log));
+    throw GpuError("{} does not link:\n{}", path_, log);
   }
 }
 
@@ -103,11 +97,11 @@ void Program::find_blocks() {
 void Program::set_block(int binding, const void* bytes, std::size_t byte_count) const {
   const auto block =
       std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& b) { return int(b.binding) == binding; });
-  if (block == blocks_.end()) throw GpuError(fmt::format("{} has no parameters at binding {}", path_, binding));
+  if (block == blocks_.end()) throw GpuError("{} has no parameters at binding {}", path_, binding);
   std::vector<std::byte>& content = block->content;
   if (in_vectors(byte_count) != content.size())
-    throw GpuError(fmt::format("{}: {} bytes of parameters at binding {} are given, {} wanted", path_,
-                               in_vectors(byte_count), binding, content.size()));
+    throw GpuError("{}: {} bytes of parameters at binding {} are given, {} wanted", path_, in_vectors(byte_count),
+                   binding, content.size());
   if (block->buffer && std::memcmp(content.data(), bytes, byte_count) == 0) return;
   std::memcpy(content.data(), bytes, byte_count);
   const auto size = static_cast<GLsizeiptr>(content.size());
@@ -130,7 +124,7 @@ void Program::dispatch(std::size_t group_count, std::uint32_t longest_row) const
   const std::size_t width = (group_count + height - 1) / height;
   glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 1, &limit);
   if (height > static_cast<std::size_t>(limit))
-    throw CapacityError(fmt::format("{}: {} groups are more than this GPU can start", path_, group_count));
+    throw CapacityError("{}: {} groups are more than this GPU can start", path_, group_count);
   dispatch_2d(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
 }
 
@@ -153,8 +147,7 @@ void Program::dispatch_indirect(const Buffer& counts, std::size_t byte_offset) c
 
 void Program::start() const {
   for (const Block& block : blocks_) {
-    if (!block.buffer)
-      throw GpuError(fmt::format("{}: the parameters at binding {} are not set", path_, block.binding));
+    if (!block.buffer) throw GpuError("{}: the parameters at binding {} are not set", path_, block.binding);
     glBindBufferBase(GL_UNIFORM_BUFFER, block.binding, block.buffer);
   }
   glUseProgram(name_);

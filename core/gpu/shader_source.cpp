@@ -33,9 +33,9 @@ class Expander {
   /// epilogue: a file to append after the last line, or nothing.
   ShaderSource expand(std::string_view path, std::string_view epilogue) {
     const auto text = find_(path);
-    if (!text) throw GpuError(fmt::format("{}: no such shader", path));
+    if (!text) throw GpuError("{}: no such shader", path);
     append_file(std::string(path), *text);
-    if (!has_version_) throw GpuError(fmt::format("{}: a shader needs a #version line", path));
+    if (!has_version_) throw GpuError("{}: a shader needs a #version line", path);
     if (!epilogue.empty()) append_file(std::string(epilogue), *find_(epilogue));
     return std::move(source_);
   }
@@ -63,7 +63,7 @@ class Expander {
       return;
     }
     if (directive == "version") {
-      if (file > 0) throw GpuError(fmt::format("{}:{}: #version in an included file", path, line_number));
+      if (file > 0) throw GpuError("{}:{}: #version in an included file", path, line_number);
       has_version_ = true;
     }
     source_.text.append(line).push_back('\n');
@@ -74,7 +74,7 @@ class Expander {
   }
 
   void append_include(std::string_view argument, const std::string& path, std::size_t line_number) {
-    const auto fail = [&](const std::string& why) { throw GpuError(fmt::format("{}:{}: {}", path, line_number, why)); };
+    const auto fail = [&](const std::string& why) { throw GpuError("{}:{}: {}", path, line_number, why); };
     const auto close = argument.size() < 2 || argument.front() != '"' ? argument.npos : argument.find('"', 1);
     if (close == argument.npos) fail("an include needs a file name in double quotes");
     const std::string included(argument.substr(1, close - 1));

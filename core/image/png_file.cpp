@@ -124,8 +124,6 @@ void PngStream::add_chunks(std::span<const std::uint8_t> stream) {
 
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
 void add_text(Bytes& bytes, std::string_view text) { bytes.insert(bytes.end(), text.begin(), text.end()); }
 
 void add_note(Bytes& file, std::string_view key, std::string_view text) {

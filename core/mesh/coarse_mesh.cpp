@@ -305,7 +305,7 @@ void check_euler(const Surface& surface, const TriangleMesh& mesh) {
     throw OpenSurfaceError("the coarsest mesh has points without triangles");
   for (std::size_t c = 0; c < twice.size(); ++c)
     if (twice[c] != 2 * surface.components[c].euler)
-      throw OpenSurfaceError(fmt::format("the coarsest mesh of component {} has another topology", c));
+      throw OpenSurfaceError("the coarsest mesh of component {} has another topology", c);
 }
 
 }  // namespace

@@ -383,8 +383,7 @@ Solid cut_solid(const Solid& solid, const ClipPlane& plane, std::uint32_t number
     moved.offset += kNudge * (attempt % 2 == 0 ? attempt / 2 : -(attempt + 1) / 2);
     if (std::optional<Solid> cut = Cutter(solid, moved, number, atoms, border_length).run()) return *std::move(cut);
   }
-  throw OpenSurfaceError(
-      fmt::format("the section of plane {} cannot be triangulated; move the plane a little", number + 1));
+  throw OpenSurfaceError("the section of plane {} cannot be triangulated; move the plane a little", number + 1);
 }
 
 }  // namespace meniscus

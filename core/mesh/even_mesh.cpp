@@ -9,11 +9,11 @@
 
 #include "core/base/error.h"
 #include "core/mesh/base_mesh.h"
-#include "core/mesh/creases.h"
 #include "core/mesh/mesh_change.h"
 #include "core/mesh/mesh_crossings.h"
 #include "core/mesh/mesh_mender.h"
 #include "core/mesh/mesh_nearness.h"
+#include "core/mesh/mesh_on_surface.h"
 #include "core/mesh/remesh_tuning.h"
 
 namespace meniscus {
@@ -198,9 +198,9 @@ class EvenMeshing {
       if (bad.empty()) break;
       if (attempt == (contracted_ ? RemeshTuning::contracted_attempts : RemeshTuning::most_attempts))
         throw OpenSurfaceError(
-            fmt::format("no even mesh was found: {} triangles still cross others, lie too far from the surface or "
-                        "enclose another volume; choose a finer mesh",
-                        bad.size()));
+            "no even mesh was found: {} triangles still cross others, lie too far from the surface or "
+            "enclose another volume; choose a finer mesh",
+            bad.size());
       for (Ball& place : guarded) place.radius *= RemeshTuning::place_growth;
       for (const std::uint32_t t : bad) guarded.push_back(ball_around(mesh_->placed(t)));
     }
@@ -380,10 +380,9 @@ class EvenMeshing {
 
 FineMesh even_mesh(const Surface& surface, const EvenMeshOptions& options) {
   if (options.density != 0.0 && !(options.density >= kSmallestDensity && options.density <= kLargestDensity))
-    throw Error(fmt::format("mesh density: {} vertices per Å²; give {} to {}", options.density, kSmallestDensity,
-                            kLargestDensity));
+    throw Error("mesh density: {} vertices per Å²; give {} to {}", options.density, kSmallestDensity, kLargestDensity);
   if (options.density == 0.0 && !(options.tolerance > 0.0 && std::isfinite(options.tolerance)))
-    throw Error(fmt::format("mesh tolerance: {} Å; give a number above 0", options.tolerance));
+    throw Error("mesh tolerance: {} Å; give a number above 0", options.tolerance);
   // Where creases crowd, triangles that have to end at them may find no place. The last try ignores creases, and
   // triangles become smaller there.
   std::uint32_t attempts = 0;

@@ -1,14 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh with vertices that lie on an exact surface and move along it during remeshing, and the quality of its
-// triangles.
+// A mesh with vertices that lie on an exact surface and move along it during remeshing, the creases of the surface that
+// its edges follow, and the quality of its triangles.
 #pragma once
 
 #include "core/base/constants.h"
 #include "core/mesh/half_edges.h"
 #include "core/mesh/mesh_crossings.h"
 #include "core/mesh/surface_walk.h"
+#include "core/surface/primitives.h"
 
 namespace meniscus {
+
+struct TriangleMesh;
+
+/// Returns the unit normals on both sides of a border at its point x. They differ on a cusp between the spheres of two
+/// probes and, if the probe radius is 0, between two balls. For other borders, where the tangent planes agree, both are
+/// the zero vector.
+std::array<glm::dvec3, 2> crease_normals(const Surface& surface, const Border& border, const glm::dvec3& x);
+
+/// Returns the angle (radian) between the two normals, which is the same all along the border.
+double crease_angle(const Surface& surface, const Border& border);
+
+/// Returns for each border true if triangles with edges this long (`edge`: Å at a place) should end at it. This is so
+/// if triangles that bridge the border would be farther from the surface than elsewhere, h sin(angle/2) / 4 against
+/// h²/(6 r), and if the crease is not shorter than an edge.
+std::vector<bool> creases_to_keep(const Surface& surface, const std::function<double(const glm::dvec3&)>& edge);
 
 struct TriangleMesh;
 

@@ -59,10 +59,8 @@ void FaceFilling::fan(std::uint32_t f, FaceMesh& mesh) const {
   if (!mesh.triangles.empty()) return;
   FaceOutline rim = outline(f);
   if (rim.edges.size() < 3) return;
-  if (rim.loop_count > 1) {
-    throw OpenSurfaceError(
-        fmt::format("the mesh cannot be closed: the borders of face {} cross; give a smaller tolerance", f));
-  }
+  if (rim.loop_count > 1)
+    throw OpenSurfaceError("the mesh cannot be closed: the borders of face {} cross; give a smaller tolerance", f);
   mesh = fan_outline(std::move(rim));
 }
 
@@ -428,21 +426,17 @@ class Tessellation {
 
 TriangleMesh tessellate(const Surface& surface, const MeshOptions& options) {
   require_borders(surface);
-  if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance)) {
-    throw Error(fmt::format("mesh tolerance: {} Å; give a number above 0", options.tolerance));
-  }
-  if (!(options.edge >= 0.0) || !std::isfinite(options.edge)) {
-    throw Error(fmt::format("mesh edges: {} Å; give a number above 0, or 0 for those of the tolerance", options.edge));
-  }
+  if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance))
+    throw Error("mesh tolerance: {} Å; give a number above 0", options.tolerance);
+  if (!(options.edge >= 0.0) || !std::isfinite(options.edge))
+    throw Error("mesh edges: {} Å; give a number above 0, or 0 for those of the tolerance", options.edge);
   TriangleMesh mesh = Tessellation(surface, options).run();
   return_free_memory();
-  if (!mesh.triangles.empty() && !measure(mesh).closed) {
-    throw OpenSurfaceError(fmt::format("the mesh at {} Å is not closed; give another tolerance", mesh.tolerance));
-  }
-  if (const std::vector<std::string> found = differences(surface, mesh); !found.empty()) {
-    throw OpenSurfaceError(fmt::format("the mesh at {} Å does not match the surface: {}; give another tolerance",
-                                       mesh.tolerance, found.front()));
-  }
+  if (!mesh.triangles.empty() && !measure(mesh).closed)
+    throw OpenSurfaceError("the mesh at {} Å is not closed; give another tolerance", mesh.tolerance);
+  if (const std::vector<std::string> found = differences(surface, mesh); !found.empty())
+    throw OpenSurfaceError("the mesh at {} Å does not match the surface: {}; give another tolerance", mesh.tolerance,
+                           found.front());
   return mesh;
 }
 

@@ -359,19 +359,6 @@ std::vector<glm::dvec3> without_doubles(const std::vector<glm::dvec3>& places) {
   return result;
 }
 
-}  // namespace
-
-std::vector<glm::dvec3> probe_places(const Surface& surface, const PlaceSteps& steps, const Box& bounds,
-                                     const NearWanted& wanted) {
-  std::vector<glm::dvec3> places;
-  add_fixed(surface, wanted, places);
-  add_on_arcs(surface, steps.on_arcs, wanted, places);
-  add_on_faces(surface, steps, bounds, wanted, places);
-  return without_doubles(places);
-}
-
-namespace {
-
 constexpr double kFinest = 0.25, kCoarsest = 2.0;  // Å, half edges of cells and of the cubes that they come from
 constexpr int kRegion = 8;                         // coarsest cubes along an edge of a region
 constexpr double kRounding = 1e-6;                 // Å, far above the rounding error of coordinates
@@ -520,6 +507,15 @@ class CellFinder {
 };
 
 }  // namespace
+
+std::vector<glm::dvec3> probe_places(const Surface& surface, const PlaceSteps& steps, const Box& bounds,
+                                     const NearWanted& wanted) {
+  std::vector<glm::dvec3> places;
+  add_fixed(surface, wanted, places);
+  add_on_arcs(surface, steps.on_arcs, wanted, places);
+  add_on_faces(surface, steps, bounds, wanted, places);
+  return without_doubles(places);
+}
 
 ProbeCells::ProbeCells(std::span<const Ball> atoms, double probe_radius, const Hull& hull, double clearance)
     : boxes_(CellFinder(atoms, probe_radius, hull, clearance).run()), tree_(boxes_) {}

@@ -131,12 +131,6 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kPicture, in_bundle),
 });
 
-}  // namespace
-
-std::span<const Property> picture_properties() { return kTable; }
-
-namespace {
-
 constexpr std::string_view kFrames = "Frames", kMotion = "Alignment of frames", kFilm = "Film";
 
 constexpr auto kRunTable = std::to_array<Property>({
@@ -231,6 +225,8 @@ constexpr auto kRunTable = std::to_array<Property>({
 });
 
 }  // namespace
+
+std::span<const Property> picture_properties() { return kTable; }
 
 std::span<const Property> frame_properties() { return kRunTable; }
 

@@ -211,12 +211,6 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kSurface, in_short_help),
 });
 
-}  // namespace
-
-std::span<const Property> surface_properties() { return kTable; }
-
-namespace {
-
 constexpr std::string_view kMesh = "Mesh", kOutput = "Output", kScene = "Scene";
 
 constexpr auto kMeshTable = std::to_array<Property>({
@@ -278,6 +272,8 @@ constexpr auto kMeshTable = std::to_array<Property>({
 });
 
 }  // namespace
+
+std::span<const Property> surface_properties() { return kTable; }
 
 std::span<const Property> mesh_properties() { return kMeshTable; }
 

@@ -368,22 +368,6 @@ Curvature of_torus(const ToroidalPatch& t, double probe_radius, const glm::dvec3
   return {0.5 * (along_tube + around_axis), along_tube * around_axis};
 }
 
-}  // namespace
-
-Curvature curvature(const Surface& surface, std::uint32_t face, const glm::dvec3& point) {
-  const Face& f = surface.faces[face];
-  switch (f.kind) {
-    case PatchKind::convex:
-      return of_sphere(1.0 / surface.atoms[surface.convex[f.patch].atom].radius);
-    case PatchKind::toroidal:
-      return of_torus(surface.toroidal[f.patch], surface.probe_radius, point);
-    default:
-      return of_sphere(-1.0 / surface.probe_radius);
-  }
-}
-
-namespace {
-
 constexpr double kDoubt = 1e-6;  // Å from the surface within which a point may count as not in the solvent
 // The most balls with triples that are tried: a million, in a tenth of a second.
 constexpr std::size_t kMostBalls = 200;
@@ -456,6 +440,18 @@ class Surroundings {
 };
 
 }  // namespace
+
+Curvature curvature(const Surface& surface, std::uint32_t face, const glm::dvec3& point) {
+  const Face& f = surface.faces[face];
+  switch (f.kind) {
+    case PatchKind::convex:
+      return of_sphere(1.0 / surface.atoms[surface.convex[f.patch].atom].radius);
+    case PatchKind::toroidal:
+      return of_torus(surface.toroidal[f.patch], surface.probe_radius, point);
+    default:
+      return of_sphere(-1.0 / surface.probe_radius);
+  }
+}
 
 bool in_solvent(std::span<const Ball> atoms, double probe_radius, const glm::dvec3& point) {
   return Surroundings(atoms, probe_radius, point).has_accessible_place();

@@ -7,7 +7,7 @@
 #include "core/base/constants.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/scene/copied_atoms.h"
+#include "core/queries/copies.h"
 #include "core/scene/representations.h"
 #include "core/structure/selection/selection.h"
 #include "core/trajectory/frame_list.h"

@@ -8,7 +8,6 @@
 #include "core/base/text.h"
 #include "core/camera/open_side.h"
 #include "core/queries/copies.h"
-#include "core/scene/copied_atoms.h"
 #include "core/scene/representations.h"
 
 namespace meniscus {
@@ -56,7 +55,7 @@ std::optional<Cut> parse_cut_by_atoms(std::string_view text) {
     const std::string_view atoms = text.substr(word.size());
     if (!atoms.empty() && atoms.front() != ' ' && atoms.front() != '(') continue;
     if (atoms.find_first_not_of(' ') == std::string_view::npos)
-      throw RequestError(fmt::format("{} is not a plane: name the atoms, such as {} ligand", in_quotes(text), word));
+      throw RequestError("{} is not a plane: name the atoms, such as {} ligand", in_quotes(text), word);
     Cut cut;
     cut.keeps_less = false;
     cut.place = place;

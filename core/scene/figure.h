@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A figure: a molecule with everything that is drawn with it, and its motion to the next frame.
+// A figure: a molecule with everything that is drawn with it, the meaning of its colours, and its motion to the next
+// frame.
 #pragma once
 
 #include "core/camera/camera.h"
+#include "core/color/color_key.h"
 #include "core/mesh/velocity.h"
 #include "core/render/picture.h"
 #include "core/scene/cut.h"
@@ -11,6 +13,10 @@
 #include "core/scene/representations.h"
 
 namespace meniscus {
+
+class FrameRun;
+class StillRenderer;
+struct Scene;
 
 /// The motion of a figure from one frame to the next.
 struct FigureMotion {
@@ -48,8 +54,6 @@ class PointMotion {
   const glm::dvec2 size_;
   std::vector<Object> objects_;
 };
-
-class StillRenderer;
 
 /// The parts of a molecule that are shown, and their looks.
 struct FigureRequest {
@@ -142,5 +146,20 @@ using Survey = std::function<void(const CastSurvey& cast)>;
 /// like StillRenderer::render().
 Framebuffer draw(StillRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
                  const RenderSettings& settings, const Survey& survey = {}, const FigureMotion* motion = nullptr);
+
+/// Returns the key of the colours of the atoms in a picture. structure: read with request.mark_atoms() if anything
+/// is drawn in addition to the surface. drawn: one truth value per atom of the surface. `extras`: made by make_extras()
+/// from the same structure, request and scheme. Throws InputError if colours are by a number that the atoms do not have
+/// (color_atoms).
+ColorKey figure_key(const Structure& structure, const ColorScheme& scheme, DrawnAtoms drawn,
+                    const FigureRequest& request, const FigureExtras& extras);
+
+/// Returns the key of a molecule that is drawn, and of everything in `extras`. If a cut may open its surface, all atoms
+/// count, else only atoms with a part of it.
+ColorKey key_of(const Molecule& molecule, const FigureRequest& request = {}, const FigureExtras& extras = {});
+
+/// Returns the key for all frames of a run. If the scene has no legend but may have additional surfaces, everything in
+/// addition to the molecule's surface is left out.
+ColorKey key_of(const FrameRun& run, const Scene& scene);
 
 }  // namespace meniscus

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Marks the atoms that surfaces and shapes draw, and finds the meaning of their colours.
-#include "core/scene/figure_key.h"
+#include "core/scene/figure.h"
 
 #include "core/color/lipophilicity.h"
 #include "core/scene/run_framing.h"
+#include "core/scene/scene.h"
 
 namespace meniscus {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/queries/copies.h"
 #include "core/scene/surface_computer.h"
 #include "core/scene/surface_objects.h"
-#include "core/structure/hydrogen_bonds.h"
+#include "core/structure/bonds.h"
 
 namespace meniscus {
 namespace {

@@ -63,9 +63,9 @@ class Bound {
       frame_ = parse_frame(option, text, trajectory.frame_count());
     } catch (const RequestError&) {
       throw RequestError(
-          fmt::format("{}: {} is neither a frame such as 100, -10 or last, nor a time such as 300ps; there are {} "
-                      "frames",
-                      option, in_quotes(text), with_thousands(trajectory.frame_count())));
+          "{}: {} is neither a frame such as 100, -10 or last, nor a time such as 300ps; there are {} "
+          "frames",
+          option, in_quotes(text), with_thousands(trajectory.frame_count()));
     }
   }
 
@@ -85,8 +85,7 @@ class Bound {
     Frame frame;
     trajectory_.read(number, frame);
     if (!frame.time)
-      throw RequestError(
-          fmt::format("{} {}: the frames of {} have no times; give a frame", option_, text_, trajectory_.path()));
+      throw RequestError("{} {}: the frames of {} have no times; give a frame", option_, text_, trajectory_.path());
     return *frame.time;
   }
 
@@ -130,11 +129,10 @@ std::vector<std::uint32_t> chosen(const Selection& selection, const std::vector<
   const std::vector<bool> selected = selection.evaluate(atoms);
   for (std::uint32_t n = 0; n < atoms.size(); ++n)
     if (selected[n]) indices.push_back(n);
-  if (indices.size() < least) {
-    throw RequestError(fmt::format("{}: selects {} of {} atoms; at least {} are needed",
-                                   option_name(fmt::format("{} {}", option, in_quotes(selection.text()))),
-                                   indices.size(), with_thousands(atoms.size()), least));
-  }
+  if (indices.size() < least)
+    throw RequestError("{}: selects {} of {} atoms; at least {} are needed",
+                       option_name(fmt::format("{} {}", option, in_quotes(selection.text()))), indices.size(),
+                       with_thousands(atoms.size()), least);
   return indices;
 }
 
@@ -201,12 +199,10 @@ void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& req
   }
   if (copies_atoms) assembly_ = find_assembly(structure_.assemblies, molecule.reading.assembly, structure_.file);
   const std::size_t atoms = structure_.topology->atoms.size();
-  if (atoms != trajectory_->atom_count()) {
-    throw InputError(trajectory_->path(), 0,
-                     fmt::format("its frames have {} atoms, but {} has {}: {}",
-                                 with_thousands(trajectory_->atom_count()), structure_.file, with_thousands(atoms),
-                                 advice_on_count(structure_.topology->atoms, trajectory_->atom_count())));
-  }
+  if (atoms != trajectory_->atom_count())
+    throw InputError(trajectory_->path(), 0, "its frames have {} atoms, but {} has {}: {}",
+                     with_thousands(trajectory_->atom_count()), structure_.file, with_thousands(atoms),
+                     advice_on_count(structure_.topology->atoms, trajectory_->atom_count()));
   if (!request.trajectories.empty() && !request.trust_atom_order)
     check_atom_order(
         *structure_.topology, without_added(structure_.atoms, *structure_.topology), first,
@@ -242,9 +238,9 @@ void FrameRun::choose_frames(const RunRequest& request) {
 void FrameRun::multiply() {
   if (copies_ == 1) return;
   if (run_.size() > kMostListedFrames / copies_)
-    throw RequestError(fmt::format("{}: makes more than {} frames",
-                                   option_name(fmt::format("{} {}", interpolates_ ? "interpolate" : "repeat", copies_)),
-                                   with_thousands(kMostListedFrames)));
+    throw RequestError("{}: makes more than {} frames",
+                       option_name(fmt::format("{} {}", interpolates_ ? "interpolate" : "repeat", copies_)),
+                       with_thousands(kMostListedFrames));
   if (interpolates_ && std::unordered_set<std::uint64_t>(run_.begin(), run_.end()).size() < run_.size())
     throw RequestError(
         message("@interpolate@: @frames@ names a frame twice, so the next one is not known; name each once"));

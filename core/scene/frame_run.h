@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run of frames of one molecule. Atoms are selected once, or again in each frame if a selection depends on positions.
+// A run of frames of one molecule. Atoms are selected once, or again in each frame if a selection depends on positions
+// and is not frozen to the atoms of the first frame (--select-once).
 #pragma once
 
 #include "core/scene/molecule.h"
@@ -10,6 +11,8 @@
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {
+
+struct Scene;
 
 /// The source of the bonds along which molecules are made whole.
 enum class WholeBy {
@@ -143,5 +146,10 @@ class FrameRun {
 /// Å. Positions are used after --superpose and other preparations. Throws InputError if no frame can be read,
 /// RequestError if the atoms change.
 std::vector<double> fluctuations(FrameRun& run);
+
+/// If RunRequest::select_once is set, replaces all selections of the scene that depend on positions by the atoms that
+/// they select in the first frame. Must be called before the scene is used. of_atoms: further selections, of atoms of
+/// the surface. Throws RequestError if no selection depends on positions; otherwise like FrameRun.
+void freeze_selections(Scene& scene, const std::vector<Selection*>& of_atoms = {});
 
 }  // namespace meniscus

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Collects all selections, and evaluates them in the first frame.
-#include "core/scene/frozen_selections.h"
+#include "core/scene/frame_run.h"
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/scene/scene.h"
 
 namespace meniscus {
 namespace {

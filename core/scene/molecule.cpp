@@ -12,7 +12,6 @@
 #include "core/math/spiral.h"
 #include "core/queries/copies.h"
 #include "core/queries/surface_parts.h"
-#include "core/scene/area_columns.h"
 #include "core/scene/surface_objects.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/residues.h"
@@ -85,9 +84,9 @@ double checked_share_beyond(const VolumePaint& map, const std::string& path, con
   Box atoms;
   for (const Ball& ball : placed_balls(molecule.objects)) atoms.include(ball.center);
   throw InputError(path, 0,
-                   fmt::format("covers {} Å, where no part of the surface lies: {} has its atoms at {} Å; move the "
-                               "molecule back or compute the map again",
-                               extent_text(map.grid.frame().extent()), molecule.structure.file, extent_text(atoms)));
+                   "covers {} Å, where no part of the surface lies: {} has its atoms at {} Å; move the "
+                   "molecule back or compute the map again",
+                   extent_text(map.grid.frame().extent()), molecule.structure.file, extent_text(atoms));
 }
 
 /// Returns the numbers for By::accessibility, from the surface of all atoms together.

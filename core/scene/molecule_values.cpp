@@ -25,7 +25,7 @@ ModelChoice model_of(const std::string& text) {
   choice.all = text == "all";
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), choice.number);
   if (!choice.all && (error != std::errc() || end != text.data() + text.size() || choice.number < 1))
-    throw RequestError(fmt::format("{} is neither a number from 1 nor all", in_quotes(text)));
+    throw RequestError("{} is neither a number from 1 nor all", in_quotes(text));
   return choice;
 }
 
@@ -77,7 +77,7 @@ template <int... possible>
 int one_of_numbers(const std::string& text) {
   std::int64_t number = 0;
   if (parse_whole_number(text, number) && ((number == possible) || ...)) return static_cast<int>(number);
-  throw RequestError(fmt::format("{} is not one of {}", in_quotes(text), fmt::join({possible...}, ", ")));
+  throw RequestError("{} is not one of {}", in_quotes(text), fmt::join({possible...}, ", "));
 }
 
 std::string number_text(int number) { return std::to_string(number); }
@@ -307,7 +307,7 @@ ColorMap map_of(const std::string& text) {
   if (const std::optional<ColorMap> map = parse_color_map(text)) return *map;
   std::vector<std::string_view> names;
   for (const ColorMapMetadata& map : color_maps()) names.push_back(map.name);
-  throw RequestError(fmt::format("{} is not one of {}", in_quotes(text), fmt::join(names, ", ")));
+  throw RequestError("{} is not one of {}", in_quotes(text), fmt::join(names, ", "));
 }
 
 std::optional<std::array<double, 2>> range_of(const std::string& text) {
@@ -345,8 +345,7 @@ constexpr SceneValue shapes(std::string_view key) {
             std::vector<RepresentationRequest>& requests = scene.figure.representations.requests;
             for (const std::string& text : texts) {
               if (requests.size() == kMostShown)
-                throw RequestError(
-                    fmt::format("at most {} sets of atoms can be drawn in addition to the surface", kMostShown));
+                throw RequestError("at most {} sets of atoms can be drawn in addition to the surface", kMostShown);
               requests.push_back({kind, parse_selection(text)});
             }
           },

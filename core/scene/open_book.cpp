@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the plane of an interface from its buried atoms, and turns both sides about it.
-#include "core/scene/open_book.h"
+#include "core/scene/molecule.h"
 
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/camera/camera.h"
-#include "core/scene/area_columns.h"
 #include "core/scene/surface_objects.h"
 
 namespace meniscus {

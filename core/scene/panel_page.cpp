@@ -8,7 +8,7 @@
 #include "core/base/text.h"
 #include "core/color/color_schemes.h"
 #include "core/render/vector_page.h"
-#include "core/scene/figure_key.h"
+#include "core/scene/figure.h"
 #include "core/scene/scene_picture.h"
 
 namespace meniscus {

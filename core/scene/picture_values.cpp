@@ -36,7 +36,7 @@ std::string direction_text(const glm::vec3& light) { return fmt::format("{},{},{
 
 ViewDirection view_of(const std::string& text) {
   if (const std::optional<ViewDirection> view = parse_view_direction(text)) return *view;
-  throw RequestError(fmt::format("{} is not one of {}", in_quotes(text), fmt::join(view_direction_words(), ", ")));
+  throw RequestError("{} is not one of {}", in_quotes(text), fmt::join(view_direction_words(), ", "));
 }
 
 std::string view_text(const ViewDirection& view) {
@@ -80,8 +80,8 @@ void read_size(const Property&, Texts texts, Scene& scene) {
   };
   if (cross == std::string::npos || !parse_side(text.substr(0, cross), scene.picture.width) ||
       !parse_side(text.substr(cross + 1), scene.picture.height))
-    throw RequestError(fmt::format("{} is not WIDTHxHEIGHT in pixels, 1 to {} each, such as 1920x1080", in_quotes(text),
-                                   kLargestSide));
+    throw RequestError("{} is not WIDTHxHEIGHT in pixels, 1 to {} each, such as 1920x1080", in_quotes(text),
+                       kLargestSide);
   scene.lengths.erase("image.width");
   scene.lengths.erase("image.height");
 }

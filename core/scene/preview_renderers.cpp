@@ -4,9 +4,9 @@
 #include <cassert>
 
 #include "core/base/progress.h"
+#include "core/queries/copies.h"
 #include "core/queries/surface_object.h"
 #include "core/render/cpu/cpu_renderer.h"
-#include "core/scene/copied_atoms.h"
 #include "core/scene/figure.h"
 #include "core/scene/renderers.h"
 #include "core/surface/compute_surface.h"

@@ -32,9 +32,8 @@ namespace {
 /// such a ring.
 Shapes found(const Structure& all, Shapes shapes, const std::vector<bool>& selected, Kind kind, const char* what) {
   if (shapes.empty() && std::ranges::find(selected, true) != selected.end())
-    throw InputError(
-        all.file, 0,
-        fmt::format("{} draws nothing: its atoms are of no {} with a whole ring", option_name(shape_word(kind)), what));
+    throw InputError(all.file, 0, "{} draws nothing: its atoms are of no {} with a whole ring",
+                     option_name(shape_word(kind)), what);
   return shapes;
 }
 

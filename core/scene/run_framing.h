@@ -8,7 +8,6 @@
 #include "core/math/box.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
-#include "core/scene/open_book.h"
 #include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"
 

@@ -107,7 +107,6 @@ Json json_of_texts(const Property& property, const std::vector<std::string>& tex
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Kind = RepresentationRequest::Kind;
 
 /// The radius of sticks, and of tubes.
@@ -121,7 +120,7 @@ auto naming(std::string_view key, const Read& read) {
   } catch (const SelectionError& error) {
     throw SelectionError(fmt::format("object: \"{}\": {}", key, error.sentence()), error.picture());
   } catch (const RequestError& error) {
-    throw RequestError(fmt::format("object: \"{}\": {}", key, error.what()));
+    throw RequestError("object: \"{}\": {}", key, error.what());
   }
 }
 
@@ -129,8 +128,7 @@ auto naming(std::string_view key, const Read& read) {
 std::string own_text(const Json& json, std::string_view key, const char* otherwise) {
   const auto found = json.find(key);
   if (found == json.end()) return otherwise;
-  if (!found->is_string())
-    throw RequestError(fmt::format("object: \"{}\": {} is not a text", key, escaped(found->dump())));
+  if (!found->is_string()) throw RequestError("object: \"{}\": {} is not a text", key, escaped(found->dump()));
   return found->get<std::string>();
 }
 
@@ -138,8 +136,8 @@ std::optional<Kind> shapes_of(const std::string& representation) {
   if (representation == "surface") return {};
   const auto* const shape = std::ranges::find(kShapeWords, representation);
   if (shape == std::end(kShapeWords))
-    throw RequestError(fmt::format("object: \"representation\": {} is not one of surface, {}",
-                                   in_quotes(representation), fmt::join(kShapeWords, ", ")));
+    throw RequestError("object: \"representation\": {} is not one of surface, {}", in_quotes(representation),
+                       fmt::join(kShapeWords, ", "));
   return static_cast<Kind>(shape - kShapeWords);
 }
 
@@ -150,15 +148,15 @@ const Property& property_of_key(const std::string& key, const std::string& repre
     if (known.name == key) return *known.property;
     names.push_back(known.name);
   }
-  throw RequestError(fmt::format("object: {} is not a key of {}; its keys are {}", in_quotes(key), representation,
-                                 fmt::join(names, ", ")));
+  throw RequestError("object: {} is not a key of {}; its keys are {}", in_quotes(key), representation,
+                     fmt::join(names, ", "));
 }
 
 std::vector<std::string> texts_of(const Property& property, const std::string& key, const Json& value) {
   try {
     return texts_of_json(property, value);
   } catch (const RequestError& error) {
-    throw RequestError(fmt::format("object: \"{}\": {} {}", key, escaped(value.dump()), error.what()));
+    throw RequestError("object: \"{}\": {} {}", key, escaped(value.dump()), error.what());
   }
 }
 
@@ -180,7 +178,7 @@ std::optional<ColorScheme> color_of(const Scene& own) {
   if ((color.map || color.range || color.missing) && !color.uses_scale())
     throw RequestError("object: \"map\", \"color_range\" and \"missing_color\" are for a \"color\" by a number");
   if (color.of_points() || color.by == ColorScheme::By::accessibility)
-    throw RequestError(fmt::format("object: \"color\" cannot be {}, which needs all atoms", scheme_word(color)));
+    throw RequestError("object: \"color\" cannot be {}, which needs all atoms", scheme_word(color));
   if (!own.molecule.color_named && color.rules.empty()) return {};
   color.opacities.clear();
   color.share_scale();
@@ -265,8 +263,6 @@ Json figure_object_json(const FigureObjectRequest& object) {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kVersionKey = "meniscus_scene";
 constexpr const char* kSuperposedKey = "superposed";  // information for readers; it sets nothing
 constexpr int kVersion = 1;
@@ -297,7 +293,7 @@ class SceneParser {
 
  private:
   [[noreturn]] void fail(const std::string& place, const std::string& what) const {
-    throw InputError(file_, 0, fmt::format("scene: {} {}", place, what));
+    throw InputError(file_, 0, "scene: {} {}", place, what);
   }
 
   Json json_of(std::string_view text) const {
@@ -324,11 +320,10 @@ class SceneParser {
       throw InputError(file_, 0, "scene: a number is too large");
     }
     if (!scene.is_object() || !scene.contains(kVersionKey))
-      throw InputError(file_, 0, fmt::format("is not a scene: it has no \"{}\": {}", kVersionKey, kVersion));
+      throw InputError(file_, 0, "is not a scene: it has no \"{}\": {}", kVersionKey, kVersion);
     if (scene[kVersionKey] != kVersion)
-      throw InputError(file_, 0,
-                       fmt::format("scene: \"{}\" is {}; this program reads version {}", kVersionKey,
-                                   escaped(scene[kVersionKey].dump()), kVersion));
+      throw InputError(file_, 0, "scene: \"{}\" is {}; this program reads version {}", kVersionKey,
+                       escaped(scene[kVersionKey].dump()), kVersion);
     return scene;
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lets scenes name only files that their user knows of.
-#include "core/scene/scene_paths.h"
+#include "core/scene/scene_json.h"
 
 #include "core/base/error.h"
 #include "core/base/system_file.h"
@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& file, const std::string& place, const std::string& what) {
-  throw InputError(file, 0, fmt::format("scene: {} {}", place, what));
+  throw InputError(file, 0, "scene: {} {}", place, what);
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include "core/camera/open_side.h"
 #include "core/color/color_schemes.h"
 #include "core/render/cpu/unevenness.h"
-#include "core/scene/figure_key.h"
-#include "core/scene/frozen_selections.h"
+#include "core/scene/figure.h"
+#include "core/scene/frame_run.h"
 #include "core/scene/scene_lengths.h"
 #include "core/scene/scene_values.h"
 

@@ -46,8 +46,7 @@ int side_in_pixels(const std::string& text, double dots_per_inch) {
   const Length length = parse_length(text);
   const double pixels = std::round(length.pixels(dots_per_inch));
   if (is_known_in_pixels(length, dots_per_inch) && !(pixels >= 1.0 && pixels <= kLargestSide))
-    throw RequestError(
-        fmt::format("{} makes {:.0f} pixels; a side has 1 to {}", in_quotes(text), pixels, kLargestSide));
+    throw RequestError("{} makes {:.0f} pixels; a side has 1 to {}", in_quotes(text), pixels, kLargestSide);
   return static_cast<int>(pixels);
 }
 
@@ -55,8 +54,8 @@ double pixels_in_range(const Property& property, const std::string& text, double
   const Length length = parse_length(text);
   const double pixels = length.pixels(dots_per_inch);
   if (!is_known_in_pixels(length, dots_per_inch) || property.is_within(pixels)) return pixels;
-  throw RequestError(fmt::format("{} makes {:.4g} pixels; {} {} to {}", in_quotes(text), pixels, what, property.lowest,
-                                 property.highest));
+  throw RequestError("{} makes {:.4g} pixels; {} {} to {}", in_quotes(text), pixels, what, property.lowest,
+                     property.highest);
 }
 
 void keep_length(Scene& scene, std::string_view key, const std::string& text) {
@@ -103,17 +102,15 @@ double number_in_range(const Property& property, const std::string& text) {
   if (is_count) number = static_cast<double>(whole);
   if (is_read && (!property.has_range() || property.is_within(number))) return number;
   const char* const kind = is_count ? "whole number" : "number";
-  if (!property.has_range()) throw RequestError(fmt::format("{} is not a {}", in_quotes(text), kind));
+  if (!property.has_range()) throw RequestError("{} is not a {}", in_quotes(text), kind);
   if (property.highest >= kUnlimited)
-    throw RequestError(fmt::format("{} is not a {} of at least {}", in_quotes(text), kind, property.lowest));
-  throw RequestError(
-      fmt::format("{} is not a {} from {} to {}", in_quotes(text), kind, property.lowest, property.highest));
+    throw RequestError("{} is not a {} of at least {}", in_quotes(text), kind, property.lowest);
+  throw RequestError("{} is not a {} from {} to {}", in_quotes(text), kind, property.lowest, property.highest);
 }
 
 std::size_t place_of_word(const std::vector<std::string>& words, const std::string& text) {
   const auto word = std::ranges::find(words, text);
-  if (word == words.end())
-    throw RequestError(fmt::format("{} is not one of {}", in_quotes(text), fmt::join(words, ", ")));
+  if (word == words.end()) throw RequestError("{} is not one of {}", in_quotes(text), fmt::join(words, ", "));
   return static_cast<std::size_t>(word - words.begin());
 }
 
@@ -121,7 +118,7 @@ std::optional<glm::vec3> parse_color_or(std::string_view none, const std::string
   if (!none.empty() && text == none) return {};
   if (const std::optional<glm::vec3> color = parse_color(text)) return color;
   const std::string what = none.empty() ? "is not" : fmt::format("is neither {} nor", none);
-  throw RequestError(fmt::format("{} {} a colour: give a name such as red, or #rrggbb", in_quotes(text), what));
+  throw RequestError("{} {} a colour: give a name such as red, or #rrggbb", in_quotes(text), what);
 }
 
 }  // namespace scene_values
@@ -197,8 +194,7 @@ const Property& scene_property(std::string_view name) {
         "FreeType");
   }
   const std::string_view nearest = nearest_word(name, std::vector<std::string_view>(names.begin(), names.end()));
-  throw RequestError(
-      fmt::format("is not a value of a scene{}", nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
+  throw RequestError("is not a value of a scene{}", nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest));
 }
 
 void set_value(Scene& scene, const Property& property, std::span<const std::string> texts) {
@@ -227,7 +223,7 @@ namespace meniscus {
 namespace {
 
 [[noreturn]] void refuse(const char* what) {
-  throw RequestError(fmt::format("this build has no {}: it was made without gemmi, nlohmann_json or FreeType", what));
+  throw RequestError("this build has no {}: it was made without gemmi, nlohmann_json or FreeType", what);
 }
 
 }  // namespace

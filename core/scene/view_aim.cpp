@@ -10,7 +10,6 @@
 #include "core/camera/open_side.h"
 #include "core/queries/copies.h"
 #include "core/render/annotation.h"
-#include "core/scene/copied_atoms.h"
 #include "core/scene/representations.h"
 #include "core/scene/surface_objects.h"
 #include "core/structure/superposition.h"

@@ -48,10 +48,9 @@ bool parse_count(std::string_view text, std::size_t& count) {
 }
 
 [[noreturn]] void bad_expression(std::string_view expression, const std::string& file) {
-  throw InputError(
-      file, 0,
-      fmt::format("operator expression {} of an assembly cannot be read; examples are 1,2,5 and (1-60) and (X0)(1-5)",
-                  in_quotes(expression)));
+  throw InputError(file, 0,
+                   "operator expression {} of an assembly cannot be read; examples are 1,2,5 and (1-60) and (X0)(1-5)",
+                   in_quotes(expression));
 }
 
 /// Parses a list such as "1,2,5", "1-60" or "P,1-3".
@@ -148,11 +147,9 @@ std::vector<Atom> expanded(const std::vector<Atom>& atoms, const std::vector<Ins
       if (copy >= group_of[n]->motions.size()) continue;
       Atom& atom = result.emplace_back(atoms[n]);
       atom.position = group_of[n]->motions[copy](atom.position);
-      if (!within_extent(atom.position)) {
-        throw InputError(file, 0,
-                         fmt::format("copy {} of its assembly puts atoms beyond ±{} Å; correct its operators", copy + 1,
-                                     kLargestCoordinate));
-      }
+      if (!within_extent(atom.position))
+        throw InputError(file, 0, "copy {} of its assembly puts atoms beyond ±{} Å; correct its operators", copy + 1,
+                         kLargestCoordinate);
       atom.copy = copy;
       atom.residue += copy * residues;
       if (copy > 0) atom.chain += fmt::format("-{}", copy + 1);
@@ -171,13 +168,11 @@ RigidMotion rigid_motion(const std::array<std::array<double, 4>, 3>& rows, const
   }
   const glm::dmat3& m = motion.rotation;
   const double deviation = farthest_from_identity(glm::transpose(m) * m);
-  if (!(deviation <= kRotationTolerance)) {
-    throw InputError(
-        file, line,
-        fmt::format("the matrix of an assembly is not a rotation: its columns are off unit length or right "
-                    "angles by {:.2g}; correct it",
-                    deviation));
-  }
+  if (!(deviation <= kRotationTolerance))
+    throw InputError(file, line,
+                     "the matrix of an assembly is not a rotation: its columns are off unit length or right "
+                     "angles by {:.2g}; correct it",
+                     deviation);
   if (glm::determinant(m) < 0.0)
     throw InputError(file, line, "the matrix of an assembly mirrors the molecule (determinant -1); correct it");
   motion.rotation = nearest_rotation(m);
@@ -219,7 +214,7 @@ const Assembly& find_assembly(std::span<const Assembly> assemblies, const std::s
                      message("describes no assembly (REMARK 350, _pdbx_struct_assembly_gen); leave @assembly@ out"));
   std::vector<std::string> ids;
   for (const Assembly& assembly : assemblies) ids.push_back(escaped(assembly.id));
-  throw InputError(file, 0, fmt::format("has no assembly {}; it has {}", in_quotes(id), fmt::join(ids, ", ")));
+  throw InputError(file, 0, "has no assembly {}; it has {}", in_quotes(id), fmt::join(ids, ", "));
 }
 
 bool names_chain_of(const Assembly& assembly, const Atom& atom) {
@@ -239,10 +234,9 @@ RigidMotion copy_motion(const Assembly& assembly, const Atom& atom) {
 
 void assemble(Structure& structure, const Assembly& assembly, CopyMode mode) {
   std::vector<Instances> groups = group_by_motions(structure.atoms, assembly);
-  if (groups.empty()) {
-    throw InputError(structure.file, 0,
-                     fmt::format("none of the used atoms belongs to a chain of assembly {}", in_quotes(assembly.id)));
-  }
+  if (groups.empty())
+    throw InputError(structure.file, 0, "none of the used atoms belongs to a chain of assembly {}",
+                     in_quotes(assembly.id));
   keep_members(structure, groups);
   std::size_t total = 0, copies = 0;
   for (const Instances& group : groups) {
@@ -255,13 +249,12 @@ void assemble(Structure& structure, const Assembly& assembly, CopyMode mode) {
     structure.instances = std::move(groups);
     return;
   }
-  if (total > kMostAssembledAtoms) {
+  if (total > kMostAssembledAtoms)
     throw CapacityError(
         message("{}: assembly {} has {} atoms, more than the limit of {}; one surface of it would need about {} GB; "
                 "@instances@ draws copies of one",
                 structure.file, in_quotes(assembly.id), with_thousands(total), with_thousands(kMostAssembledAtoms),
                 with_thousands(total / 250'000)));
-  }
   structure.atoms = expanded(structure.atoms, groups, total, copies, structure.file);
 }
 

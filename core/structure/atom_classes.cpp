@@ -7,12 +7,12 @@
 #include <cmath>
 #include <set>
 
-#include <fmt/format.h>
 #include <gemmi/elem.hpp>
 #include <gemmi/metadata.hpp>
 #include <gemmi/resinfo.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/base/text.h"
 #include "core/structure/martini.h"
 #include "core/structure/plausibility.h"
 #include "core/structure/residue_names.h"
@@ -87,13 +87,6 @@ bool is_amino_acid_atom_name(std::string_view name) {
          name.find_first_not_of("0123456789", 2) == std::string_view::npos;
 }
 
-std::string capitals(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return result;
-}
-
 /// Returns the element of a lone atom that has the same name as its residue or is in a residue "ION": "CL", "Na+",
 /// "ZN2", and CHARMM's own names. Returns X if it is no ion.
 gemmi::Element lone_ion_element(const Atom& atom) {
@@ -101,7 +94,7 @@ gemmi::Element lone_ion_element(const Atom& atom) {
       {"SOD", gemmi::El::Na}, {"CLA", gemmi::El::Cl}, {"POT", gemmi::El::K},  {"CAL", gemmi::El::Ca},
       {"CES", gemmi::El::Cs}, {"LIT", gemmi::El::Li}, {"RUB", gemmi::El::Rb}, {"BAR", gemmi::El::Ba}};
   const auto letters = [](const std::string& name) {
-    return capitals(name.substr(0, name.find_first_of("0123456789+-")));
+    return upper_case(name.substr(0, name.find_first_of("0123456789+-")));
   };
   const std::string name = letters(atom.name);
   if (atom.residue_name != "ION" && name != letters(atom.residue_name)) return gemmi::El::X;
@@ -116,7 +109,7 @@ gemmi::Element element_of_two_letters(const Atom& atom, bool of_polymer) {
   constexpr std::string_view kHalogens = " CL BR ",
                              kOthers = " FE ZN MG MN SI SE CU PT IR RU RH RE AU AS AL TE ";  // not in polymers
   const std::size_t letter = std::min(atom.name.find_first_not_of("0123456789"), atom.name.size());
-  const std::string two = capitals(atom.name.substr(letter, 2)), word = " " + two + " ";
+  const std::string two = upper_case(atom.name.substr(letter, 2)), word = " " + two + " ";
   const bool known = two.size() == 2 && (kHalogens.find(word) != std::string_view::npos ||
                                          (!of_polymer && kOthers.find(word) != std::string_view::npos));
   return known ? gemmi::Element(two) : gemmi::Element(gemmi::El::X);
@@ -336,24 +329,6 @@ class Classifier {
   WarningCollector impossible_;
 };
 
-}  // namespace
-
-bool is_tabulated_residue(const std::string& residue_name) {
-  return gemmi::find_tabulated_residue(residue_name).found();
-}
-
-bool is_site_symbol(std::string_view symbol) {
-  const std::string letters = capitals(symbol);
-  return letters == "EP" || letters == "LP" || letters == "VS";
-}
-
-std::vector<bool> classify_atoms(std::vector<Atom>& atoms, std::vector<Warning>& warnings,
-                                 std::span<const AtomHints> hints, std::span<const Bond> bonds) {
-  return Classifier(atoms, hints, bonds).run(warnings);
-}
-
-namespace {
-
 constexpr std::string_view kOrganic = "HCNOPS";
 
 /// Returns the atomic number of the element with this weight, within 0.1; 0 if there is none.
@@ -374,7 +349,7 @@ int nearest_weight(double mass) {
 /// as beryllium, and hydrogen as much as helium.
 std::uint8_t element_of_mass(const std::string& name, float mass) {
   const gemmi::Element by_mass(nearest_weight(static_cast<double>(mass)));
-  const std::string letters = capitals(name.substr(std::min(name.find_first_not_of("0123456789"), name.size())));
+  const std::string letters = upper_case(name.substr(std::min(name.find_first_not_of("0123456789"), name.size())));
   const bool named_organic = !letters.empty() && kOrganic.find(letters[0]) != std::string_view::npos;
   const bool moved_mass = named_organic && may_weigh(gemmi::Element(letters.substr(0, 1)), mass) &&
                           (by_mass == gemmi::El::He || !letters.starts_with(by_mass.uname()));
@@ -382,6 +357,20 @@ std::uint8_t element_of_mass(const std::string& name, float mass) {
 }
 
 }  // namespace
+
+bool is_tabulated_residue(const std::string& residue_name) {
+  return gemmi::find_tabulated_residue(residue_name).found();
+}
+
+bool is_site_symbol(std::string_view symbol) {
+  const std::string letters = upper_case(symbol);
+  return letters == "EP" || letters == "LP" || letters == "VS";
+}
+
+std::vector<bool> classify_atoms(std::vector<Atom>& atoms, std::vector<Warning>& warnings,
+                                 std::span<const AtomHints> hints, std::span<const Bond> bonds) {
+  return Classifier(atoms, hints, bonds).run(warnings);
+}
 
 void set_elements_by_mass(std::vector<Atom>& atoms, std::span<AtomHints> hints) {
   const bool weighed = std::ranges::any_of(hints, [](const AtomHints& hint) { return hint.mass > kLightestAtom; });

@@ -51,12 +51,6 @@ bool is_color(std::string_view word) {
   return word.size() == 7 && word[0] == '#' && word.find_first_not_of("0123456789abcdefABCDEF", 1) == word.npos;
 }
 
-std::string in_small_letters(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 bool is_one_of(std::span<const std::string_view> names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
@@ -189,7 +183,7 @@ class NumberReader {
     if (!column_.empty() && found != header.end()) return static_cast<std::size_t>(found - header.begin());
     std::vector<std::size_t> others, of_numbers, usual;
     for (std::size_t n = 0; n < header.size(); ++n) {
-      const std::string name = in_small_letters(header[n]);
+      const std::string name = lower_case(header[n]);
       if (name.empty() || is_one_of(kOtherNames, name) || is_one_of(kChainNames, name) ||
           is_one_of(kResidueNames, name))
         continue;
@@ -214,7 +208,7 @@ class NumberReader {
     const auto place = [&](std::span<const std::string_view> names) {
       for (const std::string_view name : names)
         for (std::size_t n = 0; n < header.size(); ++n)
-          if (in_small_letters(header[n]) == name) return n;
+          if (lower_case(header[n]) == name) return n;
       return Columns::kNone;
     };
     const auto place_of = [&](std::string_view name) { return place({&name, 1}); };
@@ -306,7 +300,7 @@ class NumberReader {
 NumberFile read_number_file(const std::string& path, const std::string& column) {
   const TextFile file = read_text_file(path);
   NumberFile result = NumberReader(file, column).read();
-  if (result.empty()) throw InputError(path, 0, fmt::format("holds no numbers; {}", kNumberLayouts));
+  if (result.empty()) throw InputError(path, 0, "holds no numbers; {}", kNumberLayouts);
   return result;
 }
 
@@ -317,7 +311,7 @@ const NumberFile& NumberFile::of_frame(const std::optional<std::uint64_t>& frame
                   by_frame->begin()->first, by_frame->rbegin()->first);
   if (!frame) throw InputError(path, 0, contents + message("; add @frames@, or leave out its column frame"));
   const auto found = by_frame->find(*frame);
-  if (found == by_frame->end()) throw InputError(path, 0, fmt::format("{}, but none of frame {}", contents, *frame));
+  if (found == by_frame->end()) throw InputError(path, 0, "{}, but none of frame {}", contents, *frame);
   return found->second;
 }
 

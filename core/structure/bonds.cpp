@@ -163,20 +163,6 @@ class BondFinder {
   std::vector<Bond> bonds_;
 };
 
-}  // namespace
-
-std::vector<Bond> template_bonds(std::span<const Atom> atoms, std::span<const glm::dvec3> positions,
-                                 const std::optional<PeriodicCell>& cell) {
-  return BondFinder(atoms, positions, cell).by_template();
-}
-
-std::vector<Bond> guessed_bonds(std::span<const Atom> atoms, std::span<const glm::dvec3> positions,
-                                const std::optional<PeriodicCell>& cell) {
-  return BondFinder(atoms, positions, cell).by_distance();
-}
-
-namespace {
-
 constexpr double kShortestFound = 0.5;  // Å; the shortest bond of all, between two hydrogens, is 0.74 Å long
 constexpr double kSlack = 0.4, kSlackBetweenStandardResidues = 0.2;
 
@@ -283,6 +269,16 @@ class MoleculeBonds {
 };
 
 }  // namespace
+
+std::vector<Bond> template_bonds(std::span<const Atom> atoms, std::span<const glm::dvec3> positions,
+                                 const std::optional<PeriodicCell>& cell) {
+  return BondFinder(atoms, positions, cell).by_template();
+}
+
+std::vector<Bond> guessed_bonds(std::span<const Atom> atoms, std::span<const glm::dvec3> positions,
+                                const std::optional<PeriodicCell>& cell) {
+  return BondFinder(atoms, positions, cell).by_distance();
+}
 
 std::vector<Bond> molecule_bonds(std::span<const Atom> atoms, std::span<const Bond> listed,
                                  std::span<const std::int32_t> fully_bonded) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds donors and acceptors by their covalent bonds, and tests pairs of them.
-#include "core/structure/hydrogen_bonds.h"
 
 #include <numbers>
 #include <set>

@@ -54,23 +54,6 @@ const std::map<std::string_view, std::string_view> kAtoms{{"O1P", "OP1"}, {"O2P"
                                                           {"C5M", "C7"},  {"HN", "H"},    {"OT1", "O"},
                                                           {"OT2", "OXT"}, {"OT", "OXT"}};
 
-}  // namespace
-
-std::string canonical_residue(const std::string& residue_name) {
-  if (is_water_name(residue_name)) return "HOH";
-  const auto found = kResidues.find(residue_name);
-  return found == kResidues.end() ? residue_name : std::string(found->second);
-}
-
-char residue_letter(const std::string& residue_name) {
-  const gemmi::ResidueInfo info = gemmi::find_tabulated_residue(canonical_residue(residue_name));
-  return std::isalpha(static_cast<unsigned char>(info.one_letter_code))
-             ? static_cast<char>(std::toupper(static_cast<unsigned char>(info.one_letter_code)))
-             : 'X';
-}
-
-namespace {
-
 using Row = std::pair<const char*, const char*>;  // residue, "atom class atom class ..."
 
 constexpr const char* kAminoAcid = "N N3H1 CA C4H1 C C3H0 O O1H0 OXT O2H1";
@@ -156,6 +139,19 @@ const Atoms& atoms_of(const std::string& canonical) {
 }
 
 }  // namespace
+
+std::string canonical_residue(const std::string& residue_name) {
+  if (is_water_name(residue_name)) return "HOH";
+  const auto found = kResidues.find(residue_name);
+  return found == kResidues.end() ? residue_name : std::string(found->second);
+}
+
+char residue_letter(const std::string& residue_name) {
+  const gemmi::ResidueInfo info = gemmi::find_tabulated_residue(canonical_residue(residue_name));
+  return std::isalpha(static_cast<unsigned char>(info.one_letter_code))
+             ? static_cast<char>(std::toupper(static_cast<unsigned char>(info.one_letter_code)))
+             : 'X';
+}
 
 std::string canonical_atom(std::string_view residue, const std::string& atom_name) {
   if (residue == "ILE" && atom_name == "CD") return "CD1";

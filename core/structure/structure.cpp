@@ -37,19 +37,8 @@ constexpr ReasonWords kReasonWords[] = {
 }  // namespace
 
 const char* class_name(AtomClass kind) {
-  switch (kind) {
-    case AtomClass::polymer:
-      return "polymer";
-    case AtomClass::ligand:
-      return "ligand";
-    case AtomClass::water:
-      return "water";
-    case AtomClass::ion:
-      return "ion";
-    case AtomClass::unclassified:
-      break;
-  }
-  return "unclassified";
+  constexpr const char* kNames[] = {"polymer", "ligand", "water", "ion", "unclassified"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::string label_of(const Atom& atom) {

@@ -37,7 +37,7 @@ class ListParser {
 
  private:
   [[noreturn]] void refuse(const std::string& what) const {
-    throw RequestError(fmt::format("{}: {} {}", option_, in_quotes(text_), what));
+    throw RequestError("{}: {} {}", option_, in_quotes(text_), what);
   }
 
   std::uint64_t unsigned_number(std::string_view& rest) const {
@@ -119,8 +119,7 @@ std::vector<std::uint64_t> parse_frame_list(const std::string& option, std::stri
 
 std::uint64_t parse_frame(const std::string& option, std::string_view text, std::uint64_t frame_count) {
   const std::vector<std::uint64_t> frames = parse_frame_list(option, text, frame_count);
-  if (frames.size() != 1 || text == "all")
-    throw RequestError(fmt::format("{}: {} is more than one frame", option, in_quotes(text)));
+  if (frames.size() != 1 || text == "all") throw RequestError("{}: {} is more than one frame", option, in_quotes(text));
   return frames.front();
 }
 
@@ -155,7 +154,7 @@ double SeriesTable::at(std::uint64_t frame) const {
 
 SeriesTable read_series_table(const std::string& path, const std::string& column) {
   const TextFile file = read_text_file(path);
-  LineReader lines(file.text);
+  LineReader lines(file);
   std::string_view line;
   lines.next(line);
   const std::vector<std::string> header = csv_cells_of(line);
@@ -172,7 +171,7 @@ SeriesTable read_series_table(const std::string& path, const std::string& column
     std::string list;
     for (const std::string& name : header)
       if (name != "frame") list += (list.empty() ? "" : ", ") + escaped(name);
-    throw InputError(path, 1, fmt::format("has no column {}; it has {}", in_quotes(column), list));
+    throw InputError(path, 1, "has no column {}; it has {}", in_quotes(column), list);
   }
   SeriesTable table{path, *value, {}};
   while (lines.next(line)) {
@@ -180,17 +179,15 @@ SeriesTable read_series_table(const std::string& path, const std::string& column
     const std::vector<std::string> cells = csv_cells_of(line);
     std::int64_t number = 0;
     double read = 0.0;
-    if (cells.size() != header.size())
-      throw InputError(path, lines.number(), fmt::format("has {} cells, the header {}", cells.size(), header.size()));
+    if (cells.size() != header.size()) throw lines.error("has {} cells, the header {}", cells.size(), header.size());
     const std::string& frame_cell = cells[static_cast<std::size_t>(frame - header.begin())];
     const std::string& value_cell = cells[static_cast<std::size_t>(value - header.begin())];
     if (!parse_whole_number(frame_cell, number) || number < 0)
-      throw InputError(path, lines.number(), fmt::format("frame {} is not a frame number", in_quotes(frame_cell)));
+      throw lines.error("frame {} is not a frame number", in_quotes(frame_cell));
     if (!parse_number(value_cell, read))
-      throw InputError(path, lines.number(),
-                       fmt::format("{} {} is not a number", escaped(*value), in_quotes(value_cell)));
+      throw lines.error("{} {} is not a number", escaped(*value), in_quotes(value_cell));
     if (!table.by_frame.emplace(static_cast<std::uint64_t>(number), read).second)
-      throw InputError(path, lines.number(), fmt::format("frame {} appears a second time", number));
+      throw lines.error("frame {} appears a second time", number);
   }
   return table;
 }

@@ -59,11 +59,10 @@ CommonAtoms common_atoms(std::span<const Structure> structures, std::span<const 
       if (superposed.front()[pair.reference] && superposed[n][pair.moved]) fitted.push_back(pair);
     }
     if (fitted.size() < 3)
-      throw InputError(
-          structures[n].file, 0,
-          fmt::format("has no chain that corresponds to one of {} by its sequence, with three atoms or more "
-                      "to superpose",
-                      escaped(structures.front().file)));
+      throw InputError(structures[n].file, 0,
+                       "has no chain that corresponds to one of {} by its sequence, with three atoms or more "
+                       "to superpose",
+                       escaped(structures.front().file));
     common.fits.push_back(superposition(first, other, fitted));
     for (std::size_t a = 0; a < first.size(); ++a) {
       is_common[a] = is_common[a] && partner[a] != kNoAtom;

@@ -22,7 +22,7 @@
 namespace meniscus {
 namespace {
 
-glm::dvec3 mean_of(const std::vector<glm::dvec3>& positions, const std::vector<std::uint32_t>& atoms) {
+glm::dvec3 mean_of(std::span<const glm::dvec3> positions, std::span<const std::uint32_t> atoms) {
   glm::dvec3 sum(0.0);
   for (const std::uint32_t a : atoms) sum += positions[a];
   return sum / static_cast<double>(atoms.size());
@@ -239,12 +239,6 @@ void refuse_pieces(std::span<const Atom> atoms, std::span<const std::uint32_t> m
   }
 }
 
-glm::dvec3 center_of(std::span<const glm::dvec3> positions, std::span<const std::uint32_t> atoms) {
-  glm::dvec3 sum(0.0);
-  for (const std::uint32_t a : atoms) sum += positions[a];
-  return sum / static_cast<double>(atoms.size());
-}
-
 }  // namespace
 
 WholeMolecules::WholeMolecules(std::span<const Atom> atoms, std::span<const Bond> bonds,
@@ -294,19 +288,18 @@ void WholeMolecules::apply(const glm::dmat3& vectors, std::vector<glm::dvec3>& p
   for (const auto& [a, b] : bonds_) {
     const glm::dvec3 bond = positions[b] - positions[a];
     // The two vectors are equal except for rounding, or they differ by a lattice vector, which is longer than any bond.
-    if (glm::length(bond - cell->shortest(bond)) > 1e-3) {
+    if (glm::length(bond - cell->shortest(bond)) > 1e-3)
       throw InputError(where, 0,
                        message("atoms {} and {} are bonded across the periodic box to an image of their own molecule, "
                                "which cannot be made whole; leave @whole@ out",
                                a + 1, b + 1));
-    }
   }
   std::vector<std::uint32_t> atoms;
   glm::dvec3 anchor(0.0);
   for (std::size_t m = 0; m + 1 < begins_.size(); ++m) {
     atoms.clear();
     for (std::size_t n = begins_[m]; n < begins_[m + 1]; ++n) atoms.push_back(steps_[n].atom);
-    const glm::dvec3 center = center_of(positions, atoms);
+    const glm::dvec3 center = mean_of(positions, atoms);
     if (m == 0) anchor = center;
     const glm::dvec3 shift = cell->shortest(center - anchor) - (center - anchor);
     for (const std::uint32_t a : atoms) positions[a] += shift;

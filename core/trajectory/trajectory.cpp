@@ -76,20 +76,16 @@ double Trajectory::with_fewest_digits(double number, double precision) {
 }
 
 void Trajectory::read(std::uint64_t number, Frame& frame) {
-  if (number >= frame_count_) {
-    throw InputError(path_, 0,
-                     fmt::format("has no frame {}; it holds {} {}, counted from 0", number,
-                                 with_thousands(frame_count_), frame_count_ == 1 ? "frame" : "frames"));
-  }
+  if (number >= frame_count_)
+    throw InputError(path_, 0, "has no frame {}; it holds {} {}, counted from 0", number, with_thousands(frame_count_),
+                     frame_count_ == 1 ? "frame" : "frames");
   frame.cell.reset();
   frame.time.reset();
   frame.step.reset();
   read_unchecked(number, frame);
-  if (frame.positions.size() != atom_count_) {
-    throw InputError(path_, 0,
-                     fmt::format("frame {} holds {} atoms, the first frame {}", number,
-                                 with_thousands(frame.positions.size()), with_thousands(atom_count_)));
-  }
+  if (frame.positions.size() != atom_count_)
+    throw InputError(path_, 0, "frame {} holds {} atoms, the first frame {}", number,
+                     with_thousands(frame.positions.size()), with_thousands(atom_count_));
   check_positions(frame, number, path_);
   if (frame.time) frame.time = with_fewest_digits(*frame.time, time_precision_);
 }
@@ -101,10 +97,9 @@ JoinedFrames::JoinedFrames(std::vector<std::unique_ptr<Trajectory>> parts)
   for (std::size_t n = 0; n < parts_.size(); ++n) {
     const Trajectory& part = *parts_[n];
     if (part.atom_count() != atom_count_) {
-      throw InputError(
-          part.path(), 0,
-          fmt::format("its frames have {} atoms, but frames of {} have {}; all trajectories need the same number",
-                      with_thousands(part.atom_count()), parts_.front()->path(), with_thousands(atom_count_)));
+      throw InputError(part.path(), 0,
+                       "its frames have {} atoms, but frames of {} have {}; all trajectories need the same number",
+                       with_thousands(part.atom_count()), parts_.front()->path(), with_thousands(atom_count_));
     }
     begin_.push_back(frame_count_);
     frame_count_ += part.frame_count();

@@ -139,22 +139,19 @@ class Ccp4Reader {
   bool swapped_ = false;
 };
 
-}  // namespace
-
+/// True if these are the bytes of a CCP4 or MRC 2014 map, recognised by its stamp.
 bool is_ccp4(std::string_view bytes) { return bytes.size() > kStamp + 4 && bytes.substr(kStamp, 3) == "MAP"; }
 
+/// Reads CCP4/MRC of modes 0, 1, 2 and 6, in both byte orders and with any order of axes. The origin is ORIGIN if that
+/// is not zero (MRC 2014), else NSTART (CCP4).
 VolumeGrid read_ccp4(const std::string& path, std::string_view bytes) { return Ccp4Reader(path, bytes).read(); }
-
-namespace {
 
 /// Reads the next `count` numbers of a file, with any number of them per line. Throws InputError.
 std::vector<float> read_values(const TextFile& file, LineReader& lines, std::size_t count) {
   // Each value takes two bytes at least, so no count makes this reserve more than the file is worth.
   if (count > lines.bytes_left() / 2 + 1)
-    throw InputError(
-        file.path, lines.number(),
-        fmt::format("announces {} values, more than the {} bytes after it can hold; is the file cut short?",
-                    with_thousands(count), with_thousands(lines.bytes_left())));
+    throw lines.error("announces {} values, more than the {} bytes after it can hold; is the file cut short?",
+                      with_thousands(count), with_thousands(lines.bytes_left()));
   std::vector<float> values;
   values.reserve(count);
   std::string_view line;
@@ -172,9 +169,8 @@ std::vector<float> read_values(const TextFile& file, LineReader& lines, std::siz
     }
   }
   if (values.size() < count)
-    throw InputError(file.path, lines.number(),
-                     fmt::format("ends after {} of {} values; is the file cut short?", with_thousands(values.size()),
-                                 with_thousands(count)));
+    throw lines.error("ends after {} of {} values; is the file cut short?", with_thousands(values.size()),
+                      with_thousands(count));
   return values;
 }
 
@@ -182,7 +178,7 @@ std::vector<float> read_values(const TextFile& file, LineReader& lines, std::siz
 /// https://apbs.readthedocs.io/en/latest/formats/opendx.html
 class DxReader {
  public:
-  explicit DxReader(const TextFile& file) : file_(file), lines_(file.text) {}
+  explicit DxReader(const TextFile& file) : file_(file), lines_(file) {}
 
   VolumeGrid read() {
     std::string_view line;
@@ -200,7 +196,7 @@ class DxReader {
       else if (fields[0] == "object" && has(fields, "array"))
         return finish(fields);
     }
-    throw InputError(file_.path, lines_.number(), "ends without an array of values; is the file cut short?");
+    throw lines_.error("ends without an array of values; is the file cut short?");
   }
 
  private:
@@ -265,17 +261,14 @@ class DxReader {
   std::string title_, unit_;
 };
 
-}  // namespace
-
+/// Reads OpenDX: a grid of regular positions and connections with its values as text. Coordinates are in Å.
 VolumeGrid read_dx(const TextFile& file) { return DxReader(file).read(); }
-
-namespace {
 
 constexpr double kBohr = 0.529177210903;  // Å; CODATA 2018
 
 class CubeReader {
  public:
-  explicit CubeReader(const TextFile& file) : file_(file), lines_(file.text) {}
+  explicit CubeReader(const TextFile& file) : file_(file), lines_(file) {}
 
   VolumeGrid read() {
     next_line();
@@ -336,15 +329,12 @@ class CubeReader {
   LineReader lines_;
 };
 
-}  // namespace
-
+/// Reads a Gaussian cube with one value per point. Lengths are in Bohr, or in Å if the numbers of points are negative.
 VolumeGrid read_cube(const TextFile& file) { return CubeReader(file).read(); }
-
-namespace {
 
 /// True if the first line that is not a comment begins as in OpenDX files.
 bool is_dx(const TextFile& file) {
-  LineReader lines(file.text);
+  LineReader lines(file);
   std::string_view line;
   while (lines.next(line)) {
     const std::string_view text = trimmed(line);
@@ -356,7 +346,7 @@ bool is_dx(const TextFile& file) {
 
 /// True if the third line has at least four fields, as in cube files.
 bool may_be_cube(const TextFile& file) {
-  LineReader lines(file.text);
+  LineReader lines(file);
   std::string_view line;
   for (int n = 0; n < 3; ++n)
     if (!lines.next(line)) return false;

@@ -23,9 +23,9 @@ void check_frame(const std::string& path, const VolumeFrame& frame) {
     const double length = glm::length(frame.step[axis]);
     edges *= length;
     if (!(length > 0.0 && length * static_cast<double>(frame.size[axis]) < kLargestPlace))
-      throw InputError(path, 0, fmt::format("steps by {:.6g} Å along axis {}; is the unit right?", length, axis + 1));
+      throw InputError(path, 0, "steps by {:.6g} Å along axis {}; is the unit right?", length, axis + 1);
     if (!(std::abs(frame.origin[axis]) < kLargestPlace))
-      throw InputError(path, 0, fmt::format("begins at {:.6g} Å; is the unit right?", frame.origin[axis]));
+      throw InputError(path, 0, "begins at {:.6g} Å; is the unit right?", frame.origin[axis]);
   }
   if (!(std::abs(glm::determinant(frame.step)) > kFlattest * edges))
     throw InputError(path, 0, "has axes that lie in one plane; correct its steps");
@@ -63,9 +63,8 @@ VolumeGrid::VolumeGrid(const std::string& path, const VolumeFrame& frame, std::v
   to_index_ = glm::inverse(frame_.step);
   const auto wrong = std::ranges::find_if_not(values_, [](float value) { return std::isfinite(value); });
   if (wrong != values_.end())
-    throw InputError(path, 0,
-                     fmt::format("holds {} as value {}, which is not finite; compute the map again", *wrong,
-                                 with_thousands(static_cast<std::size_t>(wrong - values_.begin()) + 1)));
+    throw InputError(path, 0, "holds {} as value {}, which is not finite; compute the map again", *wrong,
+                     with_thousands(static_cast<std::size_t>(wrong - values_.begin()) + 1));
 }
 
 double VolumeGrid::sample(const glm::dvec3& point) const {
@@ -80,14 +79,13 @@ void check_volume_size(const std::string& path, std::size_t line, const std::arr
   std::size_t count = 1;
   for (const std::int64_t points : size) {
     if (points < 2)
-      throw InputError(
-          path, line,
-          fmt::format("says {} x {} x {} points; a grid has at least two along each axis", size[0], size[1], size[2]));
+      throw InputError(path, line, "says {} x {} x {} points; a grid has at least two along each axis", size[0],
+                       size[1], size[2]);
     if (static_cast<std::size_t>(points) > kMostVolumeValues / count)
       throw CapacityError(
-          fmt::format("{}: says {} x {} x {} points, more than this program reads; cut the map or make it "
-                      "coarser",
-                      path, size[0], size[1], size[2]));
+          "{}: says {} x {} x {} points, more than this program reads; cut the map or make it "
+          "coarser",
+          path, size[0], size[1], size[2]);
     count *= static_cast<std::size_t>(points);
   }
 }

@@ -14,13 +14,13 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
-#include "core/color/color_key_json.h"
+#include "core/color/color_key.h"
 #include "core/color/color_maps.h"
 #include "core/mesh/mesh_colors.h"
 #include "core/queries/surface_parts.h"
 #include "core/surface/measure.h"
 #include "exporters/blender/mns_file.h"
-#include "exporters/mesh_files/vertex_numbers.h"
+#include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus::blender {
 namespace {

@@ -7,7 +7,6 @@
 #ifdef MENISCUS_WITH_JSON
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -15,6 +14,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
+#include "core/base/text.h"
 #include "core/base/version.h"
 #include "core/image/color_space.h"
 
@@ -44,11 +44,7 @@ std::string plain_text(const std::string& text) {
 }
 
 /// Returns the name of a vertex attribute: an underscore and capital letters.
-std::string semantic(const std::string& name) {
-  std::string word = "_" + name;
-  std::ranges::transform(word, word.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return word;
-}
+std::string semantic(const std::string& name) { return "_" + upper_case(name); }
 
 /// Builds both chunks of a GLB file.
 class Builder {

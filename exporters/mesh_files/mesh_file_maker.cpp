@@ -90,9 +90,7 @@ std::vector<glm::dvec3> inner_points(const Surface& surface, const TriangleMesh&
     const long winding = side > 0.0 ? -1 : 1;
     if (longest == 0.0 || winding_number(mesh, triangles[c], point) != winding) {
       const auto below = point_below(mesh, triangles[c], winding);
-      if (!below)
-        throw OpenSurfaceError(
-            fmt::format("no point was found inside component {} of the mesh; ask for a finer one", c));
+      if (!below) throw OpenSurfaceError("no point was found inside component {} of the mesh; ask for a finer one", c);
       point = *below;
     }
     points.push_back(point);

@@ -7,7 +7,6 @@
 #include "core/mesh/weld.h"
 #include "core/queries/surface_object.h"
 #include "exporters/mesh_files/mesh_formats.h"
-#include "exporters/mesh_files/vertex_numbers.h"
 #include "exporters/mesh_files/writers.h"
 
 namespace meniscus {

@@ -22,6 +22,14 @@ std::string plain_name(const std::string& name) {
   return plain;
 }
 
+/// Writes the rows of triangles that OFF and PLY have: "3 a b c".
+void write_corners(OutputFile& file, const FileObject& object) {
+  file.write(text_of_rows("", object.triangles.size(), [&](std::size_t t, auto out) {
+    const auto& [a, b, c] = object.triangles[t];
+    fmt::format_to(out, FMT_COMPILE("3 {} {} {}\n"), a, b, c);
+  }));
+}
+
 }  // namespace
 
 void write_obj(OutputFile& file, const MeshFile& mesh) {
@@ -55,10 +63,7 @@ void write_off(OutputFile& file, const MeshFile& mesh) {
                      const glm::vec3& x = object.positions[v];
                      fmt::format_to(out, FMT_COMPILE("{} {} {}\n"), x.x, x.y, x.z);
                    }));
-  file.write(text_of_rows("", object.triangles.size(), [&](std::size_t t, auto out) {
-    const auto& [a, b, c] = object.triangles[t];
-    fmt::format_to(out, FMT_COMPILE("3 {} {} {}\n"), a, b, c);
-  }));
+  write_corners(file, object);
 }
 
 void write_ascii_ply(OutputFile& file, const MeshFile& mesh) {
@@ -70,10 +75,7 @@ void write_ascii_ply(OutputFile& file, const MeshFile& mesh) {
     for (const VertexNumbers& column : object.numbers) fmt::format_to(out, FMT_COMPILE(" {}"), column.values[v]);
     *out = '\n';
   }));
-  file.write(text_of_rows("", object.triangles.size(), [&](std::size_t t, auto out) {
-    const auto& [a, b, c] = object.triangles[t];
-    fmt::format_to(out, FMT_COMPILE("3 {} {} {}\n"), a, b, c);
-  }));
+  write_corners(file, object);
 }
 
 namespace {
@@ -175,8 +177,8 @@ char kind_letter(PatchKind kind) { return kind == PatchKind::convex ? 'C' : kind
 void check_range(const glm::dvec3& x) {
   for (int k = 0; k < 3; ++k)
     if (!(std::abs(x[k]) < kLargest))
-      throw CapacityError(fmt::format(
-          "DMS has room for coordinates between -1000 and 1000 Å, and one is {:.3f}; choose another format", x[k]));
+      throw CapacityError(
+          "DMS has room for coordinates between -1000 and 1000 Å, and one is {:.3f}; choose another format", x[k]);
 }
 
 }  // namespace

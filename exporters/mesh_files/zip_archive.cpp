@@ -40,8 +40,7 @@ struct CompressorDeleter {
 
 void require_small(std::size_t size, const std::string& name) {
   if (size < std::numeric_limits<std::uint32_t>::max()) return;
-  throw CapacityError(
-      fmt::format("{} would have {} bytes, and zip has room for 4 GiB; ask for a coarser mesh", name, size));
+  throw CapacityError("{} would have {} bytes, and zip has room for 4 GiB; ask for a coarser mesh", name, size);
 }
 
 std::uint32_t checksum_of(std::string_view content) { return ::libdeflate_crc32(0, content.data(), content.size()); }
@@ -205,6 +204,12 @@ std::string model_text(const MeshFile& mesh) {
   return text + " </build>\n</model>\n";
 }
 
+void write_archive(OutputFile& file, std::span<const MeshFile> frames, const RunTimes* times) {
+  ZipArchive archive;
+  archive.add_stored("molecule.usda", usd_text(frames, times));
+  file.write(archive.finish());
+}
+
 }  // namespace
 
 void write_3mf(OutputFile& file, const MeshFile& mesh) {
@@ -214,16 +219,6 @@ void write_3mf(OutputFile& file, const MeshFile& mesh) {
   archive.add_deflated("3D/3dmodel.model", model_text(mesh));
   file.write(archive.finish());
 }
-
-namespace {
-
-void write_archive(OutputFile& file, std::span<const MeshFile> frames, const RunTimes* times) {
-  ZipArchive archive;
-  archive.add_stored("molecule.usda", usd_text(frames, times));
-  file.write(archive.finish());
-}
-
-}  // namespace
 
 void write_usdz(OutputFile& file, const MeshFile& mesh) { write_archive(file, {&mesh, 1}, nullptr); }
 
@@ -240,8 +235,7 @@ namespace meniscus {
 namespace {
 
 [[noreturn]] void refuse(std::string_view format) {
-  throw RequestError(
-      fmt::format("this build writes no {} files: it was made without libdeflate; choose another format", format));
+  throw RequestError("this build writes no {} files: it was made without libdeflate; choose another format", format);
 }
 
 }  // namespace

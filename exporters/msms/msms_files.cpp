@@ -20,14 +20,8 @@ namespace {
 const double kEdgeAtDensityOne = 1.1 * std::sqrt(2.0 / std::sqrt(3.0));
 
 MsmsFaceKind kind_of(const Face& face) {
-  switch (face.kind) {
-    case PatchKind::convex:
-      return MsmsFaceKind::contact;
-    case PatchKind::toroidal:
-      return MsmsFaceKind::toric;
-    default:
-      return MsmsFaceKind::reentrant;
-  }
+  constexpr MsmsFaceKind kKinds[] = {MsmsFaceKind::contact, MsmsFaceKind::toric, MsmsFaceKind::reentrant};
+  return kKinds[static_cast<std::size_t>(face.kind)];
 }
 
 /// Returns the level of vertices inside a face (MsmsVertex::level), the last column of .vert files.

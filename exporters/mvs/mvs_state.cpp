@@ -2,12 +2,10 @@
 // Writes scenes as trees of MolViewSpec's nodes, and puts them into an archive.
 #include "exporters/mvs/mvs_state.h"
 
-#include <map>
 #include <numbers>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "core/image/color_space.h"
 #include "core/image/image_codec.h"

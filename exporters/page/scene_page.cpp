@@ -23,7 +23,7 @@
 #include "core/render/cpu/cpu_renderer.h"
 #include "core/scene/annotations.h"
 #include "core/scene/cut.h"
-#include "core/scene/figure_key.h"
+#include "core/scene/figure.h"
 #include "core/scene/representations.h"
 #include "core/scene/scene_json.h"
 #include "core/scene/scene_picture.h"

@@ -2,12 +2,9 @@
 // Writes a scene for Mitsuba 3: camera, lights and materials, then the objects, those with copies as groups.
 #include "exporters/path_tracers/path_tracer_scene.h"
 
-#include <algorithm>
 #include <numbers>
-#include <utility>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "core/base/version.h"
 

@@ -3,12 +3,9 @@
 // instances.
 #include "exporters/path_tracers/path_tracer_scene.h"
 
-#include <algorithm>
 #include <numbers>
-#include <utility>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "core/base/version.h"
 

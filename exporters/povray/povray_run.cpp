@@ -11,13 +11,16 @@
 #include "core/base/error.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
-#include "core/color/color_key_json.h"
+#include "core/color/color_key.h"
 #include "exporters/povray/povray_files.h"
 #include "exporters/povray/scene_text.h"
 #include "exporters/povray/surface_pieces.h"
 
 namespace meniscus::povray {
 
+namespace {
+
+/// Returns the text of <name>_story.pov, which shows the pictures that <name>.ini rendered.
 std::string story_text(const SceneOptions& options, const Story& story) {
   const std::vector<StoryPicture>& film = story.pictures;
   SceneText out;
@@ -36,6 +39,7 @@ std::string story_text(const SceneOptions& options, const Story& story) {
   return out.text();
 }
 
+/// Returns the text of <name>_story.ini.
 std::string story_ini_text(const SceneOptions& options, const Story& film) {
   return filled(template_text(povray_templates(), "story.ini"), {{"NAME", options.name},
                                                                  {"WIDTH", std::to_string(options.width)},
@@ -43,8 +47,6 @@ std::string story_ini_text(const SceneOptions& options, const Story& film) {
                                                                  {"COUNT", std::to_string(film.pictures.size())},
                                                                  {"RATE", fmt::format("{:g}", film.rate)}});
 }
-
-namespace {
 
 void check(const Run& run) {
   if (run.frames.empty()) throw Error("POV-Ray export: a run has at least one frame");
@@ -160,7 +162,7 @@ SceneReport SequenceScene::write_frame(std::size_t place, const Shown& shown) co
     for (const SceneColor& color : *run_.colors) table.number(color);
   const SceneContent content(shown, camera, options_, origin_, table);
   if (run_.colors && table.colors().size() > run_.colors->size())
-    throw Error(fmt::format("frame {} has a colour that the run does not have", run_.frames[place]));
+    throw Error("frame {} has a colour that the run does not have", run_.frames[place]);
   OutputFolder output(folder_, options_.existing);
   SceneReport report;
   const auto begin_file = [&](const std::string& what, const char* ending = ".inc") -> OutputFile& {

@@ -26,11 +26,6 @@ struct Story {
   double rate = 25.0;  ///< pictures per second
 };
 
-/// Returns the text of <name>_story.pov, which shows the pictures that <name>.ini rendered.
-std::string story_text(const SceneOptions& options, const Story& film);
-/// Returns the text of <name>_story.ini.
-std::string story_ini_text(const SceneOptions& options, const Story& film);
-
 /// The properties that all frames of a run share. Every process that writes some of the frames must use the same run.
 struct Run {
   /// Frame numbers of the trajectory, each once; POV-Ray's frames have the same numbers.

@@ -31,14 +31,16 @@ void append_hatching(SceneText& out, std::uint32_t color, const ClipPlane& plane
   out.count(color).literal("]} #end");
 }
 
-}  // namespace
-
+/// Returns the caps that cut.planes make. Their tolerance is a tenth of a pixel, clamped to 0.002 to 0.02 Å. Throws
+/// what section_caps() throws.
 CapMesh make_caps(std::span<const SurfaceObject> objects, const SurfaceCut& cut, const Camera& camera, int width,
                   int height) {
   const MeshRequest request{kFinest, kPixelShare};
   const double tolerance = tolerance_of(request, {width, height}, camera, placed_balls(objects));
   return section_caps(objects, cut.planes, cut.style.color.has_value(), std::clamp(tolerance, kFinest, kCoarsest));
 }
+
+}  // namespace
 
 Caps colored_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const CapStyle& style,
                   const ObjectStyle& object_style, ColorTable& table) {

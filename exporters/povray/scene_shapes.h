@@ -17,11 +17,6 @@ struct Caps {
   std::vector<std::uint32_t> color;  ///< per triangle: index into the colours of the scene
 };
 
-/// Returns the caps that cut.planes make. Their tolerance is a tenth of a pixel, clamped to 0.002 to 0.02 Å. Throws
-/// what section_caps() throws.
-CapMesh make_caps(std::span<const SurfaceObject> objects, const SurfaceCut& cut, const Camera& camera, int width,
-                  int height);
-
 /// Returns the caps with their colours, which are added to the table. Opacities are those of the atoms. objects: the
 /// objects that were cut.
 Caps colored_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const CapStyle& style,

@@ -166,13 +166,16 @@ std::string_view kind_name(PatchKind kind) {
   return "concave";
 }
 
-}  // namespace
-
+/// Returns the name if it is harmless, and an empty text otherwise. A harmless name has at most 40 bytes and consists
+/// of ASCII letters and digits, blanks between them, and the characters _ ' * + - . , ( ), which occur in names of
+/// atoms and classes. No other name is ever written into a scene.
 std::string_view harmless_name(std::string_view name) {
   const bool harmless = !name.empty() && name.size() <= kLongestName && name.front() != ' ' && name.back() != ' ' &&
                         std::ranges::all_of(name, is_allowed) && std::ranges::any_of(name, is_letter_or_digit);
   return harmless ? name : std::string_view{};
 }
+
+}  // namespace
 
 std::string color_comment(const ColorKey& key, const SceneColor& color) {
   if (color.by_map) return {};
@@ -219,8 +222,8 @@ void push_bytes(std::string& bytes, std::uint32_t value, int count) {
 void write_density(const VolumeGrid& grid, const std::function<void(std::string_view)>& write) {
   const auto& size = grid.frame().size;
   if (std::ranges::any_of(size, [](std::size_t points) { return points > kMostDensityPoints; }))
-    throw RequestError(fmt::format("--color-map-file: POV-Ray's density files have at most {} points along an axis",
-                                   with_thousands(kMostDensityPoints)));
+    throw RequestError("--color-map-file: POV-Ray's density files have at most {} points along an axis",
+                       with_thousands(kMostDensityPoints));
   const auto [low, high] = std::ranges::minmax(grid.values());
   const double width = static_cast<double>(high) - low;
   std::string bytes;

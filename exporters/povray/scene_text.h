@@ -118,11 +118,6 @@ struct Palette {
 Palette make_palette(const Surface& surface, const Coloring& coloring, ColorTable& table,
                      const ObjectStyle& style = {});
 
-/// Returns the name if it is harmless, and an empty text otherwise. A harmless name has at most 40 bytes and consists
-/// of ASCII letters and digits, blanks between them, and the characters _ ' * + - . , ( ), which occur in names of
-/// atoms and classes. No other name is ever written into a scene.
-std::string_view harmless_name(std::string_view name);
-
 /// Returns the names of a colour in the key as a comment, such as "  // chain A, C", with at most five names. The
 /// result is empty if the colour has no harmless name.
 std::string color_comment(const ColorKey& key, const SceneColor& color);

@@ -6,10 +6,10 @@ source "$(dirname "$0")/copied_tree.sh"
 git init -q . && git add -A
 
 mkdir exporters/balls
-cat >exporters/balls/CMakeLists.txt <<'CMAKE'
-# Text files of balls.
-add_library(meniscus_balls STATIC balls_file.cpp)
+cat >>exporters/CMakeLists.txt <<'CMAKE'
+add_library(meniscus_balls STATIC balls/balls_file.cpp)
 target_link_libraries(meniscus_balls PUBLIC meniscus_scene_picture PRIVATE fmt::fmt)
+set_property(GLOBAL APPEND PROPERTY MENISCUS_EXPORTERS meniscus_balls)
 CMAKE
 cat >exporters/balls/balls_file.h <<'HEADER'
 // SPDX-License-Identifier: BSD-3-Clause

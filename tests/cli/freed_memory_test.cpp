@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "app/process/memory.h"
+#include "app/process/program_main.h"
 
 namespace meniscus {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How much memory there is: of the machine, or less by control groups.
-#include "app/process/memory.h"
+#include "app/process/program_main.h"
 
 #include <cstdint>
 #include <filesystem>

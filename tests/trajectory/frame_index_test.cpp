@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "core/trajectory/formats/trajectory_formats.h"
-#include "core/trajectory/formats/frame_index.h"
 #include "tests/support/run_program.h"
 #include "tests/trajectory/samples.h"
 #include "core/trajectory/trajectory.h"

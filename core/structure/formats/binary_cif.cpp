@@ -223,9 +223,8 @@ class Decoder {
     if (rows == 0 || columns.empty()) return;
     values_ += rows < file_.text.size() ? rows * columns.size() : file_.text.size() * kMostValuesPerByte;
     if (rows > file_.text.size() || values_ > kMostValuesPerByte * file_.text.size())
-      throw InputError(file_.path, 0,
-                       fmt::format("{} has {} rows, more than its {} bytes hold of a molecule; is it damaged?", name,
-                                   with_thousands(rows), with_thousands(file_.text.size())));
+      throw InputError(file_.path, 0, "{} has {} rows, more than its {} bytes hold of a molecule; is it damaged?", name,
+                       with_thousands(rows), with_thousands(file_.text.size()));
     std::vector<std::string> tags;
     std::vector<std::vector<std::string>> texts;
     for (const json& column : columns) {
@@ -233,8 +232,7 @@ class Decoder {
       try {
         texts.push_back(read_column(column, rows));
       } catch (const BadColumn& bad) {
-        throw InputError(file_.path, 0,
-                         fmt::format("column {} {}; write the file again", escaped(name + '.' + tag), bad.what));
+        throw InputError(file_.path, 0, "column {} {}; write the file again", escaped(name + '.' + tag), bad.what);
       }
       tags.push_back(std::move(tag));
     }
@@ -316,8 +314,7 @@ gemmi::cif::Document read_binary_cif(const TextFile& file) {
     // The text of the exception is "[json.exception.parse_error.110] parse error at byte 7: ...".
     std::string what = error.what();
     what.erase(0, what.starts_with('[') ? std::min(what.size(), what.find("] ") + 2) : 0);
-    throw InputError(file.path, 0,
-                     fmt::format("is not a readable BinaryCIF file: {}; is it cut short?", escaped(what)));
+    throw InputError(file.path, 0, "is not a readable BinaryCIF file: {}; is it cut short?", escaped(what));
   }
 }
 

@@ -177,7 +177,7 @@ namespace {
 
 class Remark350 {
  public:
-  explicit Remark350(const TextFile& file) : file_(file), lines_(file.text) {}
+  explicit Remark350(const TextFile& file) : file_(file), lines_(file) {}
 
   std::vector<Assembly> run() {
     std::string_view line;
@@ -223,11 +223,9 @@ class Remark350 {
 
   void take_row(std::string_view text, std::string_view line) {
     const char row = text.size() > 5 ? text[5] : ' ';
-    if (row != static_cast<char>('1' + rows_)) {
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("BIOMT{} was found where BIOMT{} is missing; a matrix has three rows",
-                                   escaped({&row, 1}), rows_ + 1));
-    }
+    if (row != static_cast<char>('1' + rows_))
+      throw lines_.error("BIOMT{} was found where BIOMT{} is missing; a matrix has three rows", escaped({&row, 1}),
+                         rows_ + 1);
     if (row == '1') {
       first_line_ = lines_.number();
       serial_ = trimmed(line.substr(std::min<std::size_t>(line.size(), 19), 4));
@@ -236,27 +234,24 @@ class Remark350 {
     constexpr std::size_t kBegin[] = {23, 33, 43, 53}, kLength[] = {10, 10, 10, 15};
     for (std::size_t n = 0; n < 4; ++n) {
       const std::string_view field = line.size() > kBegin[n] ? line.substr(kBegin[n], kLength[n]) : std::string_view();
-      if (!parse_number(field, matrix_[rows_][n]) || std::abs(matrix_[rows_][n]) > kLargestCoordinate) {
-        throw InputError(file_.path, lines_.number(),
-                         fmt::format("BIOMT{} has {} where a number of at most {} is expected; correct the matrix", row,
-                                     in_quotes(field), kLargestCoordinate));
-      }
+      if (!parse_number(field, matrix_[rows_][n]) || std::abs(matrix_[rows_][n]) > kLargestCoordinate)
+        throw lines_.error("BIOMT{} has {} where a number of at most {} is expected; correct the matrix", row,
+                           in_quotes(field), kLargestCoordinate);
     }
     if (++rows_ == 3) finish_matrix();
   }
 
   void finish_matrix() {
     if (rows_ == 0) return;
-    if (rows_ < 3) {
-      throw InputError(file_.path, first_line_,
-                       fmt::format("matrix {} of REMARK 350 has {} of three rows", in_quotes(serial_), rows_));
-    }
+    if (rows_ < 3)
+      throw InputError(file_.path, first_line_, "matrix {} of REMARK 350 has {} of three rows", in_quotes(serial_),
+                       rows_);
     rows_ = 0;
     if (assemblies_.empty()) assemblies_.push_back({"1", {}, {}});
     if (assemblies_.back().parts.empty()) assemblies_.back().parts.emplace_back();
     auto& motions = assemblies_.back().parts.back().motions;
     if (motions.size() >= kMostOperators)
-      throw CapacityError(fmt::format("{}: more than {} BIOMT matrices", file_.path, with_thousands(kMostOperators)));
+      throw CapacityError("{}: more than {} BIOMT matrices", file_.path, with_thousands(kMostOperators));
     motions.push_back(rigid_motion(matrix_, file_.path, first_line_));
   }
 
@@ -268,27 +263,14 @@ class Remark350 {
   std::string serial_;
 };
 
-}  // namespace
-
-std::vector<Assembly> read_pdb_assemblies(const TextFile& file) {
-  std::vector<Assembly> assemblies = Remark350(file).run();
-  for (Assembly& assembly : assemblies)
-    std::erase_if(assembly.parts, [](const AssemblyPart& part) { return part.motions.empty(); });
-  std::erase_if(assemblies, [](const Assembly& assembly) { return assembly.parts.empty(); });
-  return assemblies;
-}
-
-namespace {
-
 constexpr std::size_t kMostAtoms = 99999;
 
 void check_room(const Atom& atom) {
   if (atom.residue_number < -999 || atom.residue_number > 9999)
-    throw RequestError(
-        fmt::format("{}: a PDB file has no room for residue number {}", atom_place(atom), atom.residue_number));
+    throw RequestError("{}: a PDB file has no room for residue number {}", atom_place(atom), atom.residue_number);
   if (atom.chain.size() > 2 || atom.name.size() > 4 || atom.residue_name.size() > 3)
-    throw RequestError(fmt::format("{}: a PDB file has room for 2 letters of a chain, 4 of an atom and 3 of a residue",
-                                   escaped(atom_place(atom))));
+    throw RequestError("{}: a PDB file has room for 2 letters of a chain, 4 of an atom and 3 of a residue",
+                       escaped(atom_place(atom)));
 }
 
 /// Returns the text for columns 13 to 16, where elements of one letter begin in the second column.
@@ -301,11 +283,19 @@ double or_zero(float number) { return std::isfinite(number) ? number : 0.0; }
 
 }  // namespace
 
+std::vector<Assembly> read_pdb_assemblies(const TextFile& file) {
+  std::vector<Assembly> assemblies = Remark350(file).run();
+  for (Assembly& assembly : assemblies)
+    std::erase_if(assembly.parts, [](const AssemblyPart& part) { return part.motions.empty(); });
+  std::erase_if(assemblies, [](const Assembly& assembly) { return assembly.parts.empty(); });
+  return assemblies;
+}
+
 PdbModels::PdbModels(const std::filesystem::path& path, Existing existing, std::span<const Atom> atoms)
     : atoms_(atoms), file_(path, existing) {
   if (atoms.size() > kMostAtoms)
-    throw RequestError(fmt::format("{} atoms: a PDB file numbers {} at most; select fewer",
-                                   with_thousands(atoms.size()), with_thousands(kMostAtoms)));
+    throw RequestError("{} atoms: a PDB file numbers {} at most; select fewer", with_thousands(atoms.size()),
+                       with_thousands(kMostAtoms));
   for (const Atom& atom : atoms) check_room(atom);
 }
 
@@ -316,8 +306,7 @@ void PdbModels::add(std::span<const glm::dvec3> positions) {
     const glm::dvec3& x = positions[n];
     for (int axis = 0; axis < 3; ++axis)
       if (!(x[axis] > -999.9995 && x[axis] < 9999.9995))
-        throw RequestError(
-            fmt::format("{} is at {:.3f} Å, where a PDB file cannot have it", atom_place(atom), x[axis]));
+        throw RequestError("{} is at {:.3f} Å, where a PDB file cannot have it", atom_place(atom), x[axis]);
     std::string element = atom.element ? element_symbol(atom.element) : "";
     for (char& letter : element)
       if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');

@@ -95,18 +95,6 @@ class PdbModels {
   int models_ = 0;
 };
 
-/// An atom record of PQR, with its numbers as text that is part of the line.
-struct PqrRecord {
-  std::string name, residue_name, chain;
-  std::int32_t residue_number = 0;
-  char insertion_code = ' ', altloc = ' ';
-  std::array<std::string_view, 5> numbers;  ///< x y z charge radius
-};
-
-/// Splits a record at blanks or, if fields touch, at the columns of PDB. Returns nothing if neither gives all fields.
-/// The split at blanks is preferred if it found a chain; otherwise the columns are used if they give the same numbers.
-std::optional<PqrRecord> parse_pqr_record(std::string_view line);
-
 /// The formats that the atom records of a text may have, by the first hundred of them.
 struct AtomRecordStyle {
   bool has_records = false;  ///< true if there are atom records

@@ -55,9 +55,8 @@ bool recognizes(std::string_view text) {
 Atom atom_of(const TextFile& file, std::size_t number, std::string_view line) {
   const CardColumns& columns = columns_of(line);
   if (line.size() < columns.x + 3 * columns.width)
-    throw InputError(
-        file.path, number,
-        fmt::format("{} ends before its coordinates do; does the count say too many atoms?", in_quotes(line)));
+    throw InputError(file.path, number, "{} ends before its coordinates do; does the count say too many atoms?",
+                     in_quotes(line));
   Atom atom;
   atom.residue_name = columns.word(line, columns.residue_name);
   atom.name = columns.word(line, columns.name);
@@ -66,9 +65,9 @@ Atom atom_of(const TextFile& file, std::size_t number, std::string_view line) {
     atom.position[axis] = parse_coordinate(file, number, "xyz"[axis], columns.coordinate(line, axis));
   if (atom.position == glm::dvec3(kNotPlaced))
     throw InputError(file.path, number,
-                     fmt::format("{} is at 9999 9999 9999, as CHARMM writes atoms that it has not placed; build them "
-                                 "(ic build, hbuild) and write the file again",
-                                 in_quotes(atom.name)));
+                     "{} is at 9999 9999 9999, as CHARMM writes atoms that it has not placed; build them "
+                     "(ic build, hbuild) and write the file again",
+                     in_quotes(atom.name));
   if (!parse_residue_number(columns.word(line, columns.residue), atom.residue_number, atom.insertion_code))
     parse_residue_number(columns.word(line, columns.running), atom.residue_number, atom.insertion_code);
   return atom;
@@ -76,11 +75,10 @@ Atom atom_of(const TextFile& file, std::size_t number, std::string_view line) {
 
 FileContents read(const TextFile& file, const ModelChoice& models) {
   FileContents contents;
-  LineReader lines(file.text);
+  LineReader lines(file);
   std::int64_t count = 0;
   if (!read_count(lines, count))
-    throw InputError(file.path, lines.number(),
-                     "should be the number of atoms, which follows titles that begin with *");
+    throw lines.error("should be the number of atoms, which follows titles that begin with *");
   const std::size_t count_line = lines.number(), atoms = static_cast<std::size_t>(count);
   contents.models = 1;
   if (!models.takes(1)) return contents;
@@ -93,8 +91,8 @@ FileContents read(const TextFile& file, const ModelChoice& models) {
     contents.atoms.push_back(std::move(atom));
   }
   if (!lines.only_blanks_left())
-    throw InputError(file.path, lines.number() + 1,
-                     fmt::format("comes after the {} atoms of the count; correct it", with_thousands(atoms)));
+    throw InputError(file.path, lines.number() + 1, "comes after the {} atoms of the count; correct it",
+                     with_thousands(atoms));
   contents.sites = classify_atoms(contents.atoms, contents.warnings);
   return contents;
 }

@@ -42,7 +42,7 @@ bool is_box_line(std::string_view line) { return !gro_box(line).empty(); }
 
 class GroReader {
  public:
-  GroReader(const TextFile& file, const ModelChoice& models) : file_(file), choice_(models), lines_(file.text) {}
+  GroReader(const TextFile& file, const ModelChoice& models) : file_(file), choice_(models), lines_(file) {}
 
   FileContents run() {
     while (!lines_.only_blanks_left()) read_frame();
@@ -58,21 +58,15 @@ class GroReader {
     constexpr std::size_t kShortestLine = 27;
     std::string_view line;
     std::int64_t count = 0;
-    if (!lines_.next(line) || !lines_.next(line)) {
-      throw InputError(file_.path, lines_.number(), "is the last line; a title and the number of atoms were expected");
-    }
-    if (!parse_whole_number(line, count) || count < 0) {
-      throw InputError(
-          file_.path, lines_.number(),
-          fmt::format("{} should be the number of atoms, the second line of a GRO frame", in_quotes(line)));
-    }
-    if (static_cast<std::uint64_t>(count) > (lines_.bytes_left() + 1) / kShortestLine) {
-      throw InputError(
-          file_.path, lines_.number(),
-          fmt::format("the count says {} atoms, more than the {} bytes after it can hold; correct it, or "
-                      "is the file cut short?",
-                      with_thousands(static_cast<std::uint64_t>(count)), with_thousands(lines_.bytes_left())));
-    }
+    if (!lines_.next(line) || !lines_.next(line))
+      throw lines_.error("is the last line; a title and the number of atoms were expected");
+    if (!parse_whole_number(line, count) || count < 0)
+      throw lines_.error("{} should be the number of atoms, the second line of a GRO frame", in_quotes(line));
+    if (static_cast<std::uint64_t>(count) > (lines_.bytes_left() + 1) / kShortestLine)
+      throw lines_.error(
+          "the count says {} atoms, more than the {} bytes after it can hold; correct it, or "
+          "is the file cut short?",
+          with_thousands(static_cast<std::uint64_t>(count)), with_thousands(lines_.bytes_left()));
     return static_cast<std::size_t>(count);
   }
 
@@ -97,36 +91,28 @@ class GroReader {
   /// Reads the box. A surface does not need it, but without a box the count is wrong, so that atoms would be missing.
   void read_box(std::size_t count) {
     std::string_view line;
-    if (!lines_.next(line)) {
-      throw InputError(file_.path, lines_.number(),
-                       "is the last line; the box (three or nine numbers) is missing after it; is the file cut short?");
-    }
-    if (!is_box_line(line)) {
-      throw InputError(
-          file_.path, lines_.number(),
-          fmt::format(
-              "{} was found where the box (three or nine numbers) should be by the count of {}; correct the count",
-              in_quotes(line), with_thousands(count)));
-    }
+    if (!lines_.next(line))
+      throw lines_.error(
+          "is the last line; the box (three or nine numbers) is missing after it; is the file cut short?");
+    if (!is_box_line(line))
+      throw lines_.error(
+          "{} was found where the box (three or nine numbers) should be by the count of {}; correct the count",
+          in_quotes(line), with_thousands(count));
   }
 
   void take_atom(std::string_view line) {
     const std::size_t width = coordinate_width(line);
-    if (width == 0) {
-      throw InputError(
-          file_.path, lines_.number(),
-          fmt::format("{} does not have three coordinates after column 20; is it cut short, or does the count "
-                      "say too many atoms?",
-                      in_quotes(line)));
-    }
+    if (width == 0)
+      throw lines_.error(
+          "{} does not have three coordinates after column 20; is it cut short, or does the count "
+          "say too many atoms?",
+          in_quotes(line));
     Atom atom;
     atom.model = static_cast<std::int32_t>(contents_.models);
     std::int64_t residue = 0;
-    if (!parse_whole_number(line.substr(0, 5), residue)) {
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("residue number {} in columns 1 to 5 is not a number; columns may have shifted",
-                                   in_quotes(line.substr(0, 5))));
-    }
+    if (!parse_whole_number(line.substr(0, 5), residue))
+      throw lines_.error("residue number {} in columns 1 to 5 is not a number; columns may have shifted",
+                         in_quotes(line.substr(0, 5)));
     atom.residue_number = static_cast<std::int32_t>(residue);
     atom.residue_name = trimmed(line.substr(5, 5));
     atom.name = trimmed(line.substr(10, 5));

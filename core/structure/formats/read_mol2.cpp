@@ -83,7 +83,7 @@ void name_residue(Atom& atom, const std::string& name, std::int64_t substructure
 
 class Mol2Reader {
  public:
-  Mol2Reader(const TextFile& file, const ModelChoice& models) : file_(file), choice_(models), lines_(file.text) {}
+  Mol2Reader(const TextFile& file, const ModelChoice& models) : file_(file), choice_(models), lines_(file) {}
 
   FileContents run() {
     for (std::string_view line; lines_.next(line);) {
@@ -147,9 +147,8 @@ class Mol2Reader {
     molecule_line_ = lines_.number();
     std::vector<std::string_view> fields;
     if (!lines_.next(line) || !next(fields) || !parse_whole_number(fields[0], counted_) || counted_ < 0)
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("the molecule of line {} has no name and number of atoms in the two lines after it",
-                                   molecule_line_));
+      throw lines_.error("the molecule of line {} has no name and number of atoms in the two lines after it",
+                         molecule_line_);
     counted_bonds_ = -1;
     if (fields.size() > 1) parse_whole_number(fields[1], counted_bonds_);
     const bool kind = next(fields);
@@ -161,9 +160,8 @@ class Mol2Reader {
     while (next(fields)) {
       ++seen_;
       if (static_cast<std::int64_t>(seen_) > counted_)
-        throw InputError(file_.path, lines_.number(),
-                         fmt::format("{} is one atom more than line {} says; correct the count", in_quotes(line_),
-                                     molecule_line_ + 2));
+        throw lines_.error("{} is one atom more than line {} says; correct the count", in_quotes(line_),
+                           molecule_line_ + 2);
       if (!is_wanted_) {
         ++contents_.other_model_atoms;
       } else {
@@ -176,16 +174,11 @@ class Mol2Reader {
   void take_atom(const std::vector<std::string_view>& fields) {
     std::int64_t id = 0, substructure = 1;
     if (fields.size() < 6 || !parse_whole_number(fields[0], id))
-      throw InputError(
-          file_.path, lines_.number(),
-          fmt::format("{} is not an atom: id name x y z type [substructure its_name charge]", in_quotes(line_)));
+      throw lines_.error("{} is not an atom: id name x y z type [substructure its_name charge]", in_quotes(line_));
     if (!places_.try_emplace(id, static_cast<std::uint32_t>(contents_.atoms.size())).second)
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("atom {} appears twice; give each atom its own number", id));
+      throw lines_.error("atom {} appears twice; give each atom its own number", id);
     if (fields.size() > 6 && (!parse_whole_number(fields[6], substructure) || std::abs(substructure) > 99'999'999))
-      throw InputError(
-          file_.path, lines_.number(),
-          fmt::format("substructure {} is not a number; columns may have run together", in_quotes(fields[6])));
+      throw lines_.error("substructure {} is not a number; columns may have run together", in_quotes(fields[6]));
     Atom atom;
     atom.model = static_cast<std::int32_t>(contents_.models);
     atom.name = fields[1];
@@ -197,8 +190,7 @@ class Mol2Reader {
         (fields.size() > 9 && parse_number(fields[9], ignored)))
       columns_.add(lines_.number(), line_);
     if (fields.size() > 8 && !parse_single(fields[8], atom.charge))
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("charge is {}, not a finite number", in_quotes(fields[8])));
+      throw lines_.error("charge is {}, not a finite number", in_quotes(fields[8]));
     contents_.atoms.push_back(std::move(atom));
     rows_.push_back({lines_.number(), substructure, text_of(fields, 7), std::string(fields[5])});
   }
@@ -208,25 +200,21 @@ class Mol2Reader {
     std::int64_t bonds = 0;
     for (std::vector<std::string_view> fields; next(fields); ++bonds) {
       if (!is_wanted_) continue;
-      if (fields.size() < 4)
-        throw InputError(file_.path, lines_.number(),
-                         fmt::format("{} is not a bond: id, two atoms and a kind", in_quotes(line_)));
+      if (fields.size() < 4) throw lines_.error("{} is not a bond: id, two atoms and a kind", in_quotes(line_));
       Bond bond{};
       for (std::size_t end = 0; end < 2; ++end) {
         std::int64_t id = 0;
         const auto place = parse_whole_number(fields[1 + end], id) ? places_.find(id) : places_.end();
         if (place == places_.end())
-          throw InputError(file_.path, lines_.number(),
-                           fmt::format("a bond names atom {}, which molecule {} does not have",
-                                       in_quotes(fields[1 + end]), contents_.models));
+          throw lines_.error("a bond names atom {}, which molecule {} does not have", in_quotes(fields[1 + end]),
+                             contents_.models);
         bond[end] = place->second;
       }
       if (fields[3] != "nc") contents_.bonds.push_back({std::min(bond[0], bond[1]), std::max(bond[0], bond[1])});
     }
     if (is_wanted_ && counted_bonds_ >= 0 && bonds < counted_bonds_)
-      throw InputError(
-          file_.path, molecule_line_ + 2,
-          fmt::format("the count says {} bonds, but {} follow; is the file cut short?", counted_bonds_, bonds));
+      throw InputError(file_.path, molecule_line_ + 2, "the count says {} bonds, but {} follow; is the file cut short?",
+                       counted_bonds_, bonds);
   }
 
   /// Reads lines of "id name root [kind dictionary chain sub_type ...]".
@@ -240,8 +228,8 @@ class Mol2Reader {
   void finish_molecule() {
     if (contents_.models == 0) return;
     if (static_cast<std::int64_t>(seen_) < counted_)
-      throw InputError(file_.path, molecule_line_ + 2,
-                       fmt::format("the count says {} atoms, but {} follow; is the file cut short?", counted_, seen_));
+      throw InputError(file_.path, molecule_line_ + 2, "the count says {} atoms, but {} follow; is the file cut short?",
+                       counted_, seen_);
     std::vector<Atom> atoms(std::make_move_iterator(contents_.atoms.begin() + static_cast<std::ptrdiff_t>(first_)),
                             std::make_move_iterator(contents_.atoms.end()));
     contents_.atoms.resize(first_);

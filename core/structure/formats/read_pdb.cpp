@@ -152,11 +152,9 @@ class PdbReader {
       ++contents_.other_model_atoms;
       return;
     }
-    if (line.size() < kCoordinatesEnd) {
-      throw InputError(file_.path, number,
-                       fmt::format("atom record {} is cut short at column {}; coordinates need 54 columns",
-                                   in_quotes(line), line.size()));
-    }
+    if (line.size() < kCoordinatesEnd)
+      throw InputError(file_.path, number, "atom record {} is cut short at column {}; coordinates need 54 columns",
+                       in_quotes(line), line.size());
     Atom atom;
     atom.model = model();
     try {
@@ -183,11 +181,10 @@ class PdbReader {
   void refuse_shifted(std::string_view line, std::size_t number) const {
     for (const std::size_t shift : {1, 2, 3})
       if (line.size() > 50 + shift && line[34 + shift] == '.' && line[42 + shift] == '.' && line[50 + shift] == '.')
-        throw InputError(
-            file_.path, number,
-            fmt::format("the coordinates of {} begin in column {} instead of 31, as after a number that is "
-                        "too long for its columns; write hybrid-36 numbers or mmCIF",
-                        in_quotes(line), 31 + shift));
+        throw InputError(file_.path, number,
+                         "the coordinates of {} begin in column {} instead of 31, as after a number that is "
+                         "too long for its columns; write hybrid-36 numbers or mmCIF",
+                         in_quotes(line), 31 + shift);
   }
 
   float optional_number(std::string_view line, std::size_t column, WarningCollector& oddity, std::size_t number) {
@@ -335,11 +332,10 @@ std::uint8_t element_of_type(std::string_view type) {
 bool read_trailing_columns(const TextFile& file, std::size_t number, std::string_view line, Atom& atom) {
   if (!parse_single(charge_of(line), atom.charge))
     throw InputError(file.path, number,
-                     fmt::format("charge in columns 67 to 76 is {}, not a finite number; is this PDB, not PDBQT?",
-                                 in_quotes(charge_of(line))));
+                     "charge in columns 67 to 76 is {}, not a finite number; is this PDB, not PDBQT?",
+                     in_quotes(charge_of(line)));
   if (type_of(line).empty())
-    throw InputError(file.path, number,
-                     fmt::format("atom record {} has no AutoDock type in columns 78 and 79", in_quotes(line)));
+    throw InputError(file.path, number, "atom record {} has no AutoDock type in columns 78 and 79", in_quotes(line));
   if (is_pseudo_atom(type_of(line))) return true;
   atom.element = element_of_type(type_of(line));
   return atom.element != 0;

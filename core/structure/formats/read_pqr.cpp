@@ -17,6 +17,14 @@
 namespace meniscus {
 namespace {
 
+/// An atom record of PQR, with its numbers as text that is part of the line.
+struct PqrRecord {
+  std::string name, residue_name, chain;
+  std::int32_t residue_number = 0;
+  char insertion_code = ' ', altloc = ' ';
+  std::array<std::string_view, 5> numbers;  ///< x y z charge radius
+};
+
 constexpr std::size_t kNumbersStart = 30, kChargeStart = 54;  // columns 31 and 55 of PDB
 
 bool is_number(std::string_view field) {
@@ -83,14 +91,16 @@ bool has_occupancy_and_b_factor(std::string_view line) {
          is_number(line.substr(60, 6)) && (line.size() <= 66 || line[66] == ' ');
 }
 
-}  // namespace
-
+/// Splits a record at blanks or, if fields touch, at the columns of PDB. Returns nothing if neither gives all fields.
+/// The split at blanks is preferred if it found a chain; otherwise the columns are used if they give the same numbers.
 std::optional<PqrRecord> parse_pqr_record(std::string_view line) {
   const std::optional<PqrRecord> blanks = by_blanks(line);
   if (blanks && !blanks->chain.empty()) return blanks;
   const std::optional<PqrRecord> columns = by_columns(line);
   return columns && (!blanks || blanks->numbers == columns->numbers) ? columns : blanks;
 }
+
+}  // namespace
 
 AtomRecordStyle style_of_atom_records(std::string_view text) {
   constexpr std::size_t kEnough = 100;
@@ -148,12 +158,10 @@ class PqrReader {
 
   void take_atom(std::string_view line, std::size_t number, std::int32_t model) {
     const std::optional<PqrRecord> record = parse_pqr_record(line);
-    if (!record) {
-      throw InputError(
-          file_.path, number,
-          fmt::format("{} cannot be split into fields: some are missing or touch; the expected line is: {}",
-                      in_quotes(line), kLine));
-    }
+    if (!record)
+      throw InputError(file_.path, number,
+                       "{} cannot be split into fields: some are missing or touch; the expected line is: {}",
+                       in_quotes(line), kLine);
     Atom atom;
     atom.model = model;
     atom.name = record->name;
@@ -166,11 +174,9 @@ class PqrReader {
       atom.position[axis] =
           parse_coordinate(file_, number, "xyz"[axis], record -> numbers[static_cast<std::size_t>(axis)]);
     }
-    if (!parse_single(record->numbers[3], atom.charge)) {
-      throw InputError(file_.path, number,
-                       fmt::format("charge is {}, not a finite number; the expected line is: {}",
-                                   in_quotes(record->numbers[3]), kLine));
-    }
+    if (!parse_single(record->numbers[3], atom.charge))
+      throw InputError(file_.path, number, "charge is {}, not a finite number; the expected line is: {}",
+                       in_quotes(record->numbers[3]), kLine);
     atom.radius = parse_radius(file_, number, record->numbers[4], kLine);
     residues_.number(atom);
     hints_.push_back({.is_heteroatom = is_pdb_record(line, "HETATM")});

@@ -97,11 +97,10 @@ PrmtopSections::PrmtopSections(const TextFile& file) : file_(file) {
 const PrmtopSections::Section& PrmtopSections::find(std::string_view name) const {
   const auto found = sections_.find(name);
   if (found == sections_.end())
-    throw InputError(file_.path, 0, fmt::format("has no section %FLAG {}; is the file cut short?", name));
+    throw InputError(file_.path, 0, "has no section %FLAG {}; is the file cut short?", name);
   const Section& section = found->second;
   if (section.per_line == 0 || section.width == 0)
-    throw InputError(file_.path, section.line,
-                     fmt::format("%FLAG {} has no %FORMAT such as (20a4) or (5E16.8) after it", name));
+    throw InputError(file_.path, section.line, "%FLAG {} has no %FORMAT such as (20a4) or (5E16.8) after it", name);
   return section;
 }
 
@@ -109,9 +108,9 @@ void PrmtopSections::each_field(std::string_view name, std::size_t count, Fields
   const Section& section = find(name);
   if (count > section.text.size())  // a field has at least one letter
     throw InputError(file_.path, section.line,
-                     fmt::format("%FLAG {} should have {} fields, more than its {} bytes can hold; is the file cut "
-                                 "short?",
-                                 name, with_thousands(count), with_thousands(section.text.size())));
+                     "%FLAG {} should have {} fields, more than its {} bytes can hold; is the file cut "
+                     "short?",
+                     name, with_thousands(count), with_thousands(section.text.size()));
   LineReader lines(section.text);
   std::size_t taken = 0;
   for (std::string_view line; lines.next(line);) {
@@ -123,13 +122,12 @@ void PrmtopSections::each_field(std::string_view name, std::size_t count, Fields
     }
     if (kind != Fields::first_numbers && taken == count && !trimmed(line).empty())
       throw InputError(file_.path, section.first_line + lines.number() - 1,
-                       fmt::format("%FLAG {} has {} after its {} fields; do its POINTERS belong to another file?", name,
-                                   in_quotes(trimmed(line)), with_thousands(count)));
+                       "%FLAG {} has {} after its {} fields; do its POINTERS belong to another file?", name,
+                       in_quotes(trimmed(line)), with_thousands(count));
   }
   if (taken < count)
-    throw InputError(file_.path, section.line,
-                     fmt::format("%FLAG {} should have {} fields, but {} follow; is the file cut short?", name,
-                                 with_thousands(count), with_thousands(taken)));
+    throw InputError(file_.path, section.line, "%FLAG {} should have {} fields, but {} follow; is the file cut short?",
+                     name, with_thousands(count), with_thousands(taken));
 }
 
 std::vector<std::string> PrmtopSections::texts(std::string_view name, std::size_t count) const {
@@ -144,7 +142,7 @@ std::vector<double> PrmtopSections::numbers(std::string_view name, std::size_t c
   each_field(name, count, Fields::numbers, [&](std::string_view field, std::size_t line) {
     double number = 0.0;
     if (!parse_number(field, number))
-      throw InputError(file_.path, line, fmt::format("{} of %FLAG {} is not a number", in_quotes(field), name));
+      throw InputError(file_.path, line, "{} of %FLAG {} is not a number", in_quotes(field), name);
     numbers.push_back(number);
   });
   return numbers;
@@ -154,7 +152,7 @@ void PrmtopSections::take_number(std::string_view name, std::string_view field, 
                                  std::vector<std::int64_t>& numbers) const {
   std::int64_t number = 0;
   if (!parse_whole_number(field, number))
-    throw InputError(file_.path, line, fmt::format("{} of %FLAG {} is not a whole number", in_quotes(field), name));
+    throw InputError(file_.path, line, "{} of %FLAG {} is not a whole number", in_quotes(field), name);
   numbers.push_back(number);
 }
 
@@ -164,8 +162,8 @@ std::vector<std::int64_t> PrmtopSections::whole_numbers(std::string_view name, s
   each_field(name, count, Fields::numbers, [&](std::string_view field, std::size_t line) {
     take_number(name, field, line, numbers);
     if (numbers.back() < least || numbers.back() > most)
-      throw InputError(file_.path, line,
-                       fmt::format("%FLAG {} holds {}, which is not from {} to {}", name, numbers.back(), least, most));
+      throw InputError(file_.path, line, "%FLAG {} holds {}, which is not from {} to {}", name, numbers.back(), least,
+                       most);
   });
   return numbers;
 }
@@ -209,9 +207,8 @@ class PrmtopReader {
   /// is counted takes at least one byte.
   std::size_t count_of(std::int64_t pointer, const char* name) const {
     if (pointer < 0 || static_cast<std::uint64_t>(pointer) > file_.text.size())
-      throw InputError(file_.path, 0,
-                       fmt::format("POINTERS say {} of {}, which its {} bytes cannot hold; is the file cut short?",
-                                   pointer, name, with_thousands(file_.text.size())));
+      throw InputError(file_.path, 0, "POINTERS say {} of {}, which its {} bytes cannot hold; is the file cut short?",
+                       pointer, name, with_thousands(file_.text.size()));
     return static_cast<std::size_t>(pointer);
   }
 
@@ -231,7 +228,7 @@ class PrmtopReader {
       hints_.push_back(
           {.is_site = is_site_symbol(types[n]), .mass = static_cast<float>(std::clamp(masses[n], 0.0, 1e6))});
       if (std::abs(charges[n]) > std::numeric_limits<float>::max())
-        throw InputError(file_.path, 0, fmt::format("CHARGE of atom {} is {}", n + 1, charges[n]));
+        throw InputError(file_.path, 0, "CHARGE of atom {} is {}", n + 1, charges[n]);
       atom.charge = static_cast<float>(charges[n] / kChargeUnit);
     }
     set_elements_by_mass(contents_.atoms, hints_);
@@ -242,9 +239,8 @@ class PrmtopReader {
     const std::vector<double> radii = sections_.numbers("RADII", atoms_);
     for (std::size_t n = 0; n < atoms_; ++n) {
       if (radii[n] < 0.0 || radii[n] > kLargestRadius)
-        throw InputError(
-            file_.path, 0,
-            fmt::format("RADII of atom {} is {}; it must be from 0 to {} Å", n + 1, radii[n], kLargestRadius));
+        throw InputError(file_.path, 0, "RADII of atom {} is {}; it must be from 0 to {} Å", n + 1, radii[n],
+                         kLargestRadius);
       contents_.atoms[n].radius = radii[n];
     }
     contents_.radii = FileRadii::on_request;
@@ -294,9 +290,8 @@ class PrmtopReader {
       for (std::size_t end = 0; end < 2; ++end) {
         const std::int64_t place = numbers[3 * n + end];
         if (place % 3 != 0 || place / 3 >= static_cast<std::int64_t>(atoms_))
-          throw InputError(file_.path, 0,
-                           fmt::format("bond {} of {} names {}, which is not three times one of the atoms 0 to {}",
-                                       n + 1, name, place, with_thousands(atoms_ - 1)));
+          throw InputError(file_.path, 0, "bond {} of {} names {}, which is not three times one of the atoms 0 to {}",
+                           n + 1, name, place, with_thousands(atoms_ - 1));
         bond[end] = static_cast<std::uint32_t>(place / 3);
       }
       contents_.bonds.push_back(bond);

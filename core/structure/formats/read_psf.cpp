@@ -16,7 +16,7 @@ namespace {
 
 class PsfReader {
  public:
-  explicit PsfReader(const TextFile& file) : file_(file), lines_(file.text) {}
+  explicit PsfReader(const TextFile& file) : file_(file), lines_(file) {}
 
   FileContents run() {
     std::string_view line;
@@ -45,13 +45,10 @@ class PsfReader {
       std::int64_t count = 0;
       // The line may be a title.
       if (at == std::string_view::npos || !parse_whole_number(line.substr(0, at), count)) continue;
-      if (count < 0) throw InputError(file_.path, lines_.number(), fmt::format("{} says {}", name, count));
-      if (static_cast<std::uint64_t>(count) > lines_.bytes_left() / 2) {
-        throw InputError(
-            file_.path, lines_.number(),
-            fmt::format("{} says {}, more than the {} bytes after it can hold; is the file cut short?", name,
-                        with_thousands(static_cast<std::uint64_t>(count)), with_thousands(lines_.bytes_left())));
-      }
+      if (count < 0) throw lines_.error("{} says {}", name, count);
+      if (static_cast<std::uint64_t>(count) > lines_.bytes_left() / 2)
+        throw lines_.error("{} says {}, more than the {} bytes after it can hold; is the file cut short?", name,
+                           with_thousands(static_cast<std::uint64_t>(count)), with_thousands(lines_.bytes_left()));
       return static_cast<std::size_t>(count);
     }
     return std::nullopt;
@@ -82,13 +79,11 @@ class PsfReader {
       fields.insert(fields.begin() + (has_segment ? 5 : 1), std::string_view());
     }
     if (fields.size() < 9 && line.size() > (is_extended_ ? 51 : 33)) fields = fixed_columns_of(line);
-    if (fields.size() < 9) {
-      throw InputError(
-          file_.path, lines_.number(),
-          fmt::format("{} is not an atom: number, segment, residue, residue name, name, type, charge, mass and "
-                      "a flag; is the file cut short, or the number of atoms wrong?",
-                      in_quotes(line)));
-    }
+    if (fields.size() < 9)
+      throw lines_.error(
+          "{} is not an atom: number, segment, residue, residue name, name, type, charge, mass and "
+          "a flag; is the file cut short, or the number of atoms wrong?",
+          in_quotes(line));
     return {fields[1], fields[2], fields[3], fields[4], fields[5], fields[6], fields[7]};
   }
 
@@ -111,14 +106,11 @@ class PsfReader {
     atom.residue_name = residue_name;
     atom.name = name;
     if (!parse_residue_number(residue, atom.residue_number, atom.insertion_code))
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("residue {} is not a number; columns may have run together", in_quotes(residue)));
+      throw lines_.error("residue {} is not a number; columns may have run together", in_quotes(residue));
     AtomHints hint;
-    if (!parse_single(charge, atom.charge) || !parse_single(mass, hint.mass)) {
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("charge {} and mass {} are not both numbers; columns may have run together",
-                                   in_quotes(charge), in_quotes(mass)));
-    }
+    if (!parse_single(charge, atom.charge) || !parse_single(mass, hint.mass))
+      throw lines_.error("charge {} and mass {} are not both numbers; columns may have run together", in_quotes(charge),
+                         in_quotes(mass));
     hint.is_site = type == "DRUD" || type.starts_with("LP");
     hints_.push_back(hint);
     residues_.number(atom);
@@ -133,11 +125,9 @@ class PsfReader {
       if (line.find('!') != std::string_view::npos) break;  // the next section begins
       take_bond_ends(line, 2 * count, ends);
     }
-    if (ends.size() < 2 * count) {
-      throw InputError(file_.path, count_line,
-                       fmt::format("!NBOND says {} bonds, but {} follow; is the file cut short?", with_thousands(count),
-                                   with_thousands(ends.size() / 2)));
-    }
+    if (ends.size() < 2 * count)
+      throw InputError(file_.path, count_line, "!NBOND says {} bonds, but {} follow; is the file cut short?",
+                       with_thousands(count), with_thousands(ends.size() / 2));
     for (std::size_t n = 0; n < count; ++n) contents_.bonds.push_back({ends[2 * n], ends[2 * n + 1]});
   }
 
@@ -152,11 +142,9 @@ class PsfReader {
       if (touching) line.remove_prefix(field.size());
       if (trimmed(field).empty()) return;
       std::int64_t atom = 0;
-      if (!parse_whole_number(field, atom) || atom < 1 || atom > static_cast<std::int64_t>(contents_.atoms.size())) {
-        throw InputError(file_.path, lines_.number(),
-                         fmt::format("a bond names atom {}; the atoms are 1 to {}", in_quotes(trimmed(field)),
-                                     with_thousands(contents_.atoms.size())));
-      }
+      if (!parse_whole_number(field, atom) || atom < 1 || atom > static_cast<std::int64_t>(contents_.atoms.size()))
+        throw lines_.error("a bond names atom {}; the atoms are 1 to {}", in_quotes(trimmed(field)),
+                           with_thousands(contents_.atoms.size()));
       ends.push_back(static_cast<std::uint32_t>(atom - 1));
     }
   }

@@ -59,7 +59,7 @@ bool is_end(std::string_view line) { return line.starts_with("M  END") || line.s
 
 class SdfReader {
  public:
-  SdfReader(const TextFile& file, const ModelChoice& models) : file_(file), choice_(models), lines_(file.text) {}
+  SdfReader(const TextFile& file, const ModelChoice& models) : file_(file), choice_(models), lines_(file) {}
 
   FileContents run() {
     while (!lines_.only_blanks_left()) read_molecule();
@@ -82,9 +82,9 @@ class SdfReader {
     numbers_of_symbols_.clear();
     places_.clear();
     if (!whole)
-      throw InputError(file_.path, lines_.number(),
-                       "ends where molecule " + std::to_string(contents_.models) +
-                           " should begin: three lines of title, program and comment, and one of counts");
+      throw lines_.error(
+          "ends where molecule {} should begin: three lines of title, program and comment, and one of counts",
+          contents_.models);
     const bool v3000 = line.find("V3000") != std::string_view::npos;
     v3000 ? read_v3000() : read_v2000(line);
     read_properties(v3000);
@@ -98,18 +98,17 @@ class SdfReader {
     const auto counts = pair_of(line);
     if (!counts || (*counts)[0] < 0 || (*counts)[1] < 0)
       throw InputError(file_.path, counts_line,
-                       fmt::format("{} should begin with the numbers of atoms and bonds; title, program and comment "
-                                   "are the three lines before it",
-                                   in_quotes(line)));
+                       "{} should begin with the numbers of atoms and bonds; title, program and comment "
+                       "are the three lines before it",
+                       in_quotes(line));
     const auto [atoms, bonds] = *counts;
     for (std::int64_t n = 0; n < atoms; ++n) {
       if (!lines_.next(line))
         refuse_short_frame(file_, counts_line, static_cast<std::size_t>(atoms), static_cast<std::size_t>(n));
       const std::optional<AtomLine> atom = is_end(line) ? std::nullopt : atom_line(line);
       if (!atom)
-        throw InputError(file_.path, lines_.number(),
-                         fmt::format("{} is not an atom: x, y, z and a symbol; line {} says {} atoms, is it right?",
-                                     in_quotes(line), counts_line, atoms));
+        throw lines_.error("{} is not an atom: x, y, z and a symbol; line {} says {} atoms, is it right?",
+                           in_quotes(line), counts_line, atoms);
       take_atom(*atom);
     }
     for (std::int64_t n = 0; n < bonds; ++n) {
@@ -132,8 +131,7 @@ class SdfReader {
   }
 
   [[noreturn]] void refuse_bond(std::string_view atom) const {
-    throw InputError(file_.path, lines_.number(),
-                     fmt::format("a bond names atom {}; the atoms are 1 to {}", in_quotes(atom), seen_));
+    throw lines_.error("a bond names atom {}; the atoms are 1 to {}", in_quotes(atom), seen_);
   }
 
   /// Returns the charge for the code of an atom in V2000, where 4 is a radical.
@@ -158,8 +156,7 @@ class SdfReader {
       } else if (line.starts_with('>')) {
         read_data(line);
       } else if (!ended && is_symbol(columns(line, 31, 3)) && atom_line(line)) {
-        throw InputError(file_.path, lines_.number(),
-                         fmt::format("{} is one atom more than are counted; correct the counts", in_quotes(line)));
+        throw lines_.error("{} is one atom more than are counted; correct the counts", in_quotes(line));
       }
     }
   }
@@ -176,9 +173,8 @@ class SdfReader {
       std::int64_t atom = 0, charge = 0;
       if (!parse_whole_number(fields[n], atom) || atom < 1 || atom > static_cast<std::int64_t>(seen_) ||
           !parse_whole_number(fields[n + 1], charge) || std::abs(charge) > 15)
-        throw InputError(file_.path, lines_.number(),
-                         fmt::format("charge {} of atom {}: the atoms are 1 to {}, charges -15 to 15",
-                                     in_quotes(fields[n + 1]), in_quotes(fields[n]), seen_));
+        throw lines_.error("charge {} of atom {}: the atoms are 1 to {}, charges -15 to 15", in_quotes(fields[n + 1]),
+                           in_quotes(fields[n]), seen_);
       contents_.atoms[first_ + static_cast<std::size_t>(atom - 1)].charge = static_cast<float>(charge);
     }
   }
@@ -206,15 +202,13 @@ class SdfReader {
       }
     }
     if (charges.size() != seen_)
-      throw InputError(file_.path, first_line - 1,
-                       fmt::format("{} partial charges follow for {} atoms", charges.size(), seen_));
+      throw InputError(file_.path, first_line - 1, "{} partial charges follow for {} atoms", charges.size(), seen_);
     for (std::size_t n = 0; n < seen_; ++n) contents_.atoms[first_ + n].charge = charges[n];
     has_partial_charges_ = true;
   }
 
   [[noreturn]] void refuse_partial_charges(std::string_view line) const {
-    throw InputError(file_.path, lines_.number(),
-                     fmt::format("{} holds no partial charges of the atoms 1 to {}", in_quotes(line), seen_));
+    throw lines_.error("{} holds no partial charges of the atoms 1 to {}", in_quotes(line), seen_);
   }
 
   // V3000
@@ -231,7 +225,7 @@ class SdfReader {
       text += goes_on ? line.substr(0, line.size() - 1) : line;
       if (!goes_on) return true;
     }
-    throw InputError(file_.path, lines_.number(), "ends a molecule without M  END; is the file cut short?");
+    throw lines_.error("ends a molecule without M  END; is the file cut short?");
   }
 
   void read_v3000() {
@@ -244,12 +238,11 @@ class SdfReader {
         block = fields[1] == "ATOM" ? kAtoms : fields[1] == "BOND" ? kBonds : kNone;
       } else if (fields[0] == "END") {
         if (block == kAtoms && counted != static_cast<std::int64_t>(seen_))
-          throw InputError(file_.path, lines_.number(),
-                           fmt::format("COUNTS says {} atoms, but {} follow; is the file cut short?", counted, seen_));
+          throw lines_.error("COUNTS says {} atoms, but {} follow; is the file cut short?", counted, seen_);
         block = kNone;
       } else if (fields[0] == "COUNTS") {
         if (fields.size() < 3 || !parse_whole_number(fields[1], counted))
-          throw InputError(file_.path, lines_.number(), fmt::format("{} has no number of atoms", in_quotes(text)));
+          throw lines_.error("{} has no number of atoms", in_quotes(text));
       } else if (block == kAtoms) {
         take_v3000_atom(text, fields);
       } else if (block == kBonds) {
@@ -257,30 +250,25 @@ class SdfReader {
       }
     }
     if (counted != static_cast<std::int64_t>(seen_))
-      throw InputError(file_.path, lines_.number(),
-                       "is M  END, but the table V3000 has no whole block of atoms; is the file cut short?");
+      throw lines_.error("is M  END, but the table V3000 has no whole block of atoms; is the file cut short?");
   }
 
   void take_v3000_atom(std::string_view text, const std::vector<std::string_view>& fields) {
     std::int64_t index = 0;
     if (fields.size() < 5 || !parse_whole_number(fields[0], index))
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("{} is not an atom: number, symbol, x, y, z", in_quotes(text)));
+      throw lines_.error("{} is not an atom: number, symbol, x, y, z", in_quotes(text));
     if (!places_.try_emplace(index, static_cast<std::uint32_t>(seen_)).second)
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("atom {} appears twice; give each atom its own number", index));
+      throw lines_.error("atom {} appears twice; give each atom its own number", index);
     take_atom({{fields[2], fields[3], fields[4]}, fields[1], {}});
     for (std::size_t n = 5; is_wanted_ && n < fields.size(); ++n) {
       if (!fields[n].starts_with("CHG=")) continue;
       if (!parse_single(fields[n].substr(4), contents_.atoms.back().charge))
-        throw InputError(file_.path, lines_.number(), fmt::format("{} is not a charge", in_quotes(fields[n])));
+        throw lines_.error("{} is not a charge", in_quotes(fields[n]));
     }
   }
 
   void take_v3000_bond(std::string_view text, const std::vector<std::string_view>& fields) {
-    if (fields.size() < 4)
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("{} is not a bond: number, kind and two atoms", in_quotes(text)));
+    if (fields.size() < 4) throw lines_.error("{} is not a bond: number, kind and two atoms", in_quotes(text));
     std::array<std::uint32_t, 2> ends{};
     for (std::size_t n = 0; n < 2; ++n) {
       std::int64_t index = 0;
@@ -317,9 +305,7 @@ class SdfReader {
 
   /// Adds a bond between two places in the molecule, from 0.
   void take_bond(std::uint32_t a, std::uint32_t b) {
-    if (a == b)
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("atom {} is bonded to itself; correct the bond", a + 1));
+    if (a == b) throw lines_.error("atom {} is bonded to itself; correct the bond", a + 1);
     const auto first = static_cast<std::uint32_t>(first_);
     if (is_wanted_) contents_.bonds.push_back({first + std::min(a, b), first + std::max(a, b)});
   }

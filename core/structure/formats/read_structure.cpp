@@ -73,16 +73,13 @@ std::vector<bool> select(const Selection& selection, const std::vector<Atom>& at
 
 std::vector<bool> evaluate(const Selection& selection, const std::vector<Atom>& atoms, const RadiiChoice& radii,
                            const std::string& path, PositionScope scope) {
-  if (selection.uses_radius() && !radii.from_molecule_file()) {
+  if (selection.uses_radius() && !radii.from_molecule_file())
     throw InputError(path, 0,
                      "has no radii yet: they are assigned after the selection, so 'radius' cannot be used in it");
-  }
   std::vector<bool> selected = select(selection, atoms, scope);
-  if (std::find(selected.begin(), selected.end(), true) == selected.end()) {
-    throw InputError(path, 0,
-                     fmt::format("none of its {} atoms is selected by {}; {}", with_thousands(atoms.size()),
-                                 in_quotes(selection.text()), selection.why_none(atoms)));
-  }
+  if (std::find(selected.begin(), selected.end(), true) == selected.end())
+    throw InputError(path, 0, "none of its {} atoms is selected by {}; {}", with_thousands(atoms.size()),
+                     in_quotes(selection.text()), selection.why_none(atoms));
   return selected;
 }
 
@@ -141,13 +138,11 @@ void mark_companions(std::vector<Atom>& atoms, const OutsidePolymer& outside, co
 void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, const Choice& choice,
                 const RadiiChoice& radii, const std::string& path, PositionScope scope) {
   if (shown.size() > kMostShown)
-    throw CapacityError(
-        fmt::format("{} sets of atoms beside the surface are too many; the most is {}", shown.size(), kMostShown));
+    throw CapacityError("{} sets of atoms beside the surface are too many; the most is {}", shown.size(), kMostShown);
   for (std::size_t bit = 0; bit < shown.size(); ++bit) {
     const Selection& selection = shown[bit].atoms;
     if (selection.uses_radius() && !radii.from_molecule_file())
-      throw InputError(path, 0,
-                       fmt::format("has no radii yet, so {} cannot select by them", option_name(shown[bit].option)));
+      throw InputError(path, 0, "has no radii yet, so {} cannot select by them", option_name(shown[bit].option));
     const std::vector<bool> selected = select(selection, atoms, scope), named = selection.names(atoms);
     bool any = false;
     for (std::size_t n = 0; n < atoms.size(); ++n) {
@@ -158,10 +153,10 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
     if (any || scope == PositionScope::frame) continue;
     if (!shown[bit].lack.empty()) throw InputError(path, 0, shown[bit].lack);
     throw InputError(path, 0,
-                     fmt::format("none of its {} atoms is shown by {}; chains and names are case-sensitive, water "
-                                 "and free ions are shown where the expression names them",
-                                 with_thousands(atoms.size()),
-                                 option_name(fmt::format("{} {}", shown[bit].option, in_quotes(selection.text())))));
+                     "none of its {} atoms is shown by {}; chains and names are case-sensitive, water "
+                     "and free ions are shown where the expression names them",
+                     with_thousands(atoms.size()),
+                     option_name(fmt::format("{} {}", shown[bit].option, in_quotes(selection.text()))));
   }
 }
 
@@ -274,9 +269,8 @@ void halt_on_unknown_elements(const Structure& structure, const std::vector<std:
                              with_thousands(unknown.size()), unknown.size() == 1 ? "bead" : "beads", examples,
                              unknown.size() == 1 ? "its" : "their"));
   const std::string advice = message("correct the element column, or choose @unknown-element guess@ or skip");
-  throw InputError(structure.file, 0,
-                   fmt::format("the element of {} {} is unknown: {}; {}", with_thousands(unknown.size()),
-                               unknown.size() == 1 ? "atom" : "atoms", examples, why.empty() ? advice : why));
+  throw InputError(structure.file, 0, "the element of {} {} is unknown: {}; {}", with_thousands(unknown.size()),
+                   unknown.size() == 1 ? "atom" : "atoms", examples, why.empty() ? advice : why);
 }
 
 void require_model(const std::string& path, const ModelChoice& choice, std::size_t models) {
@@ -329,12 +323,10 @@ void place_atoms(FileContents& contents, const ReadOptions& options, const TextF
   if (options.positions.empty())
     throw InputError(file.path, 0,
                      message("lists atoms without coordinates; add @trajectory@ with a file that has them"));
-  if (options.positions.size() != contents.atoms.size()) {
-    throw InputError(file.path, 0,
-                     fmt::format("lists {} atoms, but a frame of the trajectory has {}: {}",
-                                 with_thousands(contents.atoms.size()), with_thousands(options.positions.size()),
-                                 advice_on_count(contents.atoms, options.positions.size())));
-  }
+  if (options.positions.size() != contents.atoms.size())
+    throw InputError(file.path, 0, "lists {} atoms, but a frame of the trajectory has {}: {}",
+                     with_thousands(contents.atoms.size()), with_thousands(options.positions.size()),
+                     advice_on_count(contents.atoms, options.positions.size()));
   for (std::size_t n = 0; n < contents.atoms.size(); ++n) contents.atoms[n].position = options.positions[n];
 }
 
@@ -350,10 +342,9 @@ void list_assemblies(Structure& structure, const TextFile& file, const Reader& r
 /// Returns the requested assembly, or nothing.
 std::optional<Assembly> requested_assembly(const TextFile& file, const Reader& reader, const ReadOptions& options) {
   if (options.assembly.empty()) return {};
-  if (!reader.assemblies) {
+  if (!reader.assemblies)
     throw InputError(file.path, 0,
                      message("is {}, which describes no assemblies; leave @assembly@ out", reader.metadata.name));
-  }
   return find_assembly(reader.assemblies(file), options.assembly, file.path);
 }
 

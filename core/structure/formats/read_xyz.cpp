@@ -83,7 +83,7 @@ bool is_atom_line(std::string_view line, const Columns& columns) {
 
 class XyzReader {
  public:
-  XyzReader(const TextFile& file, const ModelChoice& models) : file_(file), choice_(models), lines_(file.text) {}
+  XyzReader(const TextFile& file, const ModelChoice& models) : file_(file), choice_(models), lines_(file) {}
 
   FileContents run() {
     for (std::string_view line; lines_.next(line);) {
@@ -100,18 +100,13 @@ class XyzReader {
   std::size_t count_of(std::string_view line) const {
     constexpr std::size_t kShortestLine = 8;
     std::int64_t count = 0;
-    if (!parse_whole_number(line, count) || count < 0) {
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("{} should be the number of atoms of {}; {}", in_quotes(line),
-                                   contents_.models == 0 ? "the file" : "a further frame",
-                                   contents_.models == 0 ? "XYZ begins with it" : "does the count above say too few?"));
-    }
-    if (static_cast<std::uint64_t>(count) > (lines_.bytes_left() + 1) / kShortestLine) {
-      throw InputError(
-          file_.path, lines_.number(),
-          fmt::format("the count says {} atoms, more than the {} bytes after it can hold; correct it",
-                      with_thousands(static_cast<std::uint64_t>(count)), with_thousands(lines_.bytes_left())));
-    }
+    if (!parse_whole_number(line, count) || count < 0)
+      throw lines_.error("{} should be the number of atoms of {}; {}", in_quotes(line),
+                         contents_.models == 0 ? "the file" : "a further frame",
+                         contents_.models == 0 ? "XYZ begins with it" : "does the count above say too few?");
+    if (static_cast<std::uint64_t>(count) > (lines_.bytes_left() + 1) / kShortestLine)
+      throw lines_.error("the count says {} atoms, more than the {} bytes after it can hold; correct it",
+                         with_thousands(static_cast<std::uint64_t>(count)), with_thousands(lines_.bytes_left()));
     return static_cast<std::size_t>(count);
   }
 
@@ -134,12 +129,11 @@ class XyzReader {
 
   void take_atom(std::string_view line, const Columns& columns) {
     const std::vector<std::string_view> fields = fields_of(line, columns.count());
-    if (fields.size() < columns.count()) {
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("{} has {} columns where an atom needs {} (element x y z); does the count of the "
-                                   "frame say too many?",
-                                   in_quotes(line), fields.size(), columns.count()));
-    }
+    if (fields.size() < columns.count())
+      throw lines_.error(
+          "{} has {} columns where an atom needs {} (element x y z); does the count of the "
+          "frame say too many?",
+          in_quotes(line), fields.size(), columns.count());
     Atom atom;
     atom.model = static_cast<std::int32_t>(contents_.models);
     atom.index = static_cast<std::uint32_t>(contents_.atoms.size());
@@ -211,11 +205,10 @@ bool is_of_tinker(std::string_view text) {
 
 FileContents read(const TextFile& file, const ModelChoice& models) {
   if (!recognizes(file.text) && is_of_tinker(file.text))
-    throw InputError(
-        file.path, 0,
-        fmt::format("is XYZ of Tinker, whose rows begin with numbers of atoms; convert it: obabel -itxyz {} "
-                    "-opdb -O tinker.pdb",
-                    shell_word(file.path)));
+    throw InputError(file.path, 0,
+                     "is XYZ of Tinker, whose rows begin with numbers of atoms; convert it: obabel -itxyz {} "
+                     "-opdb -O tinker.pdb",
+                     shell_word(file.path));
   return XyzReader(file, models).run();
 }
 
@@ -272,14 +265,12 @@ FileContents read_xyzr(const TextFile& file, const ModelChoice& models) {
   FileContents contents;
   contents.models = 1;
   contents.radii = FileRadii::usual;
-  LineReader lines(file.text);
+  LineReader lines(file);
   for (std::string_view line; lines.next(line);) {
     const std::vector<std::string_view> fields = fields_before_comment(line);
     if (fields.empty()) continue;
-    if (fields.size() < 4) {
-      throw InputError(file.path, lines.number(),
-                       fmt::format("{} has fewer than four columns; the expected line is: {}", in_quotes(line), kLine));
-    }
+    if (fields.size() < 4)
+      throw lines.error("{} has fewer than four columns; the expected line is: {}", in_quotes(line), kLine);
     Atom atom;
     atom.index = atom.residue = static_cast<std::uint32_t>(contents.atoms.size());
     for (int axis = 0; axis < 3; ++axis) {
@@ -289,13 +280,10 @@ FileContents read_xyzr(const TextFile& file, const ModelChoice& models) {
     // MSMS has a number before the name. 1 means that the ball is part of the surface.
     std::int64_t flag = 1;
     const bool flagged = fields.size() > 5 && parse_whole_number(fields[4], flag);
-    if (flag != 1) {
-      throw InputError(
-          file.path, lines.number(),
-          fmt::format(
-              "the fifth column is {}: only 1, for a ball of the surface, is understood; the expected line is: {}",
-              flag, kLine));
-    }
+    if (flag != 1)
+      throw lines.error(
+          "the fifth column is {}: only 1, for a ball of the surface, is understood; the expected line is: {}", flag,
+          kLine);
     if (fields.size() > 4) atom.name = fields[flagged ? 5 : 4];
     if (models.takes(1)) {
       contents.atoms.push_back(std::move(atom));

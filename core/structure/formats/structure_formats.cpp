@@ -3,7 +3,6 @@
 #include "core/structure/formats/structure_formats.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -34,8 +33,7 @@ void refuse_known_foreign(const TextFile& file) {
   const std::size_t first = file.text.find_first_not_of(" \t\n");
   if (file.text[first] == '<')
     throw InputError(file.path, 0, "looks like HTML or XML, not like a molecule; was the download refused?");
-  if (file.text[first] == '{')
-    throw InputError(file.path, 0, fmt::format("looks like JSON; {} are read", format_names()));
+  if (file.text[first] == '{') throw InputError(file.path, 0, "looks like JSON; {} are read", format_names());
 }
 
 }  // namespace
@@ -43,8 +41,7 @@ void refuse_known_foreign(const TextFile& file) {
 std::span<const Reader* const> readers() { return kReaders; }
 
 bool FormatMetadata::names(std::string_view path) const {
-  std::string lower(path);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string lower = lower_case(path);
   return std::ranges::any_of(fields_of(extensions), [&](std::string_view end) { return lower.ends_with(end); });
 }
 
@@ -71,12 +68,12 @@ const Reader& choose_reader(const TextFile& file) {
     if (!reader->recognizes(file.text)) continue;
     if (!by_name) return *reader;
     throw InputError(file.path, 0,
-                     fmt::format("the name says {}, but the content is {}; rename the file, or check that it is the "
-                                 "right one",
-                                 by_name->metadata.name, reader->metadata.name));
+                     "the name says {}, but the content is {}; rename the file, or check that it is the "
+                     "right one",
+                     by_name->metadata.name, reader->metadata.name);
   }
   if (by_name) return *by_name;  // this reader reports what is missing, and where
-  throw InputError(file.path, 0, fmt::format("is in none of the formats that are read ({})", format_names()));
+  throw InputError(file.path, 0, "is in none of the formats that are read ({})", format_names());
 }
 
 }  // namespace meniscus

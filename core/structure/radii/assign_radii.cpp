@@ -35,14 +35,12 @@ void warn_of_elements_without_source(Structure& structure, const std::map<std::u
 RadiusOverride parse_radius_override(const std::string& text) {
   const std::size_t sign = text.rfind('=');
   double radius = 0.0;
-  if (sign == std::string::npos) {
+  if (sign == std::string::npos)
     throw SelectionError("a radius is missing; write EXPR=RADIUS, as in 'element Zn=1.1'",
                          pointed_at(text, text.size()));
-  }
-  if (!parse_number(std::string_view(text).substr(sign + 1), radius) || radius <= 0.0 || radius > kLargestRadius) {
+  if (!parse_number(std::string_view(text).substr(sign + 1), radius) || radius <= 0.0 || radius > kLargestRadius)
     throw SelectionError(fmt::format("the radius must be a number of Å above 0, at most {}", kLargestRadius),
                          pointed_at(text, sign + 1));
-  }
   return {parse_selection(std::string_view(text).substr(0, sign)), radius};
 }
 
@@ -57,11 +55,9 @@ RadiiChoice::RadiiChoice(const RadiiOptions& options, const std::string& molecul
     from_file_ = true;
   } else {
     set_ = find_radii_set(options.set);
-    if (!set_) {
-      throw InputError(
-          molecule_file, 0,
-          fmt::format("{} is not a set of radii; choose one of {}", in_quotes(options.set), radii_set_names()));
-    }
+    if (!set_)
+      throw InputError(molecule_file, 0, "{} is not a set of radii; choose one of {}", in_quotes(options.set),
+                       radii_set_names());
   }
   if (from_file_) return;
   const MartiniVersion martini = martini_version(atoms);

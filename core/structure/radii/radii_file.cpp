@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kLongestPattern = 200;
 
 [[noreturn]] void refuse(std::string_view text, const char* why) {
-  throw Error(fmt::format("the pattern {} {}", in_quotes(text), why));
+  throw Error("the pattern {} {}", in_quotes(text), why);
 }
 
 /// Returns the characters of "[...]", whose opening bracket is at `place`. `place` becomes that of the closing bracket.
@@ -188,11 +188,7 @@ class CharmmRadii {
 };
 
 /// Returns the first four letters of a word in upper case, by which CHARMM compares words.
-std::string keyword(std::string_view field) {
-  std::string word(field.substr(0, 4));
-  for (char& c : word) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return word;
-}
+std::string keyword(std::string_view field) { return upper_case(field.substr(0, 4)); }
 
 constexpr std::array<std::string_view, 14> kParameterSections{"BOND", "ANGL", "THET", "DIHE", "PHI",  "IMPR",  "IMPH",
                                                               "CMAP", "NBFI", "HBON", "THOL", "ATOM", "ATOMS", "END"};
@@ -212,7 +208,7 @@ bool is_charmm_line(const std::vector<std::string_view>& fields) {
 void CharmmRadii::read(const TextFile& file) {
   files_ += (files_.empty() ? "" : ", ") + file.path;
   section_ = Section::other;
-  LineReader lines(file.text);
+  LineReader lines(file);
   // True after a line that ends in "-", which the next line continues: the options of NONBONDED.
   bool continued = false;
   for (std::string_view line; lines.next(line);) {
@@ -249,11 +245,9 @@ void CharmmRadii::read_atom(const TextFile& file, std::size_t line, const std::v
 
 void CharmmRadii::read_type(const TextFile& file, std::size_t line, const std::vector<std::string_view>& fields) {
   double half = 0.0;
-  if (fields.size() < 4 || !parse_number(fields[3], half) || half < 0.0 || half > kLargestRadius) {
-    throw InputError(
-        file.path, line,
-        fmt::format("a line of NONBONDED needs a type, two numbers and half of Rmin, from 0 to {} Å", kLargestRadius));
-  }
+  if (fields.size() < 4 || !parse_number(fields[3], half) || half < 0.0 || half > kLargestRadius)
+    throw InputError(file.path, line, "a line of NONBONDED needs a type, two numbers and half of Rmin, from 0 to {} Å",
+                     kLargestRadius);
   radii_[std::string(fields[0])] = half;
 }
 
@@ -262,12 +256,11 @@ RadiiTable CharmmRadii::table() const {
   if (radii_.empty()) throw InputError(files_, 0, "lacks NONBONDED parameters; give the CHARMM parameters (.prm) too");
   // Every residue may have the atoms of all patches.
   constexpr std::size_t kMostEntries = 1'000'000;
-  if (patch_atoms_.size() > kMostEntries / residues_.size()) {
+  if (patch_atoms_.size() > kMostEntries / residues_.size())
     throw CapacityError(
-        fmt::format("{}: {} residues with the atoms of patches, {} of them, are more than this program "
-                    "reads",
-                    files_, with_thousands(residues_.size()), with_thousands(patch_atoms_.size())));
-  }
+        "{}: {} residues with the atoms of patches, {} of them, are more than this program "
+        "reads",
+        files_, with_thousands(residues_.size()), with_thousands(patch_atoms_.size()));
   RadiiTable table(files_, "CHARMM");
   const auto add = [&](const std::string& residue, const std::string& atom, const std::string& type) {
     const auto radius = radii_.find(type);
@@ -298,7 +291,7 @@ double radius_field(const TextFile& file, std::size_t line, std::string_view fie
 }
 
 RadiiFormat format_of(const TextFile& file) {
-  LineReader lines(file.text);
+  LineReader lines(file);
   std::size_t most_fields = 0;
   for (std::string_view line; lines.next(line);) {
     const Fields fields = fields_before_comment(line, "#!");
@@ -320,13 +313,12 @@ RadiiFormat format_of(const TextFile& file) {
 RadiiTable read_atom_types(const TextFile& file) {
   RadiiTable table(file.path, "atom types");
   std::map<std::string, RadiiTable::Entry, std::less<>> radii;
-  LineReader lines(file.text);
+  LineReader lines(file);
   for (std::string_view line; lines.next(line);) {
     const Fields fields = fields_before_comment(line);
     if (fields.empty()) continue;
-    if (fields.size() < 3 || (fields[0] == "radius" && fields.size() < 4)) {
-      throw InputError(file.path, lines.number(), "is neither 'radius KEY DISTANCE RADIUS' nor 'RESIDUE ATOM KEY'");
-    }
+    if (fields.size() < 3 || (fields[0] == "radius" && fields.size() < 4))
+      throw lines.error("is neither 'radius KEY DISTANCE RADIUS' nor 'RESIDUE ATOM KEY'");
     if (fields[0] == "radius") {
       const double explicit_radius = radius_field(file, lines.number(), fields[3]);
       const double united = fields.size() > 4 ? radius_field(file, lines.number(), fields[4]) : explicit_radius;
@@ -334,10 +326,7 @@ RadiiTable read_atom_types(const TextFile& file) {
       continue;
     }
     const auto radius = radii.find(fields[2]);
-    if (radius == radii.end()) {
-      throw InputError(file.path, lines.number(),
-                       fmt::format("type {} has no radius line above", in_quotes(fields[2])));
-    }
+    if (radius == radii.end()) throw lines.error("type {} has no radius line above", in_quotes(fields[2]));
     std::string atom(fields[1]);
     std::erase(atom, '_');
     try {
@@ -355,7 +344,7 @@ RadiiTable read_atom_types(const TextFile& file) {
 RadiiTable read_freesasa(const TextFile& file) {
   RadiiTable table(file.path, "FreeSASA");
   std::map<std::string, double, std::less<>> types;
-  LineReader lines(file.text);
+  LineReader lines(file);
   std::string section;
   for (std::string_view line; lines.next(line);) {
     const Fields fields = fields_before_comment(line);
@@ -366,13 +355,11 @@ RadiiTable read_freesasa(const TextFile& file) {
       types[std::string(fields[0])] = radius_field(file, lines.number(), fields[1]);
     } else if (section == "atoms:" && fields.size() >= 3) {
       const auto type = types.find(fields[2]);
-      if (type == types.end()) {
-        throw InputError(file.path, lines.number(), fmt::format("{} is not one of its types", in_quotes(fields[2])));
-      }
+      if (type == types.end()) throw lines.error("{} is not one of its types", in_quotes(fields[2]));
       table.add(fields[0] == "ANY" ? "*" : std::string(fields[0]), std::string(fields[1]),
                 {type->second, type->second, std::string(fields[2])});
     } else if (section != "name:") {
-      throw InputError(file.path, lines.number(), "is outside of the sections types: and atoms:, or too short");
+      throw lines.error("is outside of the sections types: and atoms:, or too short");
     }
   }
   return table;
@@ -382,15 +369,12 @@ RadiiTable read_freesasa(const TextFile& file) {
 RadiiTable read_lines(const TextFile& file, bool with_charge) {
   RadiiTable table(file.path, with_charge ? "force field" : "list");
   const std::size_t place = with_charge ? 3 : 2;
-  LineReader lines(file.text);
+  LineReader lines(file);
   for (std::string_view line; lines.next(line);) {
     const Fields fields = fields_before_comment(line, "#!");
     if (fields.empty()) continue;
-    if (fields.size() <= place) {
-      throw InputError(
-          file.path, lines.number(),
-          fmt::format("has {} fields; RESIDUE ATOM {}RADIUS are needed", fields.size(), with_charge ? "CHARGE " : ""));
-    }
+    if (fields.size() <= place)
+      throw lines.error("has {} fields; RESIDUE ATOM {}RADIUS are needed", fields.size(), with_charge ? "CHARGE " : "");
     const double radius = radius_field(file, lines.number(), fields[place]);
     const bool any = fields[0] == "ANY" || fields[0] == "*";
     const bool typed = with_charge && fields.size() > 4;

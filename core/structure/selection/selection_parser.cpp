@@ -16,6 +16,21 @@
 namespace meniscus {
 namespace {
 
+enum class TokenKind : std::uint8_t { end, word, quoted, open, close, comma, compare, both, either, negate };
+
+struct Token {
+  TokenKind kind = TokenKind::end;
+  std::string text;          ///< without quotes
+  std::size_t position = 0;  ///< byte in the expression
+};
+
+/// A value of a list, with its position for messages.
+struct SelectionValue {
+  std::string text;
+  std::size_t position = 0;
+  bool is_quoted = false;
+};
+
 constexpr std::string_view kBlanks = " \t\r\n";
 constexpr std::string_view kWordEnds = " \t\r\n()<>=!&|,\"";
 
@@ -45,22 +60,20 @@ Token operator_at(std::string_view text, std::size_t position) {
 
 Token quoted_at(std::string_view text, std::size_t position) {
   const std::size_t close = text.find(text[position], position + 1);
-  if (close == std::string_view::npos) {
-    throw SelectionError("this quote is not closed", pointed_at(text, position));
-  }
+  if (close == std::string_view::npos) throw SelectionError("this quote is not closed", pointed_at(text, position));
   return {TokenKind::quoted, std::string(text.substr(position + 1, close - position - 1)), position};
 }
 
-}  // namespace
-
+/// Returns the tokens. The last one has the kind `end`. Words may contain everything except blanks, brackets,
+/// commas, double quotes and the signs < > = ! & |. A single quote opens a quoted text only at the beginning of a word,
+/// so that O5' is a word. Throws SelectionError for a quote that is not closed and for control characters.
 std::vector<Token> tokens_of(std::string_view text) {
   std::vector<Token> tokens;
   std::size_t position = 0;
   while ((position = text.find_first_not_of(kBlanks, position)) != std::string_view::npos) {
     const char c = text[position];
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
       throw SelectionError("a control character has no meaning here", pointed_at(text, position));
-    }
     std::size_t length = 0;
     if (c == '"' || c == '\'') {
       tokens.push_back(quoted_at(text, position));
@@ -77,8 +90,6 @@ std::vector<Token> tokens_of(std::string_view text) {
   tokens.push_back({TokenKind::end, "", text.size()});
   return tokens;
 }
-
-namespace {
 
 /// Both ends of a range as written. A single value has no second end.
 struct Ends {
@@ -107,9 +118,8 @@ std::vector<Ends> ends_of(std::string_view text, const std::vector<SelectionValu
   for (std::size_t n = 0; n < values.size(); ++n) {
     const SelectionValue& value = values[n];
     if (!value.is_quoted && (value.text == "to" || value.text == "TO")) {
-      if (all.empty() || all.back().high || n + 1 == values.size()) {
+      if (all.empty() || all.back().high || n + 1 == values.size())
         throw SelectionError("'to' goes between two values, as in 5 to 10", pointed_at(text, value.position));
-      }
       all.back().high = values[++n];
       continue;
     }
@@ -134,16 +144,15 @@ ResidueTest::Id residue_id(std::string_view text, const SelectionValue& value) {
   const char* const last = value.text.data() + value.text.size();
   const auto [end, error] = std::from_chars(value.text.data(), last, number);
   const bool with_code = end + 1 == last && std::isalpha(static_cast<unsigned char>(*end));
-  if (error != std::errc() || (end != last && !with_code)) {
+  if (error != std::errc() || (end != last && !with_code))
     throw SelectionError(
         fmt::format("{} is not a residue number; write one such as 52, -3, 52A or 5-10", in_quotes(value.text)),
         pointed_at(text, value.position));
-  }
   return {number, with_code ? *end : ' '};
 }
 
-}  // namespace
-
+/// Splits a word at plus signs. "CA+CB" has two values; "NA+" has one, because nothing follows the sign. A quoted text
+/// is one value.
 std::vector<SelectionValue> split_at_plus(const Token& token) {
   if (token.kind == TokenKind::quoted) return {{token.text, token.position, true}};
   std::vector<SelectionValue> values;
@@ -157,6 +166,8 @@ std::vector<SelectionValue> split_at_plus(const Token& token) {
   return values;
 }
 
+/// These functions parse values. They throw SelectionError with the position in `text`. whole: only integers are
+/// allowed.
 std::vector<TextPattern> read_patterns(const std::vector<SelectionValue>& values) {
   std::vector<TextPattern> patterns;
   for (const SelectionValue& value : values) {
@@ -169,10 +180,9 @@ std::vector<std::array<double, 2>> read_elements(std::string_view text, const st
   std::vector<std::array<double, 2>> elements;
   for (const SelectionValue& value : values) {
     const double element = element_of_symbol(value.text);
-    if (element == 0.0) {
+    if (element == 0.0)
       throw SelectionError(fmt::format("{} is not an element", in_quotes(value.text)),
                            pointed_at(text, value.position));
-    }
     elements.push_back({element, element});
   }
   return elements;
@@ -192,14 +202,12 @@ std::vector<std::array<ResidueTest::Id, 2>> read_residue_ranges(std::string_view
 
 double read_number(std::string_view text, const SelectionValue& value, bool whole) {
   double number = 0.0;
-  if (!parse_number(value.text, number)) {
+  if (!parse_number(value.text, number))
     throw SelectionError(fmt::format("{} is not a finite number", in_quotes(value.text)),
                          pointed_at(text, value.position));
-  }
-  if (whole && number != std::floor(number)) {
+  if (whole && number != std::floor(number))
     throw SelectionError(fmt::format("{} is not a whole number", in_quotes(value.text)),
                          pointed_at(text, value.position));
-  }
   return number;
 }
 
@@ -214,8 +222,6 @@ std::vector<std::array<double, 2>> read_number_ranges(std::string_view text, con
   }
   return ranges;
 }
-
-namespace {
 
 class Parser {
  public:
@@ -291,7 +297,7 @@ class Parser {
       const bool includes_set = word()->which == 1;
       const Token keyword = take();
       const double distance = parse_limit();
-      if (token().kind != TokenKind::word || lower(token().text) != "of") {
+      if (token().kind != TokenKind::word || lower_case(token().text) != "of") {
         steps_.push_back(WithinStep{distance, includes_set});
         continue;
       }
@@ -418,18 +424,18 @@ class Parser {
 
   void parse_distance(const Token& keyword, bool includes_set) {
     const double distance = parse_limit();
-    if (token().kind == TokenKind::word && lower(token().text) == "of") take();
+    if (token().kind == TokenKind::word && lower_case(token().text) == "of") take();
     parse_operand(keyword);
     steps_.push_back(WithinStep{distance, includes_set});
   }
 
   void parse_same(const Token& keyword) {
-    const std::string what = lower(token().text);
+    const std::string what = lower_case(token().text);
     const bool chains = what == "chain" || what == "segid";
     if (token().kind != TokenKind::word || (!chains && what != "residue"))
       fail("'residue as' or 'chain as' is expected here");
     take();
-    if (token().kind != TokenKind::word || lower(token().text) != "as") fail("'as' is expected here");
+    if (token().kind != TokenKind::word || lower_case(token().text) != "as") fail("'as' is expected here");
     take();
     parse_operand(keyword);
     steps_.push_back(WholeStep{chains});
@@ -447,11 +453,6 @@ class Parser {
     }
   }
 
-  static std::string lower(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-  }
-
   std::string_view text_;
   std::vector<Token> tokens_;
   std::size_t place_ = 0;
@@ -462,11 +463,10 @@ class Parser {
 }  // namespace
 
 Selection parse_selection(std::string_view text) {
-  if (text.size() > kLongestSelection) {
+  if (text.size() > kLongestSelection)
     throw SelectionError(fmt::format("the selection has {} bytes; at most {} are read", with_thousands(text.size()),
                                      with_thousands(kLongestSelection)),
                          pointed_at(text, kLongestSelection));
-  }
   Selection selection;
   selection.text_ = text;
   selection.steps_ = std::make_shared<const SelectionSteps>(SelectionSteps{Parser(text).parse()});

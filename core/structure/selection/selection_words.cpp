@@ -81,12 +81,6 @@ constexpr SelectionWord kWords[] = {
     {"or", WordKind::operation, 0, "EXPR or EXPR", "or |; binds least"},
 };
 
-std::string lower_case(std::string_view word) {
-  std::string lower(word);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return lower;
-}
-
 /// Calls visit(entry, word) for each word of each entry.
 template <typename Visit>
 void for_each_word(Visit&& visit) {

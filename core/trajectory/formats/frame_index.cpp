@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the frames of a file one after another, and stores their offsets with a checksum.
-#include "core/trajectory/formats/frame_index.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 
 #include <chrono>
 #include <fstream>
@@ -142,11 +142,9 @@ FrameIndex find_frames(BinaryFile& file, const std::string& folder,
   }
   FrameIndex index = walk(file, extent_at);
   file.check_unchanged();
-  if (index.offsets.empty()) {
-    throw InputError(file.path(), 0,
-                     fmt::format("holds no complete frame{} in its {} bytes",
-                                 index.cut_short.empty() ? " with positions" : "", with_thousands(file.size())));
-  }
+  if (index.offsets.empty())
+    throw InputError(file.path(), 0, "holds no complete frame{} in its {} bytes",
+                     index.cut_short.empty() ? " with positions" : "", with_thousands(file.size()));
   if (!folder.empty() && !changed_just_now(file)) store_index(file, folder, index);
   return index;
 }

@@ -64,7 +64,7 @@ class HeaderReader {
 
  private:
   [[noreturn]] void refuse(const std::string& what) const {
-    throw InputError(file_.path(), 0, fmt::format("{} (byte {})", what, with_thousands(next_)));
+    throw InputError(file_.path(), 0, "{} (byte {})", what, with_thousands(next_));
   }
 
   const std::byte* take(std::uint64_t count) {
@@ -195,11 +195,9 @@ class AmberNetcdf final : public Trajectory {
   explicit AmberNetcdf(const std::string& path) : Trajectory(path, "Amber NetCDF"), file_(path) {
     const NetcdfLayout layout = read_netcdf_layout(file_);
     const auto convention = layout.texts.find("Conventions");
-    if (convention == layout.texts.end() || convention->second.find("AMBER") == std::string::npos) {
-      throw InputError(path, 0,
-                       fmt::format("is NetCDF, but not by the convention of Amber ({}); only that is read",
-                                   convention == layout.texts.end() ? "it names none" : in_quotes(convention->second)));
-    }
+    if (convention == layout.texts.end() || convention->second.find("AMBER") == std::string::npos)
+      throw InputError(path, 0, "is NetCDF, but not by the convention of Amber ({}); only that is read",
+                       convention == layout.texts.end() ? "it names none" : in_quotes(convention->second));
     find_coordinates(layout);
     time_ = find(layout, "time", 1);
     if (time_ && !time_->is_double) time_precision_ = kSinglePrecision;
@@ -235,8 +233,7 @@ class AmberNetcdf final : public Trajectory {
     const std::uint64_t width = variable.type == kDouble ? sizeof(double) : sizeof(float);
     const std::uint64_t frames = variable.has_records || is_single_ ? 1 : fixed_frames_;
     if ((variable.type != kFloat && variable.type != kDouble) || variable.record_bytes != frames * count * width) {
-      throw InputError(path_, 0,
-                       fmt::format("its variable '{}' should hold {} floating-point numbers per frame", name, count));
+      throw InputError(path_, 0, "its variable '{}' should hold {} floating-point numbers per frame", name, count);
     }
     const auto scale = variable.numbers.find("scale_factor");
     return PerFrame{
@@ -261,10 +258,9 @@ class AmberNetcdf final : public Trajectory {
     const bool known = !records || layout.records_are_known;
     const std::uint64_t present = frames_by_size(records ? kMany : promised);
     frame_count_ = known ? std::min(promised, present) : present;
-    if (frame_count_ == 0) {
+    if (frame_count_ == 0)
       throw InputError(path_, 0,
                        present == 0 ? "holds no complete frame; is it cut short?" : "its header says 0 frames");
-    }
     if (known && present < promised) cut_short_ = cut_short_sentence(frame_count_);
     if (known && present > promised) {
       warnings_.emplace_back(

@@ -77,7 +77,7 @@ class Dcd final : public Trajectory {
   bool has_fixed_atoms() const { return !free_atoms_.empty(); }
 
   [[noreturn]] void refuse(std::uint64_t offset, const std::string& what) const {
-    throw InputError(path_, 0, fmt::format("{} (byte {})", what, with_thousands(offset)));
+    throw InputError(path_, 0, "{} (byte {})", what, with_thousands(offset));
   }
 
   /// Reads a record that must have this length, and returns its content. `offset` becomes the offset after it.
@@ -187,11 +187,9 @@ class Dcd final : public Trajectory {
     const std::uint64_t first = frame_bytes(atom_count_);
     const std::uint64_t others = has_fixed_atoms() ? frame_bytes(free_atoms_.size()) : first;
     const std::uint64_t rest = file_.size() - offset;
-    if (rest < first) {
-      throw InputError(path_, 0,
-                       fmt::format("holds no complete frame: {} of the {} bytes of the first", with_thousands(rest),
-                                   with_thousands(first)));
-    }
+    if (rest < first)
+      throw InputError(path_, 0, "holds no complete frame: {} of the {} bytes of the first", with_thousands(rest),
+                       with_thousands(first));
     frame_count_ = 1 + (rest - first) / others;
     if ((rest - first) % others != 0) cut_short_ = cut_short_sentence(frame_count_);
     if (promised_frames_ < 0 || static_cast<std::uint64_t>(promised_frames_) != frame_count_) {

@@ -138,10 +138,8 @@ double length_unit(const Table& values, const std::string& path, std::vector<War
   if (unit == "nm") return kAngstromPerNanometre;
   if (unit == "pm") return 0.01;
   if (unit == "m") return 1e10;
-  if (!unit.empty() && unit != "Angstrom" && unit != "angstrom" && unit != "A" && unit != "\u00c5") {
-    throw InputError(path, 0,
-                     fmt::format("its positions are in {}; Angstrom, nm, pm and m are understood", in_quotes(unit)));
-  }
+  if (!unit.empty() && unit != "Angstrom" && unit != "angstrom" && unit != "A" && unit != "\u00c5")
+    throw InputError(path, 0, "its positions are in {}; Angstrom, nm, pm and m are understood", in_quotes(unit));
   if (unit.empty()) warnings.emplace_back("it names no unit of length; its numbers are taken to be Å");
   return 1.0;
 }
@@ -174,7 +172,7 @@ class H5md final : public Trajectory {
     if (is_single(time_)) time_precision_ = kSinglePrecision;
     const std::vector<hsize_t>& lengths = position_.lengths;
     if (lengths.size() != 3 || lengths[2] != 3 || lengths[1] == 0)
-      throw InputError(path, 0, fmt::format("{} is not x, y and z of atoms of frames", escaped(name_)));
+      throw InputError(path, 0, "{} is not x, y and z of atoms of frames", escaped(name_));
     if (lengths[0] == 0) throw InputError(path, 0, "holds no frames");
     frame_count_ = lengths[0];
     atom_count_ = lengths[1];
@@ -218,7 +216,7 @@ class H5md final : public Trajectory {
   void require_unit(const Table& values, const std::string& unit) const {
     const std::string found = values.set ? text_attribute(values.set, "units") : std::string();
     if (!found.empty() && found != unit)
-      throw InputError(path_, 0, fmt::format("names {} as a unit where MDTraj writes {}", in_quotes(found), unit));
+      throw InputError(path_, 0, "names {} as a unit where MDTraj writes {}", in_quotes(found), unit);
   }
 
   /// Chooses the first group of particles with positions, in alphabetical order.
@@ -245,10 +243,8 @@ class H5md final : public Trajectory {
     const double frame = static_cast<double>(atom_count_) * 3 * sizeof(float),
                  size = static_cast<double>(bytes_.size());
     if (frame > 1000.0 * size || frame * static_cast<double>(frame_count_) > 10'000.0 * size)
-      throw InputError(
-          path_, 0,
-          fmt::format("says {} atoms in {} frames, far more than its {} bytes can hold", with_thousands(atom_count_),
-                      with_thousands(frame_count_), with_thousands(bytes_.size())));
+      throw InputError(path_, 0, "says {} atoms in {} frames, far more than its {} bytes can hold",
+                       with_thousands(atom_count_), with_thousands(frame_count_), with_thousands(bytes_.size()));
   }
 
   /// Reads the part of a table that belongs to one frame. The first dimension counts frames. False if the library
@@ -326,9 +322,7 @@ class H5md final : public Trajectory {
     numbers_.resize(3 * atom_count_);
     const bool good = read_frame_of(position_, number, H5T_NATIVE_DOUBLE, numbers_.data());
     bytes_.check_unchanged();
-    if (!good)
-      throw InputError(path_, 0,
-                       fmt::format("frame {} is damaged: the HDF5 library cannot read its positions", number));
+    if (!good) throw InputError(path_, 0, "frame {} is damaged: the HDF5 library cannot read its positions", number);
     frame.positions.resize(atom_count_);
     for (std::size_t n = 0; n < atom_count_; ++n)
       frame.positions[n] = unit_ * glm::dvec3(numbers_[3 * n], numbers_[3 * n + 1], numbers_[3 * n + 2]);

@@ -8,7 +8,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
-#include "core/trajectory/formats/frame_index.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/trajectory.h"
 
@@ -192,9 +191,8 @@ class LammpsDump final : public Trajectory {
     const auto found = std::ranges::find(kUnitStyles, std::string_view(name), &UnitStyle::name);
     if (found == kUnitStyles.end())
       throw InputError(
-          path_, 0,
-          fmt::format("its units are {}, which give no lengths in Å; real, metal, si, cgs, electron, micro and nano do",
-                      in_quotes(name)));
+          path_, 0, "its units are {}, which give no lengths in Å; real, metal, si, cgs, electron, micro and nano do",
+          in_quotes(name));
     length_ = found->length;
     time_ = found->time;
   }
@@ -211,8 +209,7 @@ class LammpsDump final : public Trajectory {
   }
 
   [[noreturn]] void refuse(std::uint64_t number, const std::string& what) const {
-    throw InputError(path_, 0,
-                     fmt::format("frame {} at byte {} {}", number, with_thousands(index_.offsets[number]), what));
+    throw InputError(path_, 0, "frame {} at byte {} {}", number, with_thousands(index_.offsets[number]), what);
   }
 
   /// The columns that are read: the number of an atom and its three coordinates.

@@ -82,9 +82,9 @@ class Mdcrd final : public Trajectory {
     for (std::size_t n = 0; n < lines_; ++n) {
       if (!lines.next(line))
         throw InputError(path_, n + 1,
-                         fmt::format("the file ends within its first frame, which should have {} atoms as FILE has; do "
-                                     "the two belong together?",
-                                     with_thousands(atom_count_)));
+                         "the file ends within its first frame, which should have {} atoms as FILE has; do "
+                         "the two belong together?",
+                         with_thousands(atom_count_));
     }
     frame_bytes_ = lines.next_offset() - begin_;
     last_newline_ = lines.ended_by_newline() ? (line.ends_with('\r') ? 2 : 1) : 0;
@@ -114,7 +114,7 @@ class Mdcrd final : public Trajectory {
   }
 
   [[noreturn]] void refuse(std::uint64_t frame, std::size_t line, const std::string& what) const {
-    throw InputError(path_, 2 + frame * lines_of_frame_ + line, fmt::format("{} (frame {})", what, frame));
+    throw InputError(path_, 2 + frame * lines_of_frame_ + line, "{} (frame {})", what, frame);
   }
 
   /// Reads the lines of a frame and checks their lengths.
@@ -192,7 +192,7 @@ bool parse_counts(std::string_view line, std::int64_t& atoms, std::optional<doub
 class AmberRestart final : public Trajectory {
  public:
   explicit AmberRestart(const std::string& path)
-      : Trajectory(path, "Amber restart"), file_(read_text_file(path)), lines_(file_.text) {
+      : Trajectory(path, "Amber restart"), file_(read_text_file(path)), lines_(file_) {
     std::string_view line;
     std::int64_t atoms = 0;
     lines_.next(line);
@@ -214,11 +214,10 @@ class AmberRestart final : public Trajectory {
     for (std::size_t n = 0; n < 3 * atom_count_; ++n) {
       const std::size_t place = n % kRestartPerLine, expected = std::min(kRestartPerLine, 3 * atom_count_ - n);
       if (place == 0 && (!lines_.next(line) || without_blanks_behind(line).size() != expected * kRestartWidth))
-        throw InputError(
-            path_, lines_.number(),
-            fmt::format("{} does not have the {} numbers of twelve columns that {} atoms need here; is the "
-                        "file cut short?",
-                        in_quotes(line), expected, with_thousands(atom_count_)));
+        throw lines_.error(
+            "{} does not have the {} numbers of twelve columns that {} atoms need here; is the "
+            "file cut short?",
+            in_quotes(line), expected, with_thousands(atom_count_));
       const char axis = "xyz"[n % 3];
       frame_.positions[n / 3][static_cast<int>(n % 3)] =
           parse_coordinate(file_, lines_.number(), axis, line.substr(place * kRestartWidth, kRestartWidth));
@@ -239,10 +238,10 @@ class AmberRestart final : public Trajectory {
     if (rest.empty()) return;
     const std::size_t numbers = rest.front().size() / kRestartWidth;
     if (rest.size() > 1 || (numbers != 3 && numbers != 6) || !is_formatted(rest.front(), kRestartWidth))
-      throw InputError(path_, lines_.number(),
-                       fmt::format("{} follows {} atoms, where velocities fill {} lines and a box of three or six "
-                                   "numbers one; is the file cut short?",
-                                   in_quotes(rest.front()), with_thousands(atom_count_), lines_of_velocities));
+      throw lines_.error(
+          "{} follows {} atoms, where velocities fill {} lines and a box of three or six "
+          "numbers one; is the file cut short?",
+          in_quotes(rest.front()), with_thousands(atom_count_), lines_of_velocities);
     glm::dvec3 edges(0.0), angles(0.0);
     for (std::size_t n = 0; n < numbers; ++n)
       parse_number(rest.front().substr(n * kRestartWidth, kRestartWidth),

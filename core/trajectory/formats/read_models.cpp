@@ -264,8 +264,8 @@ class ModelsInFile final : public Trajectory {
   std::string text_of(std::uint64_t begin, std::uint64_t end) const {
     constexpr std::uint64_t kLargest = std::uint64_t{2} << 30;
     if (end - begin > kLargest)
-      throw CapacityError(fmt::format("{}: one of its models has {} bytes, more than this program reads", path_,
-                                      with_thousands(end - begin)));
+      throw CapacityError("{}: one of its models has {} bytes, more than this program reads", path_,
+                          with_thousands(end - begin));
     std::string text(end - begin, '\0');
     file_.read(begin, std::as_writable_bytes(std::span(text)));
     std::erase(text, '\r');

@@ -5,7 +5,6 @@
 #include "core/base/constants.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/trajectory/formats/frame_index.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/trajectory.h"
 
@@ -120,11 +119,10 @@ class Trr final : public Trajectory {
       file_.read(offset, bytes_);
     }
     file_.check_unchanged();
-    if (!fault.empty()) {
+    if (!fault.empty())
       throw InputError(path_, 0,
                        message("frame {} at byte {} {}; leave it out by @frames@, or write the file again", number,
                                with_thousands(offset), fault));
-    }
     time_precision_ = header.is_double ? kDoublePrecision : kSinglePrecision;
     header.is_double ? copy<double>(header, frame) : copy<float>(header, frame);
   }

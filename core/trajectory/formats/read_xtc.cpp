@@ -5,7 +5,6 @@
 #include "core/base/constants.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/trajectory/formats/frame_index.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/trajectory.h"
 
@@ -311,11 +310,10 @@ class Xtc final : public Trajectory {
     }
     file_.check_unchanged();
     if (fault.empty()) fault = unpack_frame(header, frame);
-    if (!fault.empty()) {
+    if (!fault.empty())
       throw InputError(path_, 0,
                        message("frame {} at byte {} {}; leave it out by @frames@, or write the file again", number,
                                with_thousands(offset), fault));
-    }
   }
 
   std::string unpack_frame(XtcHeader& header, Frame& frame) const {

@@ -67,25 +67,21 @@ const TrajectoryFormat& choose_format(const std::string& path, const std::string
   refuse_packed(path, start);
   const bool packed = start.starts_with("\x1f\x8b");
   if (packed && path.ends_with(".gz") && format_by_name(std::string_view(path).substr(0, path.size() - 3)))
-    throw InputError(path, 0,
-                     fmt::format("is packed with gzip; unpack it first, as frames are read in any order: gzip -dk {}",
-                                 shell_word(path)));
+    throw InputError(path, 0, "is packed with gzip; unpack it first, as frames are read in any order: gzip -dk {}",
+                     shell_word(path));
   const TrajectoryFormat* by_name = format_by_name(path);
   if (by_name && by_name->recognizes(start)) return *by_name;
   const TrajectoryFormat* by_content = format_by_content(start);
-  if (by_name && by_content) {
+  if (by_name && by_content)
     throw InputError(path, 0,
-                     fmt::format("the name says {}, but the content is {}; rename the file, or check that it is the "
-                                 "right one",
-                                 by_name->metadata.name, by_content->metadata.name));
-  }
+                     "the name says {}, but the content is {}; rename the file, or check that it is the "
+                     "right one",
+                     by_name->metadata.name, by_content->metadata.name);
   if (by_name) return *by_name;  // the reader of this format reports what is missing
   if (by_content) return *by_content;
-  if (!packed && !kBinaryCifReader.recognizes(start) && start.find('\0') != std::string::npos) {
-    throw InputError(path, 0,
-                     fmt::format("is in none of the trajectory formats that are read ({}or models of {})",
-                                 bare_format_names(), format_names()));
-  }
+  if (!packed && !kBinaryCifReader.recognizes(start) && start.find('\0') != std::string::npos)
+    throw InputError(path, 0, "is in none of the trajectory formats that are read ({}or models of {})",
+                     bare_format_names(), format_names());
   return kModelsFormat;
 }
 

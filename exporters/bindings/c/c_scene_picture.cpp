@@ -18,7 +18,6 @@
 #include "core/color/coloring.h"
 #include "core/mesh/tessellate.h"
 #include "core/scene/scene_json.h"
-#include "core/scene/scene_paths.h"
 #include "exporters/bindings/c/c_renderer.h"
 #include "exporters/bindings/c/c_scene.h"
 #include "exporters/bindings/c/c_structure.h"

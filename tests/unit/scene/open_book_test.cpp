@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Buried areas in closed form, and both sides of an interface where a reader of a book has them.
-#include "core/scene/open_book.h"
+#include "core/scene/molecule.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hydrogen bonds at the limits of the criterion by closed forms, and those of ubiquitin by plain loops.
-#include "core/structure/hydrogen_bonds.h"
+#include "core/structure/bonds.h"
 
 #include <cmath>
 #include <map>

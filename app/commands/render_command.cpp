@@ -1,12 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns the options that scenes share into words, and lets each scene parse them.
-#include "app/commands/shared_scenes.h"
-
+// Turns options of `meniscus render` into settings of its pictures, and those that scenes share into words that each
+// scene parses.
 #include "app/commands/render_command.h"
+
 #include "app/process/program_main.h"
 #include "core/base/text.h"
+#include "core/scene/scene_json.h"
 
 namespace meniscus {
+
+ImageSettings image_settings(const RenderCommand& command) {
+  const Scene& scene = command.scene;
+  ImageSettings settings{scene.image.background, command.existing(), scene.look.has_linear_alpha()};
+  settings.dots_per_inch = scene.picture.dots_per_inch;
+  settings.names_program = command.names_program;
+  if (command.provenance) settings.command = command_line();
+  if (command.keeps_scene) settings.scene = scene_text(scene, "", *command.added);
+  settings.exr.primaries = scene.image.primaries;
+  settings.made_of = command.made_of;
+  settings.tiff = scene.image.tiff;
+  return settings;
+}
+
+RenderSettings picture_settings(const RenderCommand& command, const PictureLayout& layout) {
+  RenderSettings settings = render_settings(command.scene, layout);
+  // Exact times are needed only for pictures with printed times.
+  if (command.stats || (!command.scene.frames.is_requested() && !command.reporting.quiet))
+    settings.timing = StageTiming::exact;
+  return settings;
+}
 
 std::vector<std::string> shared_words(const SceneOptions& options, std::span<const std::string_view> but) {
   std::vector<std::string> words;
@@ -41,9 +63,9 @@ SceneCommand read_scene_file(const std::string& path, std::vector<std::string> w
   const PictureOutput& image = command.scene.image;
   if (image.extent || image.aovs || image.cryptomatte || image.primaries != Primaries::rec709)
     throw UsageError(
-        fmt::format("{}: this command shows complete surfaces as sRGB colours; leave image.extent, "
-                    "image.aovs, image.cryptomatte and image.color_space out",
-                    escaped(path)));
+        "{}: this command shows complete surfaces as sRGB colours; leave image.extent, "
+        "image.aovs, image.cryptomatte and image.color_space out",
+        escaped(path));
   command.reporting = reporting;
   return command;
 }
