@@ -195,7 +195,7 @@ ViewBasis turned(ViewBasis basis, std::span<const Turn> turns) {
   return basis;
 }
 
-glm::dvec3 middle_of(std::span<const Ball> balls) {
+glm::dvec3 mean_center(std::span<const Ball> balls) {
   glm::dvec3 sum(0.0);
   for (const Ball& ball : balls) sum += ball.center;
   return sum / static_cast<double>(balls.size());
@@ -236,7 +236,7 @@ ViewBasis aimed_basis(const ViewRequest& request, const std::optional<Camera>& g
 Camera view_camera(const ViewRequest& request, const std::optional<Camera>& given, const ViewedBalls& balls) {
   if (given && !request.zoom_to) {
     if (request.turns.empty()) return *given;
-    return swung(*given, aimed_basis(request, given, balls), middle_of(balls.shown));
+    return swung(*given, aimed_basis(request, given, balls), mean_center(balls.shown));
   }
   Camera lens;
   lens.projection = request.projection;

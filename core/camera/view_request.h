@@ -67,7 +67,7 @@ struct ViewRequest {
 };
 
 /// Returns the mean of the centres of these balls.
-glm::dvec3 middle_of(std::span<const Ball> balls);
+glm::dvec3 mean_center(std::span<const Ball> balls);
 
 /// The balls in front of a camera.
 struct ViewedBalls {

@@ -120,14 +120,14 @@ class CameraCourse {
                   "show it N times"));
     if (!motion.follow) return;
     followed_ = followed_of(frames.first());
-    start_ = middle_of(followed_balls(frames.first_shown(), followed_));
+    start_ = mean_center(followed_balls(frames.first_shown(), followed_));
     follows_others_ = run.atoms_change() || motion.follow->uses_positions();
   }
 
   bool follows() const { return !followed_.empty(); }
   glm::dvec3 shift(const Structure& read, const Structure& shown) const {
     if (!follows()) return glm::dvec3(0.0);
-    return middle_of(followed_balls(shown, follows_others_ ? followed_of(read) : followed_)) - start_;
+    return mean_center(followed_balls(shown, follows_others_ ? followed_of(read) : followed_)) - start_;
   }
   double angle(std::uint64_t place) const {
     return 2.0 * std::numbers::pi * motion_.turns * static_cast<double>(place) / count_;
@@ -203,7 +203,7 @@ std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionReque
   const std::vector<Ball> shown = aim.shown(frames.first_shown()), framed = aim.framed(frames.first_shown());
   ViewedBalls seen = aim.viewed_balls(shown, framed);
   seen.forward = aim.clear_side(frames.first_shown());
-  const CameraCourse course(motion, frames, middle_of(framed));
+  const CameraCourse course(motion, frames, mean_center(framed));
 
   const ViewBasis basis = aimed_basis(view, given.still, seen);
   Camera lens;
