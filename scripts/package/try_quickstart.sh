@@ -15,7 +15,7 @@ tests="base_test math_test structure_test surface_test reduced_surface_test mesh
 
 check "quickstart" bash meniscus/scripts/quickstart.sh
 check "the pictures" ls quickstart/{1tii_chains.png,1tii_blender.png,povray/surface.png}
-check "packages of the tests" $install libgtest-dev python3-numpy freesasa
+check "packages of the tests" $install libgtest-dev libbenchmark-dev glslang-tools spirv-tools libvulkan-dev freesasa
 check "configures" cmake -S meniscus -B tests -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=ON
 check "builds" cmake --build tests --target $tests
 check "runs" "ctest --test-dir tests -L unit -E NOT_BUILT -j \$(nproc) | grep '100% tests passed'"
