@@ -25,6 +25,7 @@ python3 scripts/manual.py "$program" "$work"
 # Not --quiet: it would hide warnings from --strict, too.
 NO_MKDOCS_2_WARNING=1 "$work/venv/bin/mkdocs" build --strict --config-file "$work/mkdocs.yml" --site-dir "$site" >"$work/log" 2>&1 ||
   { cat "$work/log" >&2; exit 1; }
+cp "$work"/venv/lib/python3*/site-packages/mkdocs_material-*.dist-info/licenses/LICENSE "$site/assets"
 echo "the manual is in $site/index.html"
 [[ $look ]] || exit 0
 

@@ -25,7 +25,7 @@ test_packages=(python3-venv python3-pip libgtest-dev libbenchmark-dev glslang-to
   python3-biopython python3-ost jmol
   python3-rdkit rdkit-data python3-openbabel openbabel
   admesh tetgen python3-meshio assimp-utils python3-openvdb
-  dpkg-dev lintian man-db mandoc zsh fish ruby nix-bin)
+  dpkg-dev lintian appstream desktop-file-utils man-db mandoc zsh fish ruby nix-bin)
 # compilers of programs that use the library
 compiler_packages=(g++-11 clang-13 clang-15 clang-16 clang-19)
 fuzz_packages=(clang-14 libclang-rt-14-dev)

@@ -64,6 +64,7 @@ rows=(
   "targets|the library for Linux, Windows and macOS, and the same results of all that run here|bash scripts/package/targets.sh"
   "alone|the library alone, built and used in a bare Debian 12 with its three dependencies|bash scripts/package/try_library.sh"
   "trixie|the same in a bare Debian 13|MENISCUS_SUITE=trixie bash scripts/package/try_library.sh"
+  "quickstart|quickstart.sh and tests of core in a bare Debian 13|bash scripts/package/try_quickstart.sh"
   "manual|the manual as a site: dead links, search, and axe-core in Chromium at two widths|bash scripts/manual.sh --look"
   "image|the image of a farm node, built and at work on a film|bash scripts/package/try_image.sh"
   "exporter|an exporter is added as a folder and a command, and help, completion, manual and scenes follow|bash scripts/check/add_exporter.sh"

@@ -28,32 +28,26 @@ git archive --format=tar --prefix="meniscus-$version/" HEAD | gzip -n -9 >"$made
 echo "Debian packages" >&2
 cmake -S . -B build/packages -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=OFF -DMENISCUS_HARDENED=ON >/dev/null
 cmake --build build/packages >&2
+MENISCUS=build/packages/meniscus bash scripts/manual.sh build/packages/site >&2
+cmake build/packages -DMENISCUS_SITE="$PWD/build/packages/site" >/dev/null
 cpack --config build/packages/CPackConfig.cmake -B build/packages/made >&2
 mv build/packages/made/*.deb "$made"
 
 # wheels.py takes what lies in build/targets; of another commit it would be another version's.
 commit=$(git rev-parse HEAD)
 built=()
-for target in x86_64-linux aarch64-linux x86_64-windows aarch64-macos x86_64-macos; do
+for names in x86_64-linux:linux-x64 aarch64-linux:linux-arm64 x86_64-windows:windows-x64 aarch64-macos:macos-arm64 x86_64-macos:macos-x64; do
+  target=${names%:*}  # and Blender's name of the same system
   if [[ $(cat "build/targets/$target/commit" 2>/dev/null) == "$commit" ]]; then
-    built+=("$target")
+    built+=("$names")
   else
     echo "left out: $target, which scripts/package/targets.sh has not built from this commit" >&2
   fi
 done
 if ((${#built[@]})); then
-  echo "wheels and extensions: ${built[*]}" >&2
-  /usr/bin/python3 scripts/package/wheels.py "$made" "${built[@]}" >&2
-  for target in "${built[@]}"; do
-    case $target in
-      x86_64-linux) platform=linux-x64 ;;
-      aarch64-linux) platform=linux-arm64 ;;
-      x86_64-windows) platform=windows-x64 ;;
-      aarch64-macos) platform=macos-arm64 ;;
-      x86_64-macos) platform=macos-x64 ;;
-    esac
-    bash scripts/extension.sh "$made" "$made" "$platform" >&2
-  done
+  echo "wheels and extensions: ${built[*]%:*}" >&2
+  /usr/bin/python3 scripts/package/wheels.py "$made" "${built[@]%:*}" >&2
+  bash scripts/extension.sh "$made" "$made" "${built[@]#*:}" >&2
 fi
 
 (cd "$made" && sha256sum -- * >SHA256SUMS)

@@ -16,6 +16,12 @@ bare_system() {
     { tail -n 5 "$work/mmdebstrap.log" >&2; exit 1; }
 }
 
+# take_packages [FOLDER]: sets $packages to a folder of Debian packages; without one they are made of build/test.
+take_packages() {
+  packages=${1:-$work/packages}
+  [[ $1 ]] || cpack --config build/test/CPackConfig.cmake -B "$packages" >/dev/null
+}
+
 # enter_bare [BARE.tar]: makes the bare system in which `check` runs commands, or unpacks one that was made before.
 enter_bare() {
   mkdir "$root"
@@ -23,6 +29,12 @@ enter_bare() {
   mount -t proc proc "$root/proc"
   mount --bind /dev "$root/dev"
   cp /etc/resolv.conf "$root/etc/"
+}
+
+# copy_tree: the files of this tree go into /root/meniscus of the bare system.
+copy_tree() {
+  mkdir "$home/meniscus"
+  git ls-files -z --cached --others --exclude-standard | tar c --null -T - --ignore-failed-read 2>/dev/null | tar x -C "$home/meniscus"
 }
 
 # As the commands of `check` are run: here in the bare system, in its /root.

@@ -1,15 +1,16 @@
 # `cpack` makes Debian packages: the program; the shared library, named after its soname; what programs that use it are
-# compiled with; the Python package. dpkg-shlibdeps finds the packages of linked libraries.
+# compiled with; the Python package; the manual. dpkg-shlibdeps finds the packages of linked libraries.
 set(MENISCUS_MAINTAINER "Meniscus developers <maintainers@meniscus.invalid>" CACHE STRING
     "Whom a Debian package names as its maintainer")
 set(generated ${CMAKE_BINARY_DIR}/generated/debian)
 
-# Debian wants a changelog of its own form, with the date of the release.
-execute_process(COMMAND git -C ${CMAKE_SOURCE_DIR} log -1 --format=%cD OUTPUT_VARIABLE date ERROR_QUIET
+# Debian wants a changelog of its own form, with the date of the release. Files have that date, too.
+execute_process(COMMAND git -C ${CMAKE_SOURCE_DIR} log -1 "--format=%cD;%ct" OUTPUT_VARIABLE date ERROR_QUIET
                 OUTPUT_STRIP_TRAILING_WHITESPACE)
 if(NOT date)
-  file(TIMESTAMP ${CMAKE_SOURCE_DIR}/CHANGELOG.md date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+  file(TIMESTAMP ${CMAKE_SOURCE_DIR}/CHANGELOG.md date "%a, %d %b %Y %H:%M:%S +0000;%s" UTC)
 endif()
+list(POP_BACK date CPACK_MENISCUS_SECONDS)
 file(CONFIGURE OUTPUT ${generated}/changelog CONTENT [[
 meniscus (@PROJECT_VERSION@) unstable; urgency=medium
 
@@ -51,7 +52,7 @@ set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 # papers that Debian asks for. The description's first line is its title.
 set(CPACK_COMPONENTS_ALL "")
 macro(debian_package component name)
-  cmake_parse_arguments(P "" "SECTION;DESCRIPTION;DEPENDS;RECOMMENDS;ARCHITECTURE;COPYRIGHT" "CONTROL" ${ARGN})
+  cmake_parse_arguments(P "" "SECTION;DESCRIPTION;DEPENDS;RECOMMENDS;SUGGESTS;ARCHITECTURE;COPYRIGHT" "CONTROL" ${ARGN})
   list(APPEND CPACK_COMPONENTS_ALL ${component})
   install(FILES ${generated}/changelog.gz DESTINATION share/doc/${name} COMPONENT ${component} EXCLUDE_FROM_ALL)
   if(NOT P_COPYRIGHT)
@@ -65,6 +66,7 @@ macro(debian_package component name)
   set(${variable}_DESCRIPTION ${P_DESCRIPTION})
   set(${variable}_PACKAGE_DEPENDS ${P_DEPENDS})
   set(${variable}_PACKAGE_RECOMMENDS ${P_RECOMMENDS})
+  set(${variable}_PACKAGE_SUGGESTS ${P_SUGGESTS})
   set(${variable}_PACKAGE_CONTROL_EXTRA ${P_CONTROL})
   set(${variable}_PACKAGE_CONTROL_STRICT_PERMISSION ON)
   if(P_ARCHITECTURE)
@@ -80,6 +82,7 @@ debian_package(program meniscus
   COPYRIGHT ${generated}/copyright
   DEPENDS "libegl1, libgl1"
   RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, fonts-dejavu-core, ffmpeg, povray, povray-includes, blender"
+  SUGGESTS "meniscus-doc, chemical-mime-data"
   CONTROL ${CMAKE_CURRENT_LIST_DIR}/program/postinst ${CMAKE_CURRENT_LIST_DIR}/program/prerm
   DESCRIPTION "Exact, analytic solvent-excluded surfaces of molecules
 Meniscus computes the solvent-excluded surface of a molecule exactly: as
@@ -92,6 +95,7 @@ set(about "The library computes the solvent-excluded surface of a molecule exact
 areas, volumes, components, areas of atoms, the analytic patches, closed
 meshes, distances to the surface, and ray-cast pictures of it.")
 set(library libmeniscus${PROJECT_VERSION_MAJOR})
+set(CPACK_MENISCUS_SYMBOLS ${CMAKE_CURRENT_LIST_DIR}/libmeniscus.symbols)
 file(WRITE ${generated}/shlibs "libmeniscus ${PROJECT_VERSION_MAJOR} ${library} (>= ${PROJECT_VERSION})\n")
 debian_package(libmeniscus ${library}
   SECTION libs
@@ -134,4 +138,27 @@ debian_package(python3-meniscus python3-meniscus
 ${about}
 .
 This package has the Python 3 package: arrays of numpy in, arrays of numpy out.")
+
+# The manual: the site that scripts/manual.sh made in MENISCUS_SITE, or its Markdown.
+set(MENISCUS_SITE "" CACHE PATH "The manual as a site, made by scripts/manual.sh, for the package meniscus-doc")
+file(READ ${CMAKE_SOURCE_DIR}/LICENSE notices)
+if(MENISCUS_SITE)
+  install(DIRECTORY ${MENISCUS_SITE}/ DESTINATION share/doc/meniscus/html COMPONENT meniscus-doc
+          PATTERN "*.map" EXCLUDE PATTERN lunr EXCLUDE PATTERN "sitemap*" EXCLUDE)  # lunr: other languages
+  file(READ ${MENISCUS_SITE}/assets/LICENSE text)
+  string(APPEND notices "\nThe theme of the pages is Material for MkDocs. It holds lunr, Copyright (C) 2020 Oliver Nightingale, under the same terms:\n\n${text}")
+else()
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION share/doc/meniscus COMPONENT meniscus-doc)
+endif()
+file(WRITE ${generated}/copyright_of_manual "${notices}")
+debian_package(meniscus-doc meniscus-doc
+  SECTION doc
+  ARCHITECTURE all
+  COPYRIGHT ${generated}/copyright_of_manual
+  DESCRIPTION "Exact solvent-excluded surfaces of molecules - manual
+Meniscus computes the solvent-excluded surface of a molecule exactly, makes
+pictures and films of it, and exports it to POV-Ray and Blender.
+.
+This package has the manual: tutorials, one page for each task, a gallery with
+the commands of its pictures, and the reference.")
 include(CPack)

@@ -1,6 +1,7 @@
-# Run by cpack behind the packages, for what it does otherwise than Debian's policy: of a shared library it makes scripts
-# that call ldconfig, for modules of a program too, where a trigger is wanted, and only where the library is one for
-# others; and folders have the modes that the maker's umask gave them.
+# Changes the packages of cpack, which runs this after them, as Debian's policy asks: a library for others has a trigger of
+# ldconfig instead of scripts that call it, and its symbols, which are checked against libmeniscus.symbols; modes and
+# times of files depend on the commit alone.
+set(ENV{SOURCE_DATE_EPOCH} ${CPACK_MENISCUS_SECONDS})
 foreach(package ${CPACK_PACKAGE_FILES})
   set(tree ${package}.tree)
   file(REMOVE_RECURSE ${tree})
@@ -16,6 +17,8 @@ foreach(package ${CPACK_PACKAGE_FILES})
   file(GLOB libraries ${tree}/usr/lib/*.so.* ${tree}/usr/lib/*-linux-*/*.so.*)
   if(libraries)
     file(WRITE ${tree}/DEBIAN/triggers "activate-noawait ldconfig\n")
+    execute_process(COMMAND dpkg-gensymbols -q -c4 -p${CPACK_DEBIAN_LIBMENISCUS_PACKAGE_NAME} -v${CPACK_PACKAGE_VERSION} -P${tree}
+                            -I${CPACK_MENISCUS_SYMBOLS} -O${tree}/DEBIAN/symbols COMMAND_ERROR_IS_FATAL ANY)
   endif()
   execute_process(COMMAND chmod -R u=rwX,go=rX ${tree} COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND dpkg-deb --build --root-owner-group ${tree} ${package} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)

@@ -20,11 +20,9 @@ endforeach()
 file(CREATE_LINK meniscus-pdb_to_xyzr.1.gz "${FOLDER}/man/man1/meniscus-pdb_to_xyzrn.1.gz" SYMBOLIC)
 
 # Where Debian's shells look.
-foreach(completion bash:bash-completion/completions/meniscus zsh:zsh/vendor-completions/_meniscus
-                   fish:fish/vendor_completions.d/meniscus.fish)
-  string(REPLACE ":" ";" completion ${completion})
-  list(GET completion 0 shell)
-  list(GET completion 1 path)
+set(shells bash zsh fish)
+set(paths bash-completion/completions/meniscus zsh/vendor-completions/_meniscus fish/vendor_completions.d/meniscus.fish)
+foreach(shell path IN ZIP_LISTS shells paths)
   execute_process(COMMAND "${PROGRAM}" completion ${shell} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
   file(WRITE "${FOLDER}/${path}" "${text}")
 endforeach()

@@ -1,4 +1,5 @@
-# libmeniscus with its headers, from Homebrew's packages. It has no released source yet, so a clone is named:
+# libmeniscus with its headers, from Homebrew's packages. Liberation Sans is not one of them: letters need a font file.
+# A released source does not exist yet, so a clone is named:
 #   HOMEBREW_MENISCUS_CLONE=$PWD brew install --HEAD scripts/package/meniscus.rb
 class Meniscus < Formula
   desc "Exact solvent-excluded surfaces of molecules"

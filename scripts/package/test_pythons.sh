@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs a wheel into fresh environments of several Pythons, with each requested numpy that PyPI has for them, and runs
-# the package's tests there; prints the CPU time of `import meniscus` in addition to numpy's own import.
+# the package's tests there.
 #
 #   scripts/package/test_pythons.sh WHEEL [PYTHON...]      python3.9 to python3.14, as far as they are there, by default
 #
@@ -16,17 +16,6 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 unset MENISCUS_LIBRARY MENISCUS_PACKAGE
 
-# CPU time, the least of several runs.
-import_time='import subprocess, sys
-code = """from time import process_time as now
-start = now()
-import numpy
-middle = now()
-import meniscus
-print(middle - start, now() - middle)"""
-runs = [subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout.split() for _ in range(7)]
-print("import: numpy {:.0f} ms, meniscus {:.0f} ms more".format(*(1000 * min(map(float, column)) for column in zip(*runs))))'
-
 cases=0 failures=0
 for python in "${pythons[@]}"; do
   for numpy in ${MENISCUS_NUMPY:-1.26 2}; do
@@ -41,7 +30,7 @@ for python in "${pythons[@]}"; do
         continue
       fi
     elif (cd "$folder" && "$venv/bin/python" -B "$OLDPWD/tests/python/package_test.py") > "$folder/log" 2>&1; then
-      echo "good    $what, numpy $("$venv/bin/python" -c 'import numpy; print(numpy.__version__)'): $(grep -oE 'Ran .* tests' "$folder/log"), $("$venv/bin/python" -c "$import_time")"
+      echo "good    $what, numpy $("$venv/bin/python" -c 'import numpy; print(numpy.__version__)'): $(grep -oE 'Ran .* tests' "$folder/log")"
       continue
     fi
     failures=$((failures + 1))

@@ -9,16 +9,11 @@
 # bare system. The last line says `cases N failures M`.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-packages=${1:-}
 bare=${2:-}
 source scripts/package/bare.sh
 export STORAGE_DRIVER=vfs BUILDAH_ISOLATION=chroot
 buildah() { command buildah --root "$work/storage" --runroot "$work/run" "$@"; }
-
-if [[ ! $packages ]]; then
-  packages=$work/packages
-  cpack --config build/test/CPackConfig.cmake -B "$packages" >/dev/null
-fi
+take_packages "${1:-}"
 if [[ ! $bare ]]; then
   bare=$work/bare.tar
   bare_system "$bare"

@@ -9,13 +9,9 @@
 # `cases N failures M`.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-bare=${1:-}
 source scripts/package/bare.sh
-
-enter_bare "$bare"
-
-mkdir "$home/meniscus"
-git ls-files -z --cached --others --exclude-standard | tar c --null -T - --ignore-failed-read 2>/dev/null | tar x -C "$home/meniscus"
+enter_bare "${1:-}"
+copy_tree
 printf '0 0 0 1.7\n1.5 0 0 1.7\n2.3 1.3 0 1.52\n6 0 0 1.7\n' >"$home/atoms.xyzr"
 cat >"$home/read.c" <<'C'
 #include <meniscus/meniscus.h>

@@ -9,19 +9,13 @@
 # --variant=minbase bookworm BARE.tar). The last line says `cases N failures M`.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-packages=${1:-}
-bare=${2:-}
 source scripts/package/bare.sh
-
-if [[ ! $packages ]]; then
-  packages=$work/packages
-  cpack --config build/test/CPackConfig.cmake -B "$packages" >/dev/null
-fi
-enter_bare "$bare"
+take_packages "${1:-}"
+enter_bare "${2:-}"
 
 # The script that runs in /root of the bare system.
 mkdir -p "$home/c" "$home/cpp"
-for package in meniscus libmeniscus0 libmeniscus-dev python3-meniscus; do
+for package in meniscus libmeniscus0 libmeniscus-dev python3-meniscus meniscus-doc; do
   cp "$packages/$package"_*.deb "$home/$package.deb"
 done
 cp "$(dpkg -L pymol-data | awk '/\/1tii\.pdb$/ && !n++')" "$home/1tii.pdb"
@@ -72,6 +66,7 @@ told = json.load(sys.stdin)
 print(\"area {area:.17g}, volume {volume:.17g}\".format(**told))" | cmp - measures'
 check "help of a command" meniscus render --help
 check "manual" test -s /usr/share/man/man1/meniscus-render.1.gz
+check "the manual's pages" "$install ./meniscus-doc.deb && ls /usr/share/doc/meniscus/*/index.*"
 check "completion" 'source /usr/share/bash-completion/completions/meniscus && complete -p meniscus'
 check "installs software GL" $install libegl-mesa0 libgl1-mesa-dri
 check "picture by software GL" meniscus render 1tii.pdb -o 1tii.png --size 320x240 --device software
@@ -80,8 +75,8 @@ check "Python draws" "python3 -c 'import meniscus
 s = meniscus.surface([[0, 0, 0]], [2.0])
 print(s.render(size=\"40x30\").pixels.shape, s.render(size=\"40x30\").png()[1:4])'"
 check "versions" meniscus --version --verbose
-check "files are as they were packed" dpkg -V meniscus libmeniscus0 libmeniscus-dev python3-meniscus
-check "goes away again" apt-get purge -y meniscus libmeniscus0 libmeniscus-dev python3-meniscus
+check "files are as they were packed" dpkg -V meniscus libmeniscus0 libmeniscus-dev python3-meniscus meniscus-doc
+check "goes away again" apt-get purge -y meniscus libmeniscus0 libmeniscus-dev python3-meniscus meniscus-doc
 check "leaves nothing behind" '! find /usr -name "*meniscus*" | grep .'
 echo "cases $cases failures $failures"
 ((failures == 0))

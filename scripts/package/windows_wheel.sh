@@ -1,33 +1,22 @@
 #!/usr/bin/env bash
 # Uses the wheel for Windows in a Python for Windows, under Wine: pip of that Python installs it, the package computes and
-# draws, and the programs are run by the names that pip gave them. Python for Windows is in a package of Maven, kept below
-# build/blenders as for windows_blender.sh. Needs Debian's wine and maven. The last line says "cases N failures M".
+# draws, and the programs are run by the names that pip gave them. The last line says "cases N failures M".
 #
 #   scripts/package/windows_wheel.sh WHEEL
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 wheel=$(realpath "${1:?usage: scripts/package/windows_wheel.sh WHEEL}")
-home=$PWD/build/blenders/windows
-cpython=org.bytedeco:cpython:3.11.3-1.5.9:jar:windows-x86_64
-python=$home/python/org/bytedeco/cpython/windows-x86_64/python.exe
+source scripts/package/windows_python.sh
 molecule=/usr/share/freesasa/test-data/1ubq.pdb
-export WINEPREFIX=$home/wine WINEDEBUG=-all
-
-mkdir -p "$home"
-if [[ ! -e $python ]]; then
-  mvn -q -B dependency:copy -Dartifact=$cpython -DoutputDirectory="$home/downloaded"
-  python3 -m zipfile -e "$home"/downloaded/cpython-*.jar "$home/python"
-fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-there() { winepath -w "$1" 2>/dev/null; }
 cases=0 failures=0
 # check WHAT COMMAND...
 check() {
   local what=$1 begin=$EPOCHREALTIME
   shift
   cases=$((cases + 1))
-  if "$@" < /dev/null 2>&1 | cat > "$work/log"; then  # Python in Wine writes to no file
+  if "$@" < /dev/null 2>&1 | cat > "$work/log"; then
     echo "good    $what ($(bc <<< "scale=1; ($EPOCHREALTIME - $begin) / 1") s): $(tail -n 1 "$work/log" | tr -d '\r' | cut -c 1-120)"
   else
     failures=$((failures + 1))

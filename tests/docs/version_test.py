@@ -12,6 +12,7 @@ PLACES = {
     "exporters/blender/addon/meniscus_import/blender_manifest.toml": r'^version = "(.+)"$',
     "scripts/package/conda/recipe.yaml": r'^  version: "(.+)"$',
     "scripts/package/default.nix": r'^  version = "(.+)";$',
+    "scripts/package/share/metainfo/invalid.meniscus.meniscus.metainfo.xml": r'<releases>\n    <release version="(.+)" date="',
 }
 #: Three numbers, each in a place of its own.
 NUMBERS = {

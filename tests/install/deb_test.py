@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Debian packages: lintian finds nothing, they depend on what they load, and hold what belongs to them, with modes
-that do not depend on who made them."""
+times that do not depend on who made them, and when."""
 
+import configparser
 import pathlib
 import re
 import shutil
 import sysconfig
 import tempfile
 import unittest
+import xml.etree.ElementTree as xml
 
 from installation import BUILD, ROOT, run
 
@@ -16,7 +18,9 @@ HOLDS = {
     "meniscus": {"usr/bin/meniscus", "usr/lib/meniscus/meniscus_openimageio.so", "usr/lib/meniscus/meniscus_hdf5.so",
                  "usr/share/man/man1/meniscus.1.gz", "usr/bin/meniscus-msms", "usr/bin/meniscus-nanoshaper", "usr/bin/meniscus-pdb_to_xyzr",
                  "usr/bin/meniscus-pdb_to_xyzrn", "usr/share/man/man1/meniscus-msms.1.gz",
-                 "usr/share/meniscus/addon/render_mns.py", "usr/share/meniscus/meniscus_plugin.py"},
+                 "usr/share/meniscus/addon/render_mns.py", "usr/share/meniscus/meniscus_plugin.py",
+                 "usr/share/applications/meniscus.desktop", "usr/share/icons/hicolor/scalable/apps/meniscus.svg",
+                 "usr/share/metainfo/invalid.meniscus.meniscus.metainfo.xml"},
     "libmeniscus0": {f"{LIBRARIES}/libmeniscus.so.0", f"{LIBRARIES}/libmeniscus.so.{{version}}"},
     "libmeniscus-dev": {"usr/include/meniscus/meniscus.h", "usr/include/meniscus/meniscus.hpp",
                         f"{LIBRARIES}/libmeniscus.so", f"{LIBRARIES}/pkgconfig/meniscus.pc",
@@ -24,6 +28,7 @@ HOLDS = {
     "python3-meniscus": {f"usr/lib/python3/dist-packages/meniscus/{path.name}"
                          for path in (ROOT / "exporters/bindings/python/meniscus").iterdir() if path.is_file()}
                         | {"usr/lib/python3/dist-packages/meniscus_ses-{version}.dist-info/METADATA"},
+    "meniscus-doc": {"usr/share/doc/meniscus/docs/index.md", "usr/share/doc/meniscus/docs/gallery/pocket.jpg"},
 }
 
 
@@ -49,7 +54,7 @@ class DebianPackages(unittest.TestCase):
         cls.packages = {path.name.split("_")[0]: path for path in pathlib.Path(folder.name).glob("*.deb")}
         cls.version = fields(cls.packages["meniscus"])["Version"]
 
-    def test_program_library_headers_and_python_have_their_packages(self):
+    def test_program_library_headers_python_and_manual_have_their_packages(self):
         self.assertEqual(set(self.packages), set(HOLDS))
 
     def test_the_program_depends_on_libraries_and_only_recommends_other_programs(self):
@@ -77,6 +82,13 @@ class DebianPackages(unittest.TestCase):
         triggers = run("dpkg-deb", "-I", self.packages["libmeniscus0"], "triggers").stdout
         self.assertEqual(triggers, "activate-noawait ldconfig\n")
 
+    def test_its_symbols_are_the_functions_of_the_header(self):
+        header = (ROOT / "exporters/bindings/c/include/meniscus/meniscus.h").read_text()
+        title, *rows = run("dpkg-deb", "-I", self.packages["libmeniscus0"], "symbols").stdout.splitlines()
+        self.assertEqual(title, "libmeniscus.so.0 libmeniscus0 #MINVER#")
+        self.assertEqual({row.split("@")[0].strip() for row in rows} - {"MENISCUS_0"},
+                         set(re.findall(r"^MENISCUS_API [^;(]*?\b(meniscus_\w+)\(", header, re.M)))
+
     def test_each_holds_what_belongs_to_it(self):
         owners = {}
         for name, expected in HOLDS.items():
@@ -84,7 +96,7 @@ class DebianPackages(unittest.TestCase):
             expected = {path.format(version=self.version) for path in expected}
             papers = {f"usr/share/doc/{name}/copyright", f"usr/share/doc/{name}/changelog.gz"}
             self.assertLessEqual(expected | papers, files, name)
-            if name != "meniscus":  # which also has pages, documents, completions
+            if name not in ("meniscus", "meniscus-doc"):  # which also have pages, documents, completions
                 extra = {path for path in files - expected - papers if "/cmake/Meniscus/" not in path}
                 self.assertEqual(extra, set(), name)
             for path in files:
@@ -104,7 +116,35 @@ class DebianPackages(unittest.TestCase):
                           "libcli11-dev", "libglm-dev", "nlohmann-json3-dev", "libdeflate-dev", "fonts-liberation2", "SIL O"):
                 self.assertIn(words.lower(), text.lower(), name)
 
-    def test_binaries_are_bound_at_start_and_do_not_know_the_build_folder(self):
+    def test_no_file_knows_the_folder_of_the_sources(self):
+        for name in self.packages:
+            for path in self.unpacked(name).rglob("*"):
+                if path.is_file() and not path.is_symlink():
+                    self.assertNotIn(f"{ROOT}/".encode(), path.read_bytes(), path)
+
+    def test_made_again_elsewhere_a_package_has_the_same_bytes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", folder, "-D", "CPACK_COMPONENTS_ALL=libmeniscus")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            again = pathlib.Path(folder) / self.packages["libmeniscus0"].name
+            self.assertEqual(again.read_bytes(), self.packages["libmeniscus0"].read_bytes())
+
+    def test_file_managers_offer_the_preview_for_molecules(self):
+        share = self.unpacked("meniscus") / "usr/share"
+        entry, about = share / "applications/meniscus.desktop", next((share / "metainfo").iterdir())
+        for tool in (("desktop-file-validate", entry), ("appstreamcli", "validate", "--no-net", about)):
+            if shutil.which(tool[0]):
+                done = run(*tool)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                self.assertNotIn("warning", done.stdout)
+        desktop = configparser.ConfigParser(interpolation=None)
+        desktop.read(entry)
+        desktop, types = desktop["Desktop Entry"], {row.text for row in xml.parse(about).iter("mediatype")}
+        self.assertEqual(set(desktop["MimeType"].rstrip(";").split(";")), types)
+        self.assertEqual(run(BUILD / "meniscus", *desktop["Exec"].replace("%f", "--help").split()[1:]).returncode, 0)
+        self.assertTrue((share / f"icons/hicolor/scalable/apps/{desktop['Icon']}.svg").exists())
+
+    def test_binaries_are_bound_at_start(self):
         for name in ("meniscus", "libmeniscus0"):
             files = [path for path in self.unpacked(name).rglob("*") if path.is_file() and not path.is_symlink()]
             binaries = [path for path in files if path.read_bytes()[:4] == b"\x7fELF"]
@@ -113,7 +153,6 @@ class DebianPackages(unittest.TestCase):
                 dynamic = run("readelf", "-d", path).stdout
                 self.assertRegex(dynamic, r"BIND_NOW|Flags: .*NOW", path)
                 self.assertNotIn("RUNPATH", dynamic, path)
-                self.assertNotIn(str(BUILD).encode(), path.read_bytes(), path)
 
     def test_the_program_offers_itself_as_msms(self):
         for script, action in (("postinst", "--install /usr/bin/msms msms /usr/bin/meniscus-msms"),

@@ -9,7 +9,7 @@ from installation import ROOT, run
 
 FOLDER = ROOT / "scripts/package"
 RECIPES = {"conda": FOLDER / "conda/recipe.yaml", "nix": FOLDER / "default.nix", "homebrew": FOLDER / "meniscus.rb"}
-PARTS = ("cmake", "ninja", "glm", "fmt", "tbb", "gemmi", "zlib", "freetype", "nlohmann.json", "libdeflate", "libepoxy")
+PARTS = ("cmake", "ninja", "glm", "fmt", "tbb", "gemmi", "zlib", "freetype", "nlohmann.json", "libdeflate", "libepoxy", "liberation")
 
 
 class Recipes(unittest.TestCase):
@@ -21,7 +21,7 @@ class Recipes(unittest.TestCase):
     def test_parts(self):
         for name, path in RECIPES.items():
             for part in PARTS:
-                self.assertRegex(path.read_text(), rf"\b{part}", name)
+                self.assertRegex(path.read_text(), rf"(?i)\b{part}", name)
 
     @unittest.skipUnless(shutil.which("ruby"), "ruby is not installed")
     def test_homebrew_is_ruby(self):
