@@ -65,6 +65,9 @@ void log_size(const SceneCommand& command, const FigureMeshes& meshes, const Mes
 // from every chunk.
 void export_to_blender(const SceneCommand& requested) {
   check_blender(requested.scene);
+  if (requested.scene.output.ends_with(".blend"))
+    throw UsageError(fmt::format("{}: Blender writes .blend files; name this one .mns, and import it with the add-on",
+                                 requested.scene.output));
   check_saved_camera(requested);
   const blender::SurfaceNumbers numbers = blender::parse_surface_numbers(requested.scene.mesh.attributes);
   FigureRun run(requested, Velocities::central);
@@ -126,7 +129,7 @@ void declare_blender(CLI::App& command) {
            "  meniscus export blender adk.psf --trajectory adk.dcd --frames all -o adk   one file per frame, and a "
            "manifest\n"
            "  meniscus export blender 1tii.pdb -o 1tii.mns --density 1   even triangles, for modifiers and sculpting",
-           "The default tolerance is half a pixel of --camera; without a camera it is 0.05 Å, of frames 0.2 Å.");
+           "The default tolerance is half a pixel of --camera; without a camera it is 0.1 Å, of frames 0.2 Å.");
   auto declared = std::make_shared<DeclaredCommand<>>(command, blender_properties());
   declared->options.describe_output(".mns file to write; for frames, a folder");
   declared->options.option("mesh.attributes")

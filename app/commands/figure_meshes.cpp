@@ -41,7 +41,8 @@ void warn_of_many(const SceneCommand& command, double expected_triangles) {
 }
 
 std::string fineness_words(const MeshRequest& request, const MeshFineness& fineness) {
-  if (fineness.density > 0.0) return fmt::format("{:g} vertices per Å²", fineness.density);
+  if (fineness.density > 0.0)
+    return fmt::format("with {:g} {} per Å²", fineness.density, fineness.density == 1.0 ? "vertex" : "vertices");
   if (fineness.tolerance_at)
     return fmt::format("within {:g} pixels of the surface, {:.4g} Å or more", request.tolerance_pixels,
                        fineness.tolerance);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gives triangles their atom and cuts them where the nearest contact changes, so that colours end along edges.
 #include <map>
-#include <set>
+#include <span>
 
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/face_mesh.h"
@@ -13,15 +13,15 @@ namespace {
 constexpr double kTie = 1e-9;
 constexpr int kMostPasses = 8;
 
-using Scores = std::vector<double>;  // one score per contact; the largest wins
-
 /// Cuts the triangles of one face along its colour lines.
 class ColorCutter {
  public:
-  ColorCutter(FaceMesh& mesh, std::vector<Scores> scores) : mesh_(mesh), scores_(std::move(scores)) {
-    for (const auto& edge : mesh.rim_edges) {
-      rim_edges_.insert({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
-    }
+  /// scores: of each point, one per contact; the largest wins.
+  ColorCutter(FaceMesh& mesh, std::size_t contacts, std::vector<double> scores)
+      : mesh_(mesh), contacts_(contacts), scores_(std::move(scores)) {
+    for (const auto& edge : mesh.rim_edges)
+      rim_edges_.emplace_back(std::min(edge[0], edge[1]), std::max(edge[0], edge[1]));
+    std::ranges::sort(rim_edges_);
   }
 
   /// Cuts triangles until every one has a single winner: cutting an edge may reveal a third contact on the rest of it.
@@ -36,14 +36,17 @@ class ColorCutter {
   }
 
  private:
+  std::span<const double> scores(std::uint32_t vertex) const {
+    return std::span(scores_).subspan(contacts_ * vertex, contacts_);
+  }
   bool wins(std::uint32_t vertex, std::size_t contact) const {
-    const Scores& s = scores_[vertex];
+    const std::span<const double> s = scores(vertex);
     return s[contact] >= *std::max_element(s.begin(), s.end()) - kTie;
   }
   /// Returns a contact that wins at all of these vertices, and so between them, as scores are linear on a flat
   /// triangle.
   std::optional<std::size_t> shared_winner(std::initializer_list<std::uint32_t> vertices) const {
-    for (std::size_t c = 0; c < scores_.front().size(); ++c) {
+    for (std::size_t c = 0; c < contacts_; ++c) {
       if (std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return wins(v, c); })) return c;
     }
     return std::nullopt;
@@ -52,16 +55,16 @@ class ColorCutter {
   std::uint32_t add(const std::array<std::uint32_t, 3>& v, const std::array<double, 3>& weight,
                     std::initializer_list<std::size_t> tied) {
     const auto index = static_cast<std::uint32_t>(mesh_.points.size());
-    Scores sum(scores_.front().size(), 0.0);
+    scores_.resize(scores_.size() + contacts_, 0.0);
+    const std::span<double> sum = std::span(scores_).last(contacts_);
     for (int k = 0; k < 3; ++k) {
-      for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weight[k] * scores_[v[k]][c];
+      for (std::size_t c = 0; c < contacts_; ++c) sum[c] += weight[k] * scores(v[k])[c];
     }
     double best = sum[*tied.begin()];
     for (std::size_t c : tied) best = std::max(best, sum[c]);
     for (std::size_t c : tied) sum[c] = best;  // equal but for rounding
     mesh_.points.push_back(
         mesh_.domain->between({&mesh_.points[v[0]], &mesh_.points[v[1]], &mesh_.points[v[2]]}, weight));
-    scores_.push_back(std::move(sum));
     return index;
   }
   /// Returns the first point of an edge where another contact overtakes; the two triangles of the edge share it.
@@ -69,7 +72,7 @@ class ColorCutter {
     if (a > b) std::swap(a, b);
     const auto [at, fresh] = crossings_.try_emplace({a, b}, 0);
     if (fresh) {
-      const Scores &from = scores_[a], &to = scores_[b];
+      const std::span<const double> from = scores(a), to = scores(b);
       std::size_t first = 0;  // of the contacts that win at a, the one that wins just after it
       for (std::size_t c = 1; c < from.size(); ++c) {
         if (wins(a, c) && (!wins(a, first) || to[c] > to[first])) first = c;
@@ -91,7 +94,7 @@ class ColorCutter {
                                  std::size_t c) const {
     std::array<glm::dvec2, 3> lead;
     for (int k = 0; k < 3; ++k) {
-      const Scores& s = scores_[t[k]];
+      const std::span<const double> s = scores(t[k]);
       lead[k] = {s[a] - s[b], s[a] - s[c]};
     }
     auto cross = [](const glm::dvec2& u, const glm::dvec2& v) { return u.x * v.y - u.y * v.x; };
@@ -118,7 +121,7 @@ class ColorCutter {
     int count = 0;
     for (int k = 0; k < 3; ++k) {
       const int a = static_cast<int>(t[k]), b = static_cast<int>(t[(k + 1) % 3]);
-      crossed[k] = !shared_winner({t[k], t[(k + 1) % 3]}) && !rim_edges_.contains({std::min(a, b), std::max(a, b)});
+      crossed[k] = !shared_winner({t[k], t[(k + 1) % 3]}) && !is_on_rim(std::min(a, b), std::max(a, b));
       count += crossed[k];
     }
     auto& out = mesh_.triangles;
@@ -145,9 +148,12 @@ class ColorCutter {
     }
   }
 
+  bool is_on_rim(int a, int b) const { return std::ranges::binary_search(rim_edges_, std::pair(a, b)); }
+
   FaceMesh& mesh_;
-  std::vector<Scores> scores_;
-  std::set<std::pair<int, int>> rim_edges_;  ///< edges that other faces share, and that are never cut
+  std::size_t contacts_;
+  std::vector<double> scores_;
+  std::vector<std::pair<int, int>> rim_edges_;  ///< sorted edges that other faces share, and that are never cut
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> crossings_;
 };
 
@@ -157,11 +163,10 @@ void color_concave(const Surface& surface, const ConcavePatch& patch, FaceMesh& 
     return glm::dot(contacts[c].direction, x - patch.center) / surface.probe_radius;
   };
   if (split) {
-    std::vector<Scores> scores(mesh.points.size(), Scores(contacts.size()));
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-      for (std::size_t c = 0; c < contacts.size(); ++c) scores[i][c] = score(mesh.points[i].position, c);
-    }
-    ColorCutter(mesh, std::move(scores)).run();
+    std::vector<double> scores;
+    for (const FacePoint& p : mesh.points)
+      for (std::size_t c = 0; c < contacts.size(); ++c) scores.push_back(score(p.position, c));
+    ColorCutter(mesh, contacts.size(), std::move(scores)).run();
   }
   for (const auto& t : mesh.triangles) {
     const glm::dvec3 middle =
@@ -178,9 +183,9 @@ void color_torus(const Surface& surface, const ToroidalPatch& patch, FaceMesh& m
   const auto angles = contact_angles(surface, patch);
   const double middle = 0.5 * (angles[0] + angles[1]);
   if (split) {
-    std::vector<Scores> scores;
-    for (const FacePoint& p : mesh.points) scores.push_back({middle - p.angles.y, p.angles.y - middle});
-    ColorCutter(mesh, std::move(scores)).run();
+    std::vector<double> scores;
+    for (const FacePoint& p : mesh.points) scores.insert(scores.end(), {middle - p.angles.y, p.angles.y - middle});
+    ColorCutter(mesh, 2, std::move(scores)).run();
   }
   for (const auto& t : mesh.triangles) {
     const double tube = (mesh.points[t[0]].angles.y + mesh.points[t[1]].angles.y + mesh.points[t[2]].angles.y) / 3.0;

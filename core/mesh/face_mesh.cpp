@@ -220,10 +220,12 @@ FaceMesh fan_outline(FaceOutline outline) {
 }
 
 void split_doubled_edges(FaceMesh& mesh) {
+  std::vector<BorderPoint> names = mesh.rim;
+  std::ranges::sort(names);
+  if (std::ranges::adjacent_find(names) == names.end()) return;
   std::map<BorderPoint, std::uint32_t> first;
   std::vector<std::uint32_t> same(mesh.rim.size());
   for (std::uint32_t i = 0; i < same.size(); ++i) same[i] = first.try_emplace(mesh.rim[i], i).first->second;
-  if (first.size() == mesh.rim.size()) return;
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   auto ordered = [](std::uint32_t a, std::uint32_t b) { return Edge(std::min(a, b), std::max(a, b)); };
   auto named = [&](std::uint32_t v) { return v < same.size() ? same[v] : v; };

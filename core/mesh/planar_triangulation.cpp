@@ -31,6 +31,10 @@ void PlanarTriangulation::refuse() {
 }
 
 PlanarTriangulation::PlanarTriangulation() {
+  constexpr std::size_t kUsualPoints = 64;
+  points_.reserve(kUsualPoints);
+  triangle_of_.reserve(kUsualPoints);
+  triangles_.reserve(2 * kUsualPoints);
   const std::int64_t m = kGridLimit + kGridLimit / 2;
   points_ = {{-m, -m}, {m, -m}, {m, m}, {-m, m}};
   triangle_of_ = {0, 0, 0, 1};
@@ -212,7 +216,8 @@ std::optional<int> PlanarTriangulation::insert(GridPoint point) {
   const int vertex = int(points_.size());
   points_.push_back(point);
   triangle_of_.push_back(-1);
-  std::vector<std::array<int, 2>> edges;
+  std::vector<std::array<int, 2>>& edges = edges_;
+  edges.clear();
   if (on >= 0) {
     const int u = triangle.neighbor[on];
     if (u >= 0) {

@@ -13,10 +13,12 @@
 #include <utility>
 #include <vector>
 
+#include <libdeflate.h>
 #include <nlohmann/json.hpp>
-#include <zlib.h>
+#include <tbb/parallel_for.h>
 
 #include "core/camera/camera_json.h"
+#include "core/image/png_file.h"
 #include "core/structure/element_tables.h"
 
 namespace meniscus::blender {
@@ -32,12 +34,6 @@ constexpr char kMagic[8] = {'\x89', 'M', 'N', 'S', '\r', '\n', '\x1a', '\n'};
 
 std::size_t aligned(std::size_t offset) { return (offset + kAlignment - 1) / kAlignment * kAlignment; }
 
-std::uint32_t checksum(std::uint32_t so_far, std::span<const std::byte> bytes) {
-  if (bytes.empty()) return so_far;  // a null pointer would make zlib start again
-  return static_cast<std::uint32_t>(
-      crc32_z(so_far, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
-}
-
 template <class T>
 void put(std::vector<std::byte>& bytes, std::size_t at, T value) {
   std::memcpy(bytes.data() + at, &value, sizeof value);
@@ -45,35 +41,34 @@ void put(std::vector<std::byte>& bytes, std::size_t at, T value) {
 
 }  // namespace
 
-void MnsWriter::add_bytes(const std::string& name, const char* type, std::span<const std::byte> bytes, std::size_t rows,
-                          int columns) {
-  arrays_.push_back({prefix_ + name, type, rows, columns, bytes.size(), {bytes.begin(), bytes.end()}, {}});
-}
-void MnsWriter::add(const std::string& name, std::span<const float> values, int columns) {
-  add_bytes(name, "<f4", std::as_bytes(values), values.size() / columns, columns);
-}
-void MnsWriter::add(const std::string& name, std::span<const double> values, int columns) {
-  add_bytes(name, "<f8", std::as_bytes(values), values.size() / columns, columns);
-}
-void MnsWriter::add(const std::string& name, std::span<const std::uint32_t> values, int columns) {
-  add_bytes(name, "<u4", std::as_bytes(values), values.size() / columns, columns);
-}
-void MnsWriter::add(const std::string& name, std::span<const std::int32_t> values, int columns) {
-  add_bytes(name, "<i4", std::as_bytes(values), values.size() / columns, columns);
-}
-void MnsWriter::add(const std::string& name, std::span<const std::uint8_t> values, int columns) {
-  add_bytes(name, "|u1", std::as_bytes(values), values.size() / columns, columns);
-}
-
 void MnsWriter::write(const std::string& path, Existing existing, nlohmann::json header,
-                      const std::function<void(std::uint64_t)>& on_size) const {
+                      const std::function<void(std::uint64_t)>& on_size) {
   OutputFile file(path, existing);
   write(file, std::move(header), on_size);
   file.commit();
 }
 
-void MnsWriter::write(OutputFile& file, nlohmann::json header,
-                      const std::function<void(std::uint64_t)>& on_size) const {
+void MnsWriter::pack() {
+  constexpr int kLevel = 1;  // takes a third of the time of 6, with files a twentieth larger
+  tbb::parallel_for(std::size_t{0}, arrays_.size(), [&](std::size_t n) {
+    Array& array = arrays_[n];
+    if (array.make) {
+      ArraySink sink(
+          [&](std::span<const std::byte> bytes) { array.bytes.insert(array.bytes.end(), bytes.begin(), bytes.end()); });
+      array.make(sink);
+      sink.flush();
+      array.make = {};
+    }
+    assert(array.bytes.size() == array.byte_count);
+    const std::vector<std::uint8_t> stream = zlib_stream(array.bytes, kLevel);
+    const auto packed = std::as_bytes(std::span(stream));
+    array.bytes = std::vector(packed.begin(), packed.end());
+    array.byte_count = array.bytes.size();
+  });
+}
+
+void MnsWriter::write(OutputFile& file, nlohmann::json header, const std::function<void(std::uint64_t)>& on_size) {
+  if (form_ == ArrayForm::packed) pack();
   // Offsets count from the end of the header, so that they do not depend on its length.
   std::size_t offset = 0;
   nlohmann::json table = nlohmann::json::array();
@@ -83,6 +78,7 @@ void MnsWriter::write(OutputFile& file, nlohmann::json header,
                      {"rows", array.rows},
                      {"columns", array.columns},
                      {"offset", offset}});
+    if (form_ == ArrayForm::packed) table.back()["bytes"] = array.byte_count;
     offset = aligned(offset + array.byte_count);
   }
   header["arrays"] = std::move(table);
@@ -97,7 +93,8 @@ void MnsWriter::write(OutputFile& file, nlohmann::json header,
   file.write(std::span<const std::byte>(prologue));
   std::uint32_t crc = 0;
   const auto write = [&](std::span<const std::byte> bytes) {
-    crc = checksum(crc, bytes);
+    if (bytes.empty()) return;  // a null pointer would make the checksum start again
+    crc = ::libdeflate_crc32(crc, bytes.data(), bytes.size());
     file.write(bytes);
   };
   write(std::as_bytes(std::span(text)));
@@ -118,7 +115,7 @@ void MnsWriter::write(OutputFile& file, nlohmann::json header,
     write(std::span(padding).first(aligned(count) - count));
   }
   std::memcpy(prologue.data(), kMagic, sizeof kMagic);
-  put(prologue, 8, version_);
+  put(prologue, 8, std::uint32_t{form_ == ArrayForm::packed ? 4u : 2u});
   put(prologue, 12, crc);
   put(prologue, 16, static_cast<std::uint64_t>(text.size()));
   put(prologue, 24, size);

@@ -19,9 +19,11 @@
 
 namespace meniscus::blender {
 
-/// The versions of files without caps of objects and with them. A reader of version 2 would take such caps for the
-/// surface.
-inline constexpr std::uint32_t kMnsVersion = 2, kMnsVersionOfCaps = 3;
+/// The form of the arrays in a file.
+enum class ArrayForm {
+  plain,  ///< version 2 of the format: as they lie in memory
+  packed  ///< version 4: compressed, each by itself
+};
 
 /// Receives the values of one array in order and passes them on in large pieces.
 class ArraySink {
@@ -33,6 +35,10 @@ class ArraySink {
     const auto bytes = std::as_bytes(std::span(&value, 1));
     buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
     if (buffer_.size() >= kPiece) flush();
+  }
+  void push_all(std::span<const std::byte> bytes) {
+    flush();
+    write_(bytes);
   }
   void flush() {
     write_(buffer_);
@@ -49,16 +55,22 @@ class ArraySink {
 /// Collects named arrays, then writes them after their header.
 class MnsWriter {
  public:
-  /// Sets the version of the file, which is kMnsVersion by default.
-  void set_version(std::uint32_t version) { version_ = version; }
+  explicit MnsWriter(ArrayForm form) : form_(form) {}
+
   /// Sets the prefix of the names of arrays that are added later.
   void set_prefix(const std::string& prefix) { prefix_ = prefix; }
   /// Adds an array with `columns` numbers per row. Names must differ. The values are copied.
-  void add(const std::string& name, std::span<const float> values, int columns = 1);
-  void add(const std::string& name, std::span<const double> values, int columns = 1);
-  void add(const std::string& name, std::span<const std::uint32_t> values, int columns = 1);
-  void add(const std::string& name, std::span<const std::int32_t> values, int columns = 1);
-  void add(const std::string& name, std::span<const std::uint8_t> values, int columns = 1);
+  template <class T>
+  void add(const std::string& name, std::span<const T> values, int columns = 1) {
+    const auto bytes = std::as_bytes(values);
+    arrays_.push_back({prefix_ + name,
+                       type_of(T{}),
+                       values.size() / columns,
+                       columns,
+                       bytes.size(),
+                       {bytes.begin(), bytes.end()},
+                       {}});
+  }
 
   /// Adds an array of `rows` rows that is computed while the file is written: `make` pushes `columns` values of type T
   /// per row. Everything that it refers to must live until then.
@@ -70,9 +82,9 @@ class MnsWriter {
   /// Writes the whole file under `path`, or throws OutputError and leaves none. `header` must be an object; the key
   /// "arrays" is added to it. on_size: a function that is called with the size in bytes before anything is written.
   void write(const std::string& path, Existing existing, nlohmann::json header,
-             const std::function<void(std::uint64_t)>& on_size = {}) const;
+             const std::function<void(std::uint64_t)>& on_size = {});
   /// Writes the whole content into a file, which the caller commits.
-  void write(OutputFile& file, nlohmann::json header, const std::function<void(std::uint64_t)>& on_size = {}) const;
+  void write(OutputFile& file, nlohmann::json header, const std::function<void(std::uint64_t)>& on_size = {});
 
  private:
   struct Array {
@@ -87,10 +99,11 @@ class MnsWriter {
   static const char* type_of(float) { return "<f4"; }
   static const char* type_of(double) { return "<f8"; }
   static const char* type_of(std::uint32_t) { return "<u4"; }
+  static const char* type_of(std::int32_t) { return "<i4"; }
   static const char* type_of(std::uint8_t) { return "|u1"; }
-  void add_bytes(const std::string& name, const char* type, std::span<const std::byte> bytes, std::size_t rows,
-                 int columns);
-  std::uint32_t version_ = kMnsVersion;
+  void pack();
+
+  ArrayForm form_;
   std::string prefix_;
   std::vector<Array> arrays_;
 };

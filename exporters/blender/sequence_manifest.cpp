@@ -6,8 +6,8 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <libdeflate.h>
 #include <nlohmann/json.hpp>
-#include <zlib.h>
 
 #include "core/base/output_file.h"
 #include "core/base/version.h"
@@ -49,7 +49,7 @@ std::string frame_file(std::uint64_t frame) { return fmt::format("surface_{:05}.
 
 std::string run_name(const SequenceManifest& manifest) {
   const std::string text = text_of(shared_by_files(manifest));
-  return fmt::format("{:08x}", crc32_z(0, reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+  return fmt::format("{:08x}", ::libdeflate_crc32(0, text.data(), text.size()));
 }
 
 std::filesystem::path write_manifest(const std::filesystem::path& folder, Existing existing,
@@ -99,7 +99,7 @@ void add_frames(MnsWriter& file, std::size_t atom_count, const AtomFrames& frame
 void write_atoms(const std::string& path, Existing existing, const SurfaceObject& object, const AtomAttributes& atoms,
                  const Provenance& provenance, const AtomFrames& frames) {
   assert(object.copies.size() == 1);
-  MnsWriter file;
+  MnsWriter file(ArrayForm::plain);
   add_atoms(file, object, atoms);
   std::vector<double> times;
   if (!frames.numbers.empty()) add_frames(file, object.surface.atoms.size(), frames, times);

@@ -173,16 +173,13 @@ void stream_vectors(MnsWriter& file, const std::string& name, const std::vector<
 template <std::size_t columns>
 void stream_rows(MnsWriter& file, const std::string& name,
                  const std::vector<std::array<std::uint32_t, columns>>& rows) {
-  file.add_streamed<std::uint32_t>(name, rows.size(), columns, [&rows](ArraySink& out) {
-    for (const auto& row : rows)
-      for (const std::uint32_t index : row) out.push(index);
-  });
+  file.add_streamed<std::uint32_t>(name, rows.size(), columns,
+                                   [&rows](ArraySink& out) { out.push_all(std::as_bytes(std::span(rows))); });
 }
 
 void stream_column(MnsWriter& file, const std::string& name, const std::vector<std::uint32_t>& column) {
-  file.add_streamed<std::uint32_t>(name, column.size(), 1, [&column](ArraySink& out) {
-    for (const std::uint32_t value : column) out.push(value);
-  });
+  file.add_streamed<std::uint32_t>(name, column.size(), 1,
+                                   [&column](ArraySink& out) { out.push_all(std::as_bytes(std::span(column))); });
 }
 
 /// The value of mesh.kind for caps, as in the AOVs of pictures.
@@ -423,7 +420,6 @@ json add_objects(MnsWriter& file, std::span<const MeshedObject> objects, const P
     file.set_prefix(prefix);
     add_mesh(file, meshed.mesh, meshed.mesh.triangles.size() - meshed.cap_plane.size(), origin);
     if (!cut.planes.empty() || !meshed.cut.planes.empty()) add_caps(file, meshed);
-    if (!meshed.cut.planes.empty()) file.set_version(kMnsVersionOfCaps);
     add_map(file, meshed.mesh, meshed.object.coloring);
     add_numbers(file, meshed);
     add_velocities(file, meshed.velocities);
@@ -441,10 +437,7 @@ json add_objects(MnsWriter& file, std::span<const MeshedObject> objects, const P
               {"unit", "angstrom"},
               {"objects", std::move(list)}};
   if (provenance.colors) header["colors"] = color_key_json(*provenance.colors);
-  if (!cut.planes.empty()) {
-    file.set_version(kMnsVersionOfCaps);
-    header["caps"] = caps_header(cut);
-  }
+  if (!cut.planes.empty()) header["caps"] = caps_header(cut);
   return header;
 }
 
@@ -454,7 +447,7 @@ void write_objects(const std::string& path, Existing existing, std::span<const M
                    const std::optional<Shot>& shot, const Provenance& provenance,
                    const std::optional<PlaceInRun>& place, const CutFile& cut,
                    const std::function<void(std::uint64_t)>& on_size) {
-  MnsWriter file;
+  MnsWriter file(ArrayForm::packed);
   json header = add_objects(file, objects, provenance, cut);
   if (shot) header["camera"] = shot_object(*shot);
   if (place) header["sequence"] = {{"run", place->run}, {"frame", place->frame}, {"scene_frame", place->scene_frame}};
@@ -463,7 +456,7 @@ void write_objects(const std::string& path, Existing existing, std::span<const M
 
 void write_objects(OutputFile& file, std::span<const MeshedObject> objects, const Provenance& provenance,
                    const CutFile& cut) {
-  MnsWriter arrays;
+  MnsWriter arrays(ArrayForm::packed);
   const json header = add_objects(arrays, objects, provenance, cut);
   arrays.write(file, header);
 }

@@ -22,7 +22,7 @@
 namespace meniscus::blender {
 
 /// The default tolerance of a mesh for Blender, Å.
-inline constexpr double kTolerance = 0.05;
+inline constexpr double kTolerance = 0.1;
 /// The default tolerance of the frames of a run, Å. Pictures of the whole molecule look the same, and files have half
 /// the size.
 inline constexpr double kRunTolerance = 0.2;

@@ -3,24 +3,18 @@
 #include "exporters/page/page_data.h"
 
 #include <array>
-#include <memory>
 #include <utility>
 
-#include <libdeflate.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.h"
+#include "core/image/png_file.h"
 
 namespace meniscus::page {
 
 std::string deflated(std::string_view bytes) {
   constexpr int kLevel = 6;  // as small as the best level of zlib, and 20 times as fast
-  const std::unique_ptr<libdeflate_compressor, decltype(&::libdeflate_free_compressor)> compressor(
-      ::libdeflate_alloc_compressor(kLevel), &::libdeflate_free_compressor);
-  if (!compressor) throw CapacityError("the page's data cannot be deflated: memory is exhausted");
-  std::string packed(::libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
-  packed.resize(::libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), packed.data(), packed.size()));
-  return packed;
+  const std::vector<std::uint8_t> packed = zlib_stream(std::as_bytes(std::span(bytes)), kLevel);
+  return {packed.begin(), packed.end()};
 }
 
 std::string text_of(const nlohmann::json& description) {

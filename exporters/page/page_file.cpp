@@ -254,6 +254,7 @@ json description_of(const PageFigure& figure, const Tables& tables) {
           {"views", views_of(figure, tables.origin())},
           {"origin", numbers(tables.origin())},
           {"background", {background.x, background.y, background.z}},
+          {"probe", tables.probe()},
           {"look", look_words(figure, look, tables)},
           {"light_maps", light_maps_of(tables)},
           {"has_shade", look.has_shade()},

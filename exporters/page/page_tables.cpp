@@ -22,7 +22,7 @@
 #include "core/image/color_space.h"
 #include "core/math/ball.h"
 #include "core/render/picture.h"
-#include "core/render/ray_cast_pack.h"
+#include "exporters/page/page_rows.h"
 
 namespace meniscus::page {
 namespace {
@@ -33,10 +33,6 @@ constexpr std::uint32_t kIsBeside = 1, kHasOwnColors = 2, kShapeIndex = 0xffffff
 constexpr std::size_t kMapColors = 1024;  // of a volume map's scale
 constexpr double kMapSteps = 1 << 14;     // over its range: what its values are rounded to
 
-/// What is rounded to this is stored in less room: Å, or a part of a unit vector.
-constexpr float kRounding = 1.0f / (1 << 17);
-/// What colours alone depend on: the borders between atoms, and how much fades at a depth.
-constexpr float kColorRounding = 1.0f / (1 << 13);
 /// What rounding may part neighbours by, who overlap by so much more.
 constexpr float kRoundingSlack = 2.0f * kRounding;
 
@@ -110,7 +106,7 @@ bool has_cuts(const PageFigure& figure) {
   return !figure.clip.empty() || std::ranges::any_of(figure.views, [](const auto& view) { return !view.clip.empty(); });
 }
 
-Tables::Tables(const PageFigure& figure) : figure_(figure) {
+Tables::Tables(const PageFigure& figure) : figure_(figure), probe_(probe_of(figure)) {
   std::vector<PictureObject> objects;
   if (figure.surface) {
     objects.emplace_back().surface = &figure.surface->surface;
@@ -124,7 +120,7 @@ Tables::Tables(const PageFigure& figure) : figure_(figure) {
   }
   const std::vector<Ball> balls = enclosing_balls(objects);
   frame_ = frame_around(figure.origin.value_or(middle_of(balls)));
-  placement_ = place_atoms(balls, probe_of(figure), frame_);
+  placement_ = place_atoms(balls, probe_, frame_);
   placement_.slack += kRoundingSlack;
   for (const Ball& ball : balls)
     balls_.emplace_back(rounded(glm::vec3(ball.center - frame_.pivot), kColorRounding),
@@ -160,7 +156,10 @@ std::vector<PageTable> Tables::packed(Packing packing) const {
     tables.push_back(page_table(name, records, packing));
   };
   add("primitives", primitives);
-  add("rows", scene_.rows);
+  if (packing == Packing::plain)
+    add("rows", scene_.rows);
+  else
+    add("rows", row_differences(scene_, balls_of_atoms(), probe_));
   add("colors", colors);
   for (std::size_t n = 0; n < figure_.more_schemes.size(); ++n)
     add(fmt::format("scheme_{}", n + 1), color_words(figure_.more_schemes[n]));
@@ -169,6 +168,13 @@ std::vector<PageTable> Tables::packed(Packing packing) const {
   add("balls", balls_);
   if (!map_.empty()) add("map", map_);
   return tables;
+}
+
+std::vector<glm::vec4> Tables::balls_of_atoms() const {
+  std::vector<glm::vec4> balls(shown_.size(), glm::vec4(0.0f));
+  for (const auto& [first_ball, first_atom, count] : surfaces_)
+    std::copy_n(balls_.begin() + first_ball, count, balls.begin() + first_atom);
+  return balls;
 }
 
 void Tables::add_map() {

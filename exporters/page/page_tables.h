@@ -30,6 +30,7 @@ class Tables {
   explicit Tables(const PageFigure& figure);
 
   const glm::dvec3& origin() const { return frame_.pivot; }  ///< from where the records count, Å
+  double probe() const { return probe_; }  ///< the radius of the probe of all surfaces that have one, Å
   const PackPlacement& placement() const { return placement_; }
   std::uint32_t atom_count() const { return static_cast<std::uint32_t>(shown_.size()); }
   bool color_by_kind() const { return kind_.has_value(); }
@@ -51,9 +52,11 @@ class Tables {
   void add_records(RayCastPack more, std::uint32_t place);
   void add_atoms(const Coloring& coloring, std::span<const std::uint32_t> shown);
   void round_tables();
+  std::vector<glm::vec4> balls_of_atoms() const;
   void add_map();
 
   const PageFigure& figure_;
+  const double probe_;
   PictureFrame frame_;
   PackPlacement placement_;
   RayCastPack scene_;

@@ -151,6 +151,7 @@ def holds(check, path):
 def main():
     rng = random.Random(SEED)
     data, cut, manifest, story = samples.small_surface(False), samples.small_surface(True), small_manifest(), small_storyboard()
+    packed = samples.packed(cut)
     failures = cases = 0
     with tempfile.TemporaryDirectory() as folder:
         path, list_path, story_path = (os.path.join(folder, name) for name in ("a.mns", "a.json", "story.json"))
@@ -164,7 +165,7 @@ def main():
                 failures += 1
                 print(f"case {cases} of seed {SEED} {words}")
 
-        for sound in (data, cut):
+        for sound in (data, cut, packed):
             try_bytes(path, sound, check_file)
             mns_reader.read(path)  # the sample itself is sound
         try_bytes(path, deeply_nested(data), check_file)
@@ -179,7 +180,7 @@ def main():
         for _ in range(CASES if failures < 10 else 0):
             what = rng.random()
             if what < 0.7:
-                try_bytes(path, damaged(rng.choice((data, cut)), rng), check_file)
+                try_bytes(path, damaged(rng.choice((data, cut, packed)), rng), check_file)
             elif what < 0.85:
                 odd = with_odd_value(with_odd_value(manifest, rng), rng)
                 try_bytes(list_path, json.dumps(odd).encode(), check_manifest)

@@ -58,15 +58,78 @@ function restored(name, words) {
   return words;
 }
 
+/// Of row_differences() (exporters/page/page_rows.h). surfaces: of the description's light_maps.
+function restored_rows({ primitives, rows: sorted, balls }, surfaces, probe) {
+  const count = primitives.length / 12, groups = Array.from({ length: 25 }, () => []);
+  const first_row = (n) => n < count ? primitives[12 * n + 5] : sorted.length / 4;
+  for (let p = 0; p < count; ++p) {
+    const [planes, kind, , contacts] = primitives.subarray(12 * p + 6, 12 * p + 10), first = first_row(p), end = first_row(p + 1);
+    for (let row = first, n = 0; row < end; ++row, ++n) {
+      const part = kind === 2 && n > 1 ? (n > planes ? 4 : n > contacts ? 3 : 1) : Math.min(n, kind === 0 ? 1 : 4);
+      groups[5 * kind + part].push(row);
+    }
+  }
+  const rows = new Uint32Array(sorted.length), values = new Float32Array(rows.buffer);
+  let at = 0;
+  for (const row of groups.flat()) for (let n = 0; n < 4; ++n, ++at) rows[4 * row + n] = (sorted[at] >>> 1) ^ -(sorted[at] & 1);
+  const number = new Float32Array(1), bits = new Uint32Array(number.buffer);
+  const predict = (row, predicted, steps = 1 << 17) => predicted.forEach((value, n) => {
+    number[0] = Number.isFinite(value) ? Math.floor(value * steps + 0.5) / steps : 0;
+    rows[4 * row + n] += bits[0];
+  });
+  const place = new Float32Array(balls.buffer), ball_of = new Map();
+  for (const [ball, atom, number] of surfaces)
+    for (let n = 0; n < number; ++n) ball_of.set(atom + n, place.subarray(4 * (ball + n), 4 * (ball + n) + 4));
+  const none = new Float32Array(4), ball = (atom) => ball_of.get(atom) ?? none, row_of = (row) => values.subarray(4 * row, 4 * row + 4);
+  for (let p = 0; p < count; ++p) {
+    if (primitives[12 * p + 7] !== 0) continue;
+    const atom = primitives[12 * p + 9], first = first_row(p);
+    predict(first, ball(atom));
+    ball_of.set(atom, row_of(first));
+  }
+  for (let p = 0; p < count; ++p) {
+    const [planes, kind, , atom, second] = primitives.subarray(12 * p + 6, 12 * p + 11), first = first_row(p);
+    if (kind === 1) {
+      const a = ball(atom), b = ball(second), between = minus(b, a), distance = Math.sqrt(dot(between, between));
+      const a_out = a[3] + probe, b_out = b[3] + probe, axis = between.map((x) => x / distance);
+      const a_z = -0.5 * (distance + (a_out - b_out) * (a_out + b_out) / distance), b_z = a_z + distance;
+      predict(first, [...axis.map((x, n) => a[n] - x * a_z), Math.sqrt(Math.max((a_out - a_z) * (a_out + a_z), 0))]);
+      predict(first + 2, axis);
+      const major = values[4 * first + 3], a_contact = a_z * (probe / a_out), b_contact = b_z * (probe / b_out);
+      const a_rho = major * (a[3] / a_out), b_rho = major * (b[3] / b_out);
+      const clip = 0.5 * (a_contact + b_contact) + 0.5 * (b_rho - a_rho) * (b_rho + a_rho) / (b_contact - a_contact), along = a_contact - clip;
+      predict(first + 3, [a_contact, b_contact, clip, Math.sqrt(a_rho * a_rho + along * along)]);
+      predict(first + 4, [a_z, a_out, b_z, b_out]);
+      const z = [...row_of(first + 2).subarray(0, 3)], size = z.map(Math.abs), least = size.indexOf(Math.min(...size));
+      const x = unit(cross(z, [0, 1, 2].map((n) => n === least ? 1 : 0))), y = cross(z, x);
+      const [start, sweep] = rows.subarray(4 * first + 4, 4 * first + 6);
+      const turn = (angle) => [Math.cos(angle / (1 << 18)), Math.sin(angle / (1 << 18))], [right, up] = turn(start), [end_x, end_y] = turn(sweep);
+      row_of(first + 1).set([...plus(times(x, right), times(y, up)), end_x]);
+      values[4 * first + 11] = end_y;
+    } else if (kind === 2) {
+      predict(first, [0, 0, 0, probe]);
+      const directions = [], center = row_of(first).subarray(0, 3);
+      for (let n = 0; n < atom; ++n) {
+        directions.push(unit(minus(ball(rows[4 * (first + 1 + planes + n) + 3]), center)));
+        predict(first + 1 + planes + n, directions[n], 1 << 13);
+      }
+      directions.forEach((direction, n) => predict(first + 1 + n, unit(cross(direction, directions[(n + 1) % atom]))));
+    }
+  }
+  return rows;
+}
+
 /// A frame's description with its tables: {..., tables: {name: Uint32Array}}. near: frames that may have some of them.
 async function read_frame(figure, n, near = []) {
   const own = n === 0 ? figure.first : { ...figure.first, ...await description_of(figure.parts[figure.frames[n]]) };
-  const tables = {};
+  const tables = {}, part_of = (name) => own.tables[name][0];
+  const sources = Object.fromEntries(Object.keys(own.tables).map((name) => [name, part_of(name)]));
+  sources.rows = ["rows", "primitives", "balls"].map(part_of).join();  // rows are restored from all of these
+  const known = (name) => near.find((frame) => frame.sources[name] === sources[name])?.tables[name];
   await Promise.all(Object.entries(own.tables).map(async ([name, [part, stride]]) => {
-    const known = near.find((frame) => frame.sources[name] === part);
-    tables[name] = known ? known.tables[name] : restored(name, words_of(await inflated(figure.parts[part]), stride));
+    tables[name] = known(name) ?? restored(name, words_of(await inflated(figure.parts[part]), stride));
   }));
-  const sources = Object.fromEntries(Object.entries(own.tables).map(([name, [part]]) => [name, part]));
+  tables.rows = known("rows") ?? restored_rows(tables, own.light_maps.surfaces, own.probe);
   return { ...own, number: n, sources, own_colors: tables.colors, tables };
 }
 

@@ -57,11 +57,11 @@ class Export(unittest.TestCase):
         middle = (surface["mesh.position"][on].astype(float) + origin).mean(axis=1)
         return float(np.abs(np.linalg.norm(middle - surface["atom.center"][atom], axis=1) - surface["atom.radius"][atom]).max())
 
-    def test_tolerance_is_half_a_tenth_unless_another_is_asked_for(self):
+    def test_tolerance_is_a_tenth_unless_another_is_asked_for(self):
         usual, line = self.surface()
-        self.assertEqual(usual.header["mesh"]["tolerance"], 0.05)
-        self.assertIn("within 0.05 Å of the surface", line)
-        self.assertLessEqual(self.off(usual), 0.05)
+        self.assertEqual(usual.header["mesh"]["tolerance"], 0.1)
+        self.assertIn("within 0.1 Å of the surface", line)
+        self.assertLessEqual(self.off(usual), 0.1)
         fine, _ = self.surface("--tolerance", "0.01")
         self.assertEqual(fine.header["mesh"]["tolerance"], 0.01)
         self.assertLessEqual(self.off(fine), 0.01)
@@ -86,7 +86,8 @@ class Export(unittest.TestCase):
     def test_even_meshes(self):
         """Vertices on the surface, with its exact curvature, within the tolerance or as dense as asked."""
         dense, line = self.surface("--density", "2")
-        self.assertIn("2 vertices per Å²", line)
+        self.assertIn(" triangles with 2 vertices per Å², ", line)
+        self.assertIn(" triangles with 1 vertex per Å², ", self.surface("--density", "1")[1])
         self.assertAlmostEqual(len(dense["mesh.position"]) / dense.header["area"], 2.0, delta=0.2)
         self.assertEqual(dense.header["mesh"]["tolerance"], 0.0)
         even, _ = self.surface("--even", "--tolerance", "0.2")
@@ -104,6 +105,13 @@ class Export(unittest.TestCase):
             on_probes = np.isclose(mean, -1.0 / 1.4, atol=1e-4)
             self.assertGreater(on_atoms.mean(), 0.2)
             self.assertGreater(on_probes.mean(), 0.1)
+
+    def test_no_blend_file(self):
+        """Blender would refuse it without a reason."""
+        for name in ("a.blend", "B.blend"):
+            path, said = self.export(name=name, code=2)
+            self.assertIn("name this one .mns", said)
+            self.assertFalse(os.path.exists(path))
 
     def test_what_cannot_be_even(self):
         for options, word in ((("--show", "resi 1-5"), "--show"), (("--clip", "x<0"), "--clip")):

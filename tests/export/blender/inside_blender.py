@@ -135,7 +135,7 @@ class Import(unittest.TestCase):
     def test_numbers_of_atoms_are_those_of_molecular_nodes(self):
         """Units of the scene, on points, and chains by their sorted names."""
         with open(path_of("triple"), "rb") as file:
-            data = file.read()
+            data = samples.plain(file.read())
         header, _ = samples.header_of(data)
         header["objects"][0]["chain_names"] = ["Z", "A"]
         for row, chain in enumerate((0, 1, 1)):

@@ -195,7 +195,7 @@ class Reader(unittest.TestCase):
                                       "--cap-hatching", "0.5", "--cap-color", "#102030")
                 surface = mns_reader.read(path).objects[0]
                 with open(path, "rb") as file:
-                    self.assertEqual(struct.unpack_from("<I", file.read(), 8)[0], 3)
+                    self.assertEqual(struct.unpack_from("<I", file.read(), 8)[0], 4)
             self.assertTrue(mns_reader.is_closed(surface["mesh.triangle"]))
             cap = surface["mesh.kind"] == mns_reader.CAP
             points = surface["mesh.position"].astype(np.float64) + surface.header["mesh"]["origin"]
@@ -250,6 +250,20 @@ class Reader(unittest.TestCase):
             surface = mns_reader.read(path).objects[0]
             for name in surface.arrays:
                 self.assertEqual(samples.array_place(data, name)[0] % 64, 0, name)
+
+    def test_packed_arrays_are_the_plain_ones(self):
+        path = os.path.join(self.folder.name, "plain.mns")
+        for packed in self.files.values():
+            with open(packed, "rb") as file:
+                data = file.read()
+            with open(path, "wb") as file:
+                file.write(samples.plain(data))
+            self.assertLess(len(data), 0.7 * os.path.getsize(path), packed)
+            there, here = mns_reader.read(packed).objects[0], mns_reader.read(path).objects[0]
+            self.assertEqual(set(there.arrays), set(here.arrays))
+            for name, array in there.arrays.items():
+                self.assertEqual((array.dtype, array.tobytes()), (here[name].dtype, here[name].tobytes()), name)
+                self.assertFalse(len(array) and array.flags.writeable, name)
 
     def test_vertices_lie_on_the_analytic_patches(self):
         surface = mns_reader.read(self.files["triple"]).objects[0]

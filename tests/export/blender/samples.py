@@ -84,8 +84,37 @@ def with_header(data, header, version=2):
     return with_right_checksum(bytes(prologue) + text + data[64 + size:])
 
 
+def plain(data):
+    """The file as version 2 has it: packed arrays (FORMAT.md) are unpacked."""
+    def unpacked(entry, content, size):
+        return zlib.decompress(content[:entry.pop("bytes")]) if "bytes" in entry else content[:size]
+    return with_arrays(data, unpacked, 2)
+
+
+def packed(data):
+    """The file of version 2 with its arrays packed, as version 4 has them."""
+    def made(entry, content, size):
+        stream = zlib.compress(content[:size])
+        entry["bytes"] = len(stream)
+        return stream
+    return with_arrays(data, made, 4)
+
+
+def with_arrays(data, change, version):
+    """The file with other bytes of arrays: change(entry of the header, bytes from the first one on, size of the values) returns them."""
+    header, size = header_of(data)
+    body = b""
+    for entry in header["arrays"]:
+        values = entry["rows"] * entry["columns"] * np.dtype(entry["type"]).itemsize
+        content = change(entry, bytes(data[64 + size + entry["offset"]:]), values)
+        entry["offset"] = len(body)
+        body += content.ljust((len(content) + 63) // 64 * 64, b"\0")
+    return with_header(bytes(data[:64 + size]) + body, header, version)
+
+
 def as_version_1(data):
     """As the first release wrote it: one object, whose keys and arrays are the file's own."""
+    data = plain(data)
     header, _ = header_of(data)
     first = header.pop("objects")[0]
     for key in ("name", "prefix", "copies"):
@@ -99,6 +128,7 @@ def as_version_1(data):
 
 def seen_through(data, opacities, film):
     """The file with an opacity for each atom."""
+    data = plain(data)
     header, size = header_of(data)
     values = struct.pack(f"<{len(opacities)}f", *opacities)
     header["arrays"].append({"name": "0/atom.opacity", "type": "<f4", "rows": len(opacities), "columns": 1,
@@ -140,14 +170,28 @@ def array_place(data, name):
 
 def patched(data, name, kind, value, row=0):
     """The file with one number changed and its checksum made right."""
-    data = bytearray(data)
+    data = bytearray(plain(data))
     place, _ = array_place(data, name)
     struct.pack_into("<" + kind, data, place + row * struct.calcsize(kind), value)
     return with_right_checksum(data)
 
 
+def overwritten(data, name, content):
+    """The file with other first bytes of an array as it is stored, and with the right checksum."""
+    place, _ = array_place(data, name)
+    return with_right_checksum(data[:place] + content + data[place + len(content):])
+
+
+def with_entry(data, name, key, value):
+    """The file with another value in the entry of an array."""
+    header, _ = header_of(data)
+    next(entry for entry in header["arrays"] if entry["name"] == "0/" + name)[key] = value
+    return with_header(data, header, 4)
+
+
 def damaged_files(data):
     """name -> (bytes, a word the error must contain)."""
+    stored, data = data, plain(data)
     newer = bytearray(data)
     struct.pack_into("<I", newer, 8, 99)
     flipped = bytearray(data)
@@ -172,6 +216,11 @@ def damaged_files(data):
         "nan_position": (patched(data, "mesh.position", "f", float("nan"), 4), "finite"),
         "infinite_normal": (patched(data, "mesh.normal", "f", float("inf"), 2), "finite"),
         "not_closed": (patched(data, "mesh.triangle", "I", first[1]), "closed"),
+        "not_packed": (overwritten(stored, "mesh.position", b"\xff\xff"), "cannot be unpacked"),
+        "short_packed": (with_entry(stored, "mesh.position", "bytes", 20), "does not have"),
+        "much_packed": (with_entry(stored, "mesh.position", "rows", 2**62), "cannot be unpacked"),
+        "negative_packed": (with_entry(stored, "mesh.position", "bytes", -1), "outside"),
+        "odd_packed": (with_entry(stored, "mesh.position", "bytes", "1"), "malformed"),
         "wrong_count": (with_right_checksum(re.sub(rb'("vertices": )\d', rb"\g<1>9", data)), "disagree"),
     }
 

@@ -94,7 +94,7 @@ def check_camera(camera):
 
 
 MAGIC = b"\x89MNS\r\n\x1a\n"
-VERSION = 3
+VERSION = 4
 PROLOGUE = 64
 TYPES = ("<f4", "<f8", "<u4", "<i4", "|u1")
 #: Arrays that a mesh must have, and their columns.
@@ -315,19 +315,34 @@ def _read_array(path, data, start, entry):
         rows, columns, offset = (entry[key] for key in ("rows", "columns", "offset"))
     except (TypeError, KeyError):
         raise MnsError(f"{path}: an entry of the array list is malformed") from None
-    if not all(type(number) is int for number in (rows, columns, offset)):
-        raise MnsError(f"{path}: an entry of the array list is malformed")
     if kind not in TYPES:
         raise MnsError(f"{path}: array {name} has the unknown type {kind}")
     dtype = np.dtype(kind)
+    stored = entry.get("bytes")
+    if not all(type(number) is int for number in (rows, columns, offset, 0 if stored is None else stored)):
+        raise MnsError(f"{path}: an entry of the array list is malformed")
     size = rows * columns * dtype.itemsize
-    if rows < 0 or not 1 <= columns <= MOST_COLUMNS or offset < 0 or start + offset + size > len(data):
+    end = start + offset + (size if stored is None else stored)
+    if rows < 0 or not 1 <= columns <= MOST_COLUMNS or not start <= start + offset <= end <= len(data):
         raise MnsError(f"{path}: array {name} lies outside the file")
     if rows == 0:
         array = np.empty(0, dtype)
+    elif stored is not None:
+        array = _unpacked(path, name, data[start + offset:end], size, dtype)
     else:
         array = np.frombuffer(data, dtype, rows * columns, start + offset)
     return name, array if columns == 1 else array.reshape(rows, columns)
+
+
+def _unpacked(path, name, stored, size, dtype):
+    """Returns the values of an array that is packed, in one dimension."""
+    try:
+        unpacked = zlib.decompressobj().decompress(stored, size + 1)
+    except (zlib.error, OverflowError) as error:
+        raise MnsError(f"{path}: array {name} cannot be unpacked ({error})") from None
+    if len(unpacked) != size:
+        raise MnsError(f"{path}: array {name} does not have {size} bytes")
+    return np.frombuffer(unpacked, dtype)
 
 
 def _check(surface):
@@ -342,8 +357,8 @@ def _check(surface):
         if found != columns:
             raise MnsError(f"{path}: array {name} has {found} columns instead of {columns}")
     for name, array in arrays.items():
-        if array.dtype.kind == "f" and not np.isfinite(array).all():
-            raise MnsError(f"{path}: array {name} holds a number that is not finite")
+        if array.dtype.kind == "f" and not (np.abs(array) <= TOO_LARGE).all():
+            raise MnsError(f"{path}: array {name} holds a number that is not finite, or larger than {TOO_LARGE:g}")
     vertices, triangles, atoms = (len(arrays[n]) for n in ("mesh.position", "mesh.triangle", "atom.center"))
     if vertices == 0 or triangles == 0:
         raise MnsError(f"{path}: the mesh is empty")
