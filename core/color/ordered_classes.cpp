@@ -21,7 +21,7 @@ struct Row {
   std::uint32_t color;
 };
 
-/// Returns the place of a class among those of a result, where it is added if it is new.
+/// Returns the place of a class in a result, to which it is added if it is new.
 std::uint8_t place_of(const Row& row, ClassedAtoms& result) {
   const auto found = std::ranges::find(result.classes, row.name, &ColorClass::name);
   const auto place = static_cast<std::uint8_t>(found - result.classes.begin());
