@@ -241,7 +241,7 @@ TEST_F(Words, HelpIsSearchedByTheWordsOfUsers) {
       {"fetch", "help first-figure"},
       {"supercomputer", "meniscus farm"},
       {"cuda", "--device"},
-      {"licence", "help blender"},
+      {"license", "help platforms"},
   };
   for (const auto& [word, found] : cases) {
     const ProgramResult result = says({"help", word});
