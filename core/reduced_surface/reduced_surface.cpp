@@ -2,14 +2,8 @@
 // Builds the reduced surface from exposed arcs and decides which spheres without an arc are exposed.
 #include "core/reduced_surface/reduced_surface.h"
 
-#include <algorithm>
-#include <array>
 #include <atomic>
-#include <cmath>
-#include <limits>
 
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>

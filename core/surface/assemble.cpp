@@ -3,13 +3,6 @@
 // it.
 #include "core/surface/compute_surface.h"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <stdexcept>
-#include <string>
-#include <utility>
-
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 

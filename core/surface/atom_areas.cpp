@@ -2,14 +2,9 @@
 // Cuts saddles by a latitude and re-entrant faces by bisector planes; integrates along the borders of the shares.
 #include "core/surface/measure.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <numeric>
-#include <utility>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>

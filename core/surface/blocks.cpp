@@ -2,10 +2,8 @@
 // Computes the blocks of a surface one by one and keeps of each what the whole needs.
 #include "core/surface/blocks.h"
 
-#include <algorithm>
 #include <bit>
 #include <unordered_map>
-#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

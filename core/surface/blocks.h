@@ -9,16 +9,6 @@
 // of another block, bit by bit, or the surface is not closed there. Seams join pieces to components.
 #pragma once
 
-#include <array>
-#include <compare>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/surface/components.h"
 #include "core/surface/compute_surface.h"
 #include "core/surface/primitives.h"

@@ -2,15 +2,8 @@
 // Builds the boundary representation: joins half-borders to loops, loops to faces and faces to components.
 #include "core/surface/boundary.h"
 
-#include <algorithm>
-#include <array>
-#include <memory>
-#include <span>
-#include <vector>
-
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include "core/math/union_find.h"
 #include "core/surface/components.h"

@@ -2,11 +2,6 @@
 // The boundary representation: vertices, borders, loops, faces and components from placed patches.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <utility>
-#include <vector>
-
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/cusps.h"
 #include "core/surface/fixed_probes.h"

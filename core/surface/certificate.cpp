@@ -2,13 +2,6 @@
 // Makes the checks in the order of the header; each names the atoms at which it fails.
 #include "core/surface/certificate.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>

@@ -2,18 +2,8 @@
 // Joins faces to components, computes their Euler characteristics, and distinguishes outer components from cavities.
 #include "core/surface/components.h"
 
-#include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <memory>
-#include <span>
-
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include "core/math/union_find.h"
 #include "core/surface/convex_planes.h"

@@ -2,9 +2,6 @@
 // The connected components of a surface, their Euler characteristics, and the side of each on which the solid lies.
 #pragma once
 
-#include <limits>
-#include <vector>
-
 #include "core/surface/primitives.h"
 
 namespace meniscus {

@@ -2,12 +2,6 @@
 // Computes the solvent-excluded surface with its certificate, on the CPU or the GPU.
 #pragma once
 
-#include <cstddef>
-#include <memory>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "core/gpu/device_choice.h"
 #include "core/gpu/program.h"
 #include "core/reduced_surface/reduced_surface.h"

@@ -2,14 +2,6 @@
 // Provides the clip planes of convex patches, whether a surface lists them or not.
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-
 #include "core/math/ball.h"
 #include "core/surface/primitives.h"
 

@@ -2,11 +2,8 @@
 // Computes cut lists and cusp arcs on the CPU. The order of probes decides on one spindle circle, a pencil.
 #include "core/surface/cusp_tracer.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>

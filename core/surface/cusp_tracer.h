@@ -2,15 +2,6 @@
 // The two parallel steps in the search for singularities: which probe cuts which, and which arcs remain.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
 #include "core/gpu/kernel_records.h"
 #include "core/surface/primitives.h"
 

@@ -2,15 +2,10 @@
 // Finds cusp curves with a tracer, keeps the arcs that lie on patches, and joins them at their ends.
 #include "core/surface/cusps.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
 #include <tuple>
 
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "core/math/double_geometry.h"
 #include "core/reduced_surface/reduced_surface.h"

@@ -6,11 +6,6 @@
 // through the same two points of its axis; there the order around the axis decides, not arithmetic.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "core/surface/cusp_tracer.h"
 #include "core/surface/fixed_probes.h"
 #include "core/surface/primitives.h"

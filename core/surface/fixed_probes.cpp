@@ -3,18 +3,11 @@
 // contacts.
 #include "core/surface/fixed_probes.h"
 
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <cmath>
 #include <iterator>
 #include <map>
 #include <numbers>
-#include <utility>
 
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "core/math/double_geometry.h"
 #include "core/math/quad_geometry.h"

@@ -2,10 +2,6 @@
 // Fixed probes and toroidal patches, placed in double precision from the atoms that define them.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "core/surface/primitives.h"
 #include "core/reduced_surface/reduced_surface.h"
 

@@ -2,13 +2,6 @@
 // Runs the kernels for the reduced surface and for cusps, and reads their lists back.
 #include "core/surface/compute_surface.h"
 
-#include <algorithm>
-#include <array>
-#include <utility>
-#include <vector>
-
-#include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
 #include <tbb/parallel_sort.h>
 
 #include "core/base/error.h"

@@ -2,12 +2,8 @@
 // Integrates the speed of the surface over its patches, and along arcs and cusps.
 #include "core/surface/measure.h"
 
-#include <array>
-#include <cmath>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 

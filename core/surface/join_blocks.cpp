@@ -2,11 +2,7 @@
 // Joins the blocks of a surface: their patches and their sums.
 #include "core/surface/blocks.h"
 
-#include <algorithm>
-#include <memory>
-#include <numeric>
 #include <tuple>
-#include <utility>
 
 #include "core/base/error.h"
 #include "core/math/union_find.h"

@@ -2,15 +2,8 @@
 // Integrates 1 and x·n over convex, toroidal and concave faces (x measured from the middle of the molecule).
 #include "core/surface/measure.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <numeric>
-#include <span>
-#include <vector>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 

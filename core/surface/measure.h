@@ -2,13 +2,6 @@
 // Areas and volumes in closed form: of the surface, of each atom, and their derivatives by the positions of atoms.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/surface/primitives.h"
 
 namespace meniscus {

@@ -2,14 +2,6 @@
 // Numbers vertices and borders patch by patch, then places them all at once.
 #include "core/surface/boundary.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <utility>
-
-#include <glm/geometric.hpp>
-#include <tbb/parallel_for.h>
-
 #include "core/surface/parallel_tables.h"
 
 namespace meniscus {

@@ -13,14 +13,8 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <functional>
 #include <memory>
-#include <span>
-#include <vector>
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
 
 #include "core/base/constants.h"
 #include "core/math/ball.h"

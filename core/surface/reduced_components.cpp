@@ -3,10 +3,6 @@
 // cusps.
 #include "core/surface/reduced_components.h"
 
-#include <algorithm>
-#include <numeric>
-#include <utility>
-
 #include "core/math/union_find.h"
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/compute_surface.h"

@@ -9,10 +9,6 @@
 // only by its own probes.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "core/surface/primitives.h"
 
 namespace meniscus {

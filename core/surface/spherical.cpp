@@ -2,14 +2,6 @@
 // Closed forms on the sphere: Gauss-Bonnet areas, boundary moments, and a crossing test for points and loops.
 #include "core/surface/spherical.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include "core/surface/walks.h"
 
 namespace meniscus {

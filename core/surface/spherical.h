@@ -2,17 +2,8 @@
 // Regions on a sphere bounded by circular arcs, and the arcs that half-spaces leave of circles.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <numbers>
-#include <span>
 #include <utility>
-#include <vector>
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
 
 #include "core/surface/primitives.h"
 

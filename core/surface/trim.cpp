@@ -5,22 +5,11 @@
 // plane half-way between them.
 #include "core/surface/trim.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <compare>
 #include <iterator>
-#include <limits>
-#include <mutex>
 #include <numbers>
-#include <optional>
-#include <span>
-#include <utility>
 
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

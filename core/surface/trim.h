@@ -2,12 +2,8 @@
 // The clip planes that leave exactly a patch of its sphere, and planes that separate the faces of a patch.
 #pragma once
 
-#include <cstdint>
-#include <memory>
 #include <mutex>
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/convex_planes.h"

@@ -2,13 +2,6 @@
 // Common walks over the tables of a surface: points on its arcs, pieces of a patch, borders of a face.
 #pragma once
 
-#include <cmath>
-#include <cstdint>
-#include <span>
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-
 #include "core/surface/primitives.h"
 
 namespace meniscus {

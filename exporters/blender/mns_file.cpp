@@ -5,13 +5,7 @@
 
 #include <bit>
 #include <cassert>
-#include <cmath>
 #include <cstring>
-#include <map>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <libdeflate.h>
 #include <nlohmann/json.hpp>

@@ -2,14 +2,6 @@
 // The container of .mns files, which has a header and named arrays, and the arrays that describe atoms.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/base/output_file.h"

@@ -3,9 +3,7 @@
 #include "exporters/blender/sequence_manifest.h"
 
 #include <cassert>
-#include <limits>
 
-#include <fmt/format.h>
 #include <libdeflate.h>
 #include <nlohmann/json.hpp>
 

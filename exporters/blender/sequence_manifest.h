@@ -3,15 +3,6 @@
 // storyboard.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/base/output_file.h"
 #include "exporters/blender/mns_file.h"
 #include "exporters/blender/surface_file.h"

@@ -2,13 +2,9 @@
 // Measures surfaces at vertices, patches and atoms, and turns their tables and meshes into the arrays of a .mns file.
 #include "exporters/blender/surface_file.h"
 
-#include <algorithm>
-#include <array>
 #include <cassert>
-#include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"

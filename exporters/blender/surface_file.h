@@ -2,13 +2,6 @@
 // Surfaces with their meshes, atoms, measured numbers and a camera as one .mns file, which the Blender add-on reads.
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "core/base/output_file.h"
 #include "core/camera/camera.h"
 #include "core/color/color_key.h"

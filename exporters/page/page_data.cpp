@@ -2,9 +2,6 @@
 // Sorts the bytes of tables, deflates them, and spells them as text.
 #include "exporters/page/page_data.h"
 
-#include <array>
-#include <utility>
-
 #include <nlohmann/json.hpp>
 
 #include "core/image/png_file.h"

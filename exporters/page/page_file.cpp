@@ -2,17 +2,8 @@
 // Puts descriptions, records, shaders and the page's own files into one text.
 #include "exporters/page/page_file.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstring>
-#include <functional>
 #include <numbers>
-#include <utility>
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -2,13 +2,9 @@
 // Predicts the rows of patches from atoms and from rows before them.
 #include "exporters/page/page_rows.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <initializer_list>
 #include <numbers>
 #include <tuple>
-#include <utility>
 
 #include "core/render/ray_geometry.h"
 

@@ -2,12 +2,6 @@
 // The rows of patches as their differences from what follows from the atoms, which deflate to half the size.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
-#include <glm/vec4.hpp>
-
 #include "core/render/ray_cast_pack.h"
 
 namespace meniscus::page {

@@ -2,11 +2,6 @@
 // Finds the arcs of a circle that balls cover, for all balls at once where they leave at most one arc.
 #include "core/reduced_surface/contour/blockers.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
 #include "core/math/vector_loops.h"
 
 namespace meniscus {

@@ -2,13 +2,9 @@
 // Balls that may cover parts of the circles around one ball, and the arcs of a circle that they cover.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/math/double_geometry.h"
 

@@ -2,12 +2,6 @@
 // Finds the exposed arcs of circles by contour build-up, leaving out balls that others cover.
 #include "core/reduced_surface/contour/contour.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-
-#include <glm/geometric.hpp>
-
 #include "core/math/quad_geometry.h"
 
 namespace meniscus {

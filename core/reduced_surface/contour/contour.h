@@ -7,13 +7,6 @@
 // quadruple precision, where the decision weights (see reduced_surface.h) leave no ties.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/math/double_geometry.h"
 #include "core/reduced_surface/contour/blockers.h"
 #include "core/reduced_surface/reduced_surface.h"

@@ -3,14 +3,9 @@
 // whole numbers.
 #include "core/reduced_surface/contour/sphere_cover.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "core/math/vector_loops.h"
 

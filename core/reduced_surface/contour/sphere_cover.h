@@ -8,12 +8,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/reduced_surface/contour/blockers.h"
 

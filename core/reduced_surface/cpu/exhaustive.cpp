@@ -2,8 +2,6 @@
 // Enumerates all RS edges, atom by atom in parallel (contour build-up: Totrov & Abagyan 1996).
 #include "core/reduced_surface/cpu/exhaustive.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 

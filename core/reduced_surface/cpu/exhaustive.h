@@ -3,8 +3,6 @@
 // atoms.
 #pragma once
 
-#include <span>
-
 #include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {

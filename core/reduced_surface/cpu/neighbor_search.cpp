@@ -2,9 +2,6 @@
 // Computes squared distances from balls to all around them, in loops that compilers vectorize.
 #include "core/reduced_surface/cpu/neighbor_search.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 
 #include <tbb/blocked_range.h>

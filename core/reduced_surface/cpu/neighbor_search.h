@@ -2,11 +2,6 @@
 // Finds the balls that overlap a ball: tests the balls in the grid's cells around it, many at once.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "core/math/ball.h"
 #include "core/reduced_surface/contour/blockers.h"
 

@@ -2,15 +2,6 @@
 // Runs the kernels that find exposed arcs, batch by batch of atoms, and decides doubtful circles on the host.
 #include "core/reduced_surface/gpu/gpu_arcs.h"
 
-#include <algorithm>
-#include <array>
-#include <optional>
-#include <utility>
-
-#include <glm/vec4.hpp>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "core/gpu/program.h"
 #include "core/gpu/kernel_records.h"
 #include "core/reduced_surface/contour/contour.h"

@@ -2,14 +2,6 @@
 // RS edges on the GPU: the exposed arcs of all circles, single precision first, doubt in double, the rest on the host.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
-
 #include "core/gpu/kernel_lists.h"
 #include "core/gpu/buffer.h"
 #include "core/gpu/program.h"

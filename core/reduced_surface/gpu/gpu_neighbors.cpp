@@ -2,11 +2,6 @@
 // Runs the grid and neighbour kernels and sizes their lists.
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
-#include <glm/common.hpp>
 #include <tbb/parallel_reduce.h>
 
 #include "core/base/error.h"

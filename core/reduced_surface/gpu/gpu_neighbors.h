@@ -2,13 +2,6 @@
 // Neighbour lists of balls on the GPU, batch by batch: of atoms for RS edges, of fixed probes for cusps.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 

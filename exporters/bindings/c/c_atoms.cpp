@@ -2,10 +2,6 @@
 // Checks the atoms that callers pass, and looks up van der Waals radii by element.
 #include "exporters/bindings/c/c_atoms.h"
 
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-
 #include "core/base/text_file.h"
 #include "core/structure/element_tables.h"
 #include "exporters/bindings/c/c_calls.h"

@@ -2,11 +2,6 @@
 // Positions, radii and colours of atoms that callers pass.
 #pragma once
 
-#include <cstddef>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
 #include "core/color/coloring.h"
 #include "core/surface/primitives.h"
 #include "exporters/bindings/c/include/meniscus/meniscus.h"

@@ -2,11 +2,8 @@
 // Maps exceptions to statuses, stores the last message of each thread, and checks arrays of callers.
 #include "exporters/bindings/c/c_calls.h"
 
-#include <algorithm>
 #include <array>
-#include <cstring>
 #include <new>
-#include <string_view>
 #include <system_error>
 
 #include "core/base/error.h"

@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Computes surfaces from arrays, on the calling thread or, if GL may be needed, on a GL thread.
-#include <cmath>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "core/mesh/compare_mesh.h"
 #include "core/mesh/tessellate.h"

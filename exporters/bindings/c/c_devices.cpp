@@ -2,12 +2,9 @@
 // Runs work on the thread of a GL context.
 #include "exporters/bindings/c/c_devices.h"
 
-#include <atomic>
 #include <condition_variable>
-#include <exception>
 #include <mutex>
 #include <thread>
-#include <utility>
 
 #include <unistd.h>
 

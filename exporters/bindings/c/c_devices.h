@@ -2,7 +2,6 @@
 // Where calls compute: the device, the number of CPU threads, and a thread with a GL context of its own.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 

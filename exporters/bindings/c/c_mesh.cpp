@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Makes triangle meshes of a surface, returns their tables, and writes them to files.
-#include <memory>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "core/base/text.h"
 #include "core/mesh/mesh_colors.h"

@@ -2,8 +2,6 @@
 // Makes web pages of scenes and surfaces.
 #include "exporters/bindings/c/c_renderer.h"
 
-#include <string>
-
 #include "exporters/bindings/c/c_scene.h"
 #include "exporters/bindings/c/c_structure.h"
 #include "exporters/bindings/c/c_surface.h"

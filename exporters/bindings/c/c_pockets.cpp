@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the pockets of a surface, and returns them as tables.
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "core/pockets/pockets.h"
 #include "core/surface/compute_surface.h"

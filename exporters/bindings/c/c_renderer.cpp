@@ -2,8 +2,6 @@
 // Draws pictures of computed surfaces, on the CPU or on a GL thread, and returns the text of pages.
 #include "exporters/bindings/c/c_renderer.h"
 
-#include <string_view>
-
 #include "core/camera/camera.h"
 #include "core/properties/properties.h"
 #include "core/render/cpu/unevenness.h"

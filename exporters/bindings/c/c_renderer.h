@@ -2,12 +2,6 @@
 // The objects behind the handles of a renderer and of a page, and the conversion of pictures to bytes.
 #pragma once
 
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <utility>
-
 #include "core/base/error.h"
 #include "core/camera/camera.h"
 #include "core/color/coloring.h"

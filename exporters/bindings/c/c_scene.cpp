@@ -2,13 +2,6 @@
 // Sets and returns the values of scenes by the names and keys of properties.
 #include "exporters/bindings/c/c_scene.h"
 
-#include <algorithm>
-#include <deque>
-#include <memory>
-#include <optional>
-#include <string_view>
-#include <vector>
-
 #include "core/base/text.h"
 #include "core/properties/properties.h"
 #include "exporters/bindings/c/c_calls.h"

@@ -2,10 +2,7 @@
 // The object behind the handle of a scene.
 #pragma once
 
-#include <mutex>
 #include <set>
-#include <string>
-#include <utility>
 
 #include "core/scene/scene.h"
 #include "core/scene/scene_values.h"

@@ -3,15 +3,6 @@
 // schemes.
 #include "core/scene/scene_picture.h"
 
-#include <algorithm>
-#include <array>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/color/color_schemes.h"

@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Molecules from files: their atoms as tables without a copy.
-#include <algorithm>
-#include <cstring>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "core/structure/element_tables.h"
 #include "core/structure/structure.h"

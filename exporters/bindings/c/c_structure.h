@@ -4,9 +4,6 @@
 #pragma once
 
 #include <string_view>
-#include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "core/structure/structure.h"
 #include "exporters/bindings/c/include/meniscus/meniscus.h"

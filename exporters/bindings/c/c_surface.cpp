@@ -2,10 +2,6 @@
 // Reads a surface: its numbers, tables, distances and gradients.
 #include "exporters/bindings/c/c_surface.h"
 
-#include <cmath>
-#include <cstddef>
-#include <span>
-
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 

@@ -2,11 +2,6 @@
 // The object behind the handle of a surface.
 #pragma once
 
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <string>
-
 #include "core/queries/distance.h"
 #include "core/scene/surface_computer.h"
 #include "core/surface/measure.h"

@@ -2,9 +2,6 @@
 // Reads molecules from files with the options of a caller.
 #include "exporters/bindings/c/c_structure.h"
 
-#include <string>
-#include <string_view>
-
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/structure/formats/read_structure.h"

@@ -59,61 +59,62 @@ function restored(name, words) {
 }
 
 /// Of row_differences() (exporters/page/page_rows.h). surfaces: of the description's light_maps.
-function restored_rows({ primitives, rows: sorted, balls }, surfaces, probe) {
+function restored_rows({ primitives, rows: sorted, balls, shown }, surfaces, probe) {
   const count = primitives.length / 12, groups = Array.from({ length: 25 }, () => []);
   const first_row = (n) => n < count ? primitives[12 * n + 5] : sorted.length / 4;
   for (let p = 0; p < count; ++p) {
-    const [planes, kind, , contacts] = primitives.subarray(12 * p + 6, 12 * p + 10), first = first_row(p), end = first_row(p + 1);
-    for (let row = first, n = 0; row < end; ++row, ++n) {
+    const planes = primitives[12 * p + 6], kind = primitives[12 * p + 7], contacts = primitives[12 * p + 9], end = first_row(p + 1);
+    for (let row = first_row(p), n = 0; row < end; ++row, ++n) {
       const part = kind === 2 && n > 1 ? (n > planes ? 4 : n > contacts ? 3 : 1) : Math.min(n, kind === 0 ? 1 : 4);
       groups[5 * kind + part].push(row);
     }
   }
   const rows = new Uint32Array(sorted.length), values = new Float32Array(rows.buffer);
-  let at = 0;
-  for (const row of groups.flat()) for (let n = 0; n < 4; ++n, ++at) rows[4 * row + n] = (sorted[at] >>> 1) ^ -(sorted[at] & 1);
+  let from = 0;
+  for (const group of groups)
+    for (const row of group) for (let n = 4 * row; n < 4 * row + 4; ++n, ++from) rows[n] = (sorted[from] >>> 1) ^ -(sorted[from] & 1);
   const number = new Float32Array(1), bits = new Uint32Array(number.buffer);
-  const predict = (row, predicted, steps = 1 << 17) => predicted.forEach((value, n) => {
-    number[0] = Number.isFinite(value) ? Math.floor(value * steps + 0.5) / steps : 0;
-    rows[4 * row + n] += bits[0];
-  });
-  const place = new Float32Array(balls.buffer), ball_of = new Map();
-  for (const [ball, atom, number] of surfaces)
-    for (let n = 0; n < number; ++n) ball_of.set(atom + n, place.subarray(4 * (ball + n), 4 * (ball + n) + 4));
-  const none = new Float32Array(4), ball = (atom) => ball_of.get(atom) ?? none, row_of = (row) => values.subarray(4 * row, 4 * row + 4);
+  const add = (at, value, steps) => {
+    number[0] = Math.abs(value) < Infinity ? Math.floor(value * steps + 0.5) / steps : 0;
+    rows[at] += bits[0];
+  };
+  const predict = (row, x, y, z, w, steps = 1 << 17) => [x, y, z, w].forEach((value, n) => add(4 * row + n, value, steps));
+  const place = new Float32Array(balls.buffer), atoms = new Float32Array(4 * shown.length), vector = (table, n) => [table[4 * n], table[4 * n + 1], table[4 * n + 2]];
+  for (const [ball, atom, size] of surfaces) atoms.set(place.subarray(4 * ball, 4 * (ball + size)), 4 * atom);
   for (let p = 0; p < count; ++p) {
     if (primitives[12 * p + 7] !== 0) continue;
-    const atom = primitives[12 * p + 9], first = first_row(p);
-    predict(first, ball(atom));
-    ball_of.set(atom, row_of(first));
+    const atom = 4 * primitives[12 * p + 9], first = first_row(p);
+    predict(first, atoms[atom], atoms[atom + 1], atoms[atom + 2], atoms[atom + 3]);
+    for (let n = 0; n < 4; ++n) atoms[atom + n] = values[4 * first + n];
   }
+  const turn = (angle) => [Math.cos(angle / (1 << 18)), Math.sin(angle / (1 << 18))];
   for (let p = 0; p < count; ++p) {
-    const [planes, kind, , atom, second] = primitives.subarray(12 * p + 6, 12 * p + 11), first = first_row(p);
+    const kind = primitives[12 * p + 7], a = primitives[12 * p + 9], b = primitives[12 * p + 10], first = first_row(p);
     if (kind === 1) {
-      const a = ball(atom), b = ball(second), between = minus(b, a), distance = Math.sqrt(dot(between, between));
-      const a_out = a[3] + probe, b_out = b[3] + probe, axis = between.map((x) => x / distance);
+      const center = vector(atoms, a), between = minus(vector(atoms, b), center), distance = Math.sqrt(dot(between, between));
+      const axis = [between[0] / distance, between[1] / distance, between[2] / distance];
+      const a_radius = atoms[4 * a + 3], b_radius = atoms[4 * b + 3], a_out = a_radius + probe, b_out = b_radius + probe;
       const a_z = -0.5 * (distance + (a_out - b_out) * (a_out + b_out) / distance), b_z = a_z + distance;
-      predict(first, [...axis.map((x, n) => a[n] - x * a_z), Math.sqrt(Math.max((a_out - a_z) * (a_out + a_z), 0))]);
-      predict(first + 2, axis);
+      predict(first, ...minus(center, times(axis, a_z)), Math.sqrt(Math.max((a_out - a_z) * (a_out + a_z), 0)));
+      predict(first + 2, ...axis, 0);
       const major = values[4 * first + 3], a_contact = a_z * (probe / a_out), b_contact = b_z * (probe / b_out);
-      const a_rho = major * (a[3] / a_out), b_rho = major * (b[3] / b_out);
+      const a_rho = major * (a_radius / a_out), b_rho = major * (b_radius / b_out);
       const clip = 0.5 * (a_contact + b_contact) + 0.5 * (b_rho - a_rho) * (b_rho + a_rho) / (b_contact - a_contact), along = a_contact - clip;
-      predict(first + 3, [a_contact, b_contact, clip, Math.sqrt(a_rho * a_rho + along * along)]);
-      predict(first + 4, [a_z, a_out, b_z, b_out]);
-      const z = [...row_of(first + 2).subarray(0, 3)], size = z.map(Math.abs), least = size.indexOf(Math.min(...size));
-      const x = unit(cross(z, [0, 1, 2].map((n) => n === least ? 1 : 0))), y = cross(z, x);
-      const [start, sweep] = rows.subarray(4 * first + 4, 4 * first + 6);
-      const turn = (angle) => [Math.cos(angle / (1 << 18)), Math.sin(angle / (1 << 18))], [right, up] = turn(start), [end_x, end_y] = turn(sweep);
-      row_of(first + 1).set([...plus(times(x, right), times(y, up)), end_x]);
+      predict(first + 3, a_contact, b_contact, clip, Math.sqrt(a_rho * a_rho + along * along));
+      predict(first + 4, a_z, a_out, b_z, b_out);
+      const z = vector(values, first + 2), [x_size, y_size, z_size] = z.map(Math.abs);
+      const far = x_size <= y_size && x_size <= z_size ? [1, 0, 0] : y_size <= z_size ? [0, 1, 0] : [0, 0, 1];
+      const x = unit(cross(z, far)), y = cross(z, x), [right, up] = turn(rows[4 * first + 4]), [end_x, end_y] = turn(rows[4 * first + 5]);
+      values.set([...plus(times(x, right), times(y, up)), end_x], 4 * first + 4);
       values[4 * first + 11] = end_y;
     } else if (kind === 2) {
-      predict(first, [0, 0, 0, probe]);
-      const directions = [], center = row_of(first).subarray(0, 3);
-      for (let n = 0; n < atom; ++n) {
-        directions.push(unit(minus(ball(rows[4 * (first + 1 + planes + n) + 3]), center)));
-        predict(first + 1 + planes + n, directions[n], 1 << 13);
+      predict(first, 0, 0, 0, probe);
+      const directions = [], center = vector(values, first), contact = first + 1 + primitives[12 * p + 6];
+      for (let n = 0; n < a; ++n) {
+        directions.push(unit(minus(vector(atoms, rows[4 * (contact + n) + 3]), center)));
+        predict(contact + n, ...directions[n], 0, 1 << 13);
       }
-      directions.forEach((direction, n) => predict(first + 1 + n, unit(cross(direction, directions[(n + 1) % atom]))));
+      for (let n = 0; n < a; ++n) predict(first + 1 + n, ...unit(cross(directions[n], directions[(n + 1) % a])), 0);
     }
   }
   return rows;
