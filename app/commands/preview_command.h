@@ -2,8 +2,6 @@
 // The options of `meniscus preview`, and the scene files that it starts with, saves and opens.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "app/options/scene_options.h"
 #include "app/preview/preview_state.h"
 #include "app/preview/session.h"

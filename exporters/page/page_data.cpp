@@ -4,7 +4,6 @@
 
 #include <array>
 #include <memory>
-#include <utility>
 
 #include <libdeflate.h>
 #include <nlohmann/json.hpp>

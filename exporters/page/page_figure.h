@@ -2,18 +2,6 @@
 // What a page shows, or what it shows at one frame of a run.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
 #include "core/camera/camera.h"
 #include "core/color/color_key.h"
 #include "core/queries/surface_object.h"

@@ -2,11 +2,7 @@
 // A page of one file that casts the exact patches of a figure in its reader's browser, and fetches nothing.
 #pragma once
 
-#include <cstddef>
-#include <memory>
 #include <set>
-#include <string>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 

@@ -2,17 +2,8 @@
 // Packs a figure's records for no camera, around one point, and rounds them.
 #include "exporters/page/page_tables.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
-#include <optional>
-#include <string_view>
-#include <utility>
 
-#include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 

@@ -2,18 +2,6 @@
 // The records of a page's figure: primitives and their numbers, colours, marks, and the balls of atoms.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <span>
-#include <vector>
-
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-#include <nlohmann/json_fwd.hpp>
-
 #include "core/render/ray_cast_pack.h"
 #include "exporters/page/page_data.h"
 #include "exporters/page/page_figure.h"

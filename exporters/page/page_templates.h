@@ -3,8 +3,6 @@
 // that is one file.
 #pragma once
 
-#include <span>
-
 #include "core/base/text.h"
 
 namespace meniscus {

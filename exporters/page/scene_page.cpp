@@ -2,16 +2,6 @@
 // Says in words and colours what a page shows beside the patches, and draws its still picture.
 #include "exporters/page/scene_page.h"
 
-#include <algorithm>
-#include <numeric>
-#include <optional>
-#include <span>
-#include <stdexcept>
-#include <string_view>
-#include <utility>
-
-#include <fmt/format.h>
-
 #include "core/base/error.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"

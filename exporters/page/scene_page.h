@@ -2,11 +2,6 @@
 // From a scene and its figure to the page that shows them.
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "core/camera/camera.h"
 #include "core/color/coloring.h"
 #include "core/render/look.h"
