@@ -7,24 +7,13 @@
 
 #ifdef MENISCUS_PREVIEW
 
-#include <algorithm>
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <functional>
 #include <iostream>
 #include <iterator>
-#include <memory>
-#include <optional>
-#include <string>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include <unistd.h>
-
-#include <fmt/format.h>
 
 #include "app/commands/preview_command.h"
 #include "app/preview/command_json.h"
@@ -33,13 +22,17 @@
 #include "app/process/child_process.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
+#include "core/base/output_file.h"
 #include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/queries/copies.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
 #include "core/scene/renderers.h"
 #include "core/scene/run_framing.h"
 #include "core/scene/view_aim.h"
+#include "core/structure/formats/structure_formats.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 
 namespace meniscus {
 namespace {
@@ -145,17 +138,45 @@ std::unique_ptr<PreviewRenderer> make_renderer(const PreviewCommand& command, co
   return make_cpu_copies_renderer(copies);
 }
 
+/// The files of a molecule that a page has handed over.
+struct HandedOver {
+  std::vector<std::string> read;  ///< the molecule's, and its trajectory's if there is one
+  std::vector<std::string> kept;  ///< where scenes name them; the same for files that stay
+  ReceivedFiles files{};          ///< they live as long as their session
+
+  /// Writes what does not stay. Returns the paths of these.
+  std::vector<std::filesystem::path> keep() const {
+    std::vector<std::filesystem::path> written;
+    for (std::size_t n = 0; n < read.size(); ++n) {
+      const std::filesystem::path path = kept[n];
+      if (kept[n] == read[n] || std::filesystem::exists(path)) continue;
+      const SharedFile copy{path.filename().string(), read_file_bytes(read[n])};
+      write_shared_files(path.parent_path(), Existing::refuse, {&copy, 1});
+      written.push_back(path);
+    }
+    return written;
+  }
+};
+
 /// Begins a session with these options.
-std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, bool on_gl, Shown shown) {
-  const PreviewCommand& command = declared.state;
+std::unique_ptr<PreviewSession> begin_session(DeclaredPreview& declared, bool on_gl, Shown shown,
+                                              const std::shared_ptr<const HandedOver>& handed = nullptr) {
+  PreviewCommand& command = declared.state;
+  SessionContext context;
+  context.read_shown = ShownReader(command);
+  if (handed) {
+    for (Scene* scene : {&command.scene, &shown.scene}) {
+      scene->molecule.file = handed->kept[0];
+      if (handed->kept.size() > 1) scene->frames.trajectories = {handed->kept[1]};
+    }
+    context.keep_files = [handed] { return handed->keep(); };
+  }
   PreviewState view;
   static_cast<PreviewFigure&>(view) = PreviewFigure(shown.scene);
   view.has_size = command.has_size;
   view.copies_apart = command.scene.molecule.division.instances == InstanceMode::exact;
   view.size = command.scene.picture.size();
-  SessionContext context;
   context.writes_scenes = true;
-  context.read_shown = ShownReader(command);
   context.make_device = [request = command.scene.molecule.surface] { return std::make_unique<PictureDevice>(request); };
   context.make_film = make_film;
   context.aim = [](const Scene& scene, const Structure& structure) { return aimed_camera(scene, {}, structure); };
@@ -168,6 +189,78 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
     auto log = std::make_shared<CommandLog>(command.record, command.existing());
     session->record([log](const nlohmann::json& line) { log->write(line); });
   }
+  return session;
+}
+
+/// Returns the path in a folder under which a file is kept: its own name, unless another file has that.
+std::string kept_path(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  const std::string name = file.filename().string();
+  std::filesystem::path path = folder / name;
+  const auto is_other = [&] {
+    return std::filesystem::exists(path) && (!std::filesystem::is_regular_file(path) ||
+                                             std::filesystem::file_size(path) != std::filesystem::file_size(file) ||
+                                             read_file_bytes(path.string()) != read_file_bytes(file.string()));
+  };
+  for (int number = 2; is_other(); ++number) path = folder / fmt::format("{}-{}", number, name);
+  return path.string();
+}
+
+/// True if a file with this name is a trajectory. Throws RequestError if it is no molecule either.
+bool is_trajectory(const std::string& name) {
+  const std::string plain = name.ends_with(".gz") ? name.substr(0, name.size() - 3) : name;
+  const auto formats = trajectory_formats();
+  for (const TrajectoryFormat* format : formats.first(formats.size() - 1))
+    if (format->metadata.names(plain)) return true;
+  if (std::ranges::none_of(readers(), [&](const Reader* reader) { return reader->metadata.names(plain); }))
+    throw RequestError(
+        fmt::format("{}: its name says no molecule and no trajectory; {} are read", name, format_names()));
+  return false;
+}
+
+/// Begins a session of another molecule, which opens as the program would open it by itself, on the same device.
+/// handed: the files of the molecule that is shown, if pages have handed them over; it becomes the new molecule's.
+std::unique_ptr<PreviewSession> open_files(const PreviewCommand& begun, const ReceivedFiles& files, bool on_gl,
+                                           std::shared_ptr<const HandedOver>& handed,
+                                           const std::function<void(const std::string&)>& show_status) {
+  if (!begun.record.empty())
+    throw RequestError("what is done here is recorded for one molecule; open the other one in a preview of its own");
+  const std::filesystem::path folder = std::filesystem::absolute(begun.output_folder).lexically_normal();
+  HandedOver next{{""}, {""}, files};
+  for (const auto& file : files) {
+    const bool is_run = is_trajectory(file->path().filename().string());
+    next.read.resize(is_run ? 2 : next.read.size());
+    next.kept.resize(next.read.size());
+    next.read[is_run] = file->path().string();
+    next.kept[is_run] = kept_path(file->path(), folder);
+  }
+  if (files.size() == 2 && (next.read.size() != 2 || next.read[0].empty()))
+    throw RequestError("two files are a molecule and its trajectory; open other molecules one after another");
+  if (next.read[0].empty()) {  // a trajectory of the molecule there is
+    next.read[0] = handed ? handed->read[0] : begun.scene.molecule.file;
+    next.kept[0] = handed ? handed->kept[0] : begun.scene.molecule.file;
+    if (handed) next.files.insert(next.files.end(), handed->files.begin(), handed->files.end());
+  }
+  CLI::App app("", "preview");
+  DeclaredPreview declared(app, preview_properties());
+  add_preview_options(app, declared);
+  std::vector<std::string> words{next.read[0]};
+  if (next.read.size() > 1) words.insert(words.begin(), {"--trajectory", next.read[1]});
+  std::ranges::reverse(words);
+  app.parse(words);
+  take_preview(declared);
+  PreviewCommand& command = declared.state;
+  command.reporting = begun.reporting;
+  command.output_folder = begun.output_folder;
+  command.scene.picture.width = begun.scene.picture.width;
+  command.scene.picture.height = begun.scene.picture.height;
+  SurfaceRequest& surface = command.scene.molecule.surface;
+  surface.cpu = begun.scene.molecule.surface.cpu;
+  surface.gl = begun.scene.molecule.surface.gl;
+  surface.threads = begun.scene.molecule.surface.threads;
+  Shown shown = read_inputs(command, show_status);
+  auto kept = std::make_shared<const HandedOver>(std::move(next));
+  auto session = begin_session(declared, on_gl, std::move(shown), kept);
+  handed = std::move(kept);
   return session;
 }
 
@@ -232,15 +325,20 @@ void serve(DeclaredPreview& declared) {
   options.token = token_of(command);
   options.ready = [&](const ServedAddress& address) { show_address(command, address); };
   const PictureDevice device(command.scene.molecule.surface);
-  const auto make = [&](const std::function<void(const std::string&)>& show_status) {
-    return begin_session(declared, device.context() != nullptr, read_inputs(command, show_status));
+  const bool on_gl = device.context() != nullptr;
+  std::shared_ptr<const HandedOver> handed;
+  const auto make = [&](const ReceivedFiles& files, const std::function<void(const std::string&)>& show_status) {
+    if (!files.empty()) return open_files(command, files, on_gl, handed, show_status);
+    return begin_session(declared, on_gl, read_inputs(command, show_status));
   };
   if (commands.empty()) return serve_session(options, make);
   // Replies come before the address.
-  std::unique_ptr<PreviewSession> session = make([](const std::string&) {});
+  std::unique_ptr<PreviewSession> session = make({}, [](const std::string&) {});
   replay_commands(command.commands, commands, *session, std::cout);
   if (session->wants_to_quit()) return;
-  serve_session(options, [&](const auto&) { return std::move(session); });
+  serve_session(options, [&](const ReceivedFiles& files, const auto& show_status) {
+    return files.empty() ? std::move(session) : make(files, show_status);
+  });
 }
 
 }  // namespace

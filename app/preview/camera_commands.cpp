@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The commands that move the camera and the time: views, frames, keys of the camera, sizes of pictures.
-#include <utility>
 
-#include "app/preview/camera_motion.h"
 #include "app/preview/command_json.h"
 #include "app/preview/commands.h"
 #include "core/base/error.h"

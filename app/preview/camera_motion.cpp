@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Turns a camera in such a way that its distance does not drift, however often it is turned.
-#include "app/preview/camera_motion.h"
+#include "app/preview/preview_state.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-
-#include <glm/geometric.hpp>
 
 #include "core/math/ball.h"
 

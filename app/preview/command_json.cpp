@@ -3,16 +3,10 @@
 #include "app/preview/command_json.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <iterator>
 #include <ostream>
-#include <span>
-#include <string_view>
-
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -36,6 +30,13 @@ void check_written(const std::ofstream& stream, const std::string& path) {
 
 std::string json_line(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+bool is_plain_name(std::string_view name) {
+  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
+  constexpr std::size_t kLongest = 100;
+  return !name.empty() && name.size() <= kLongest && name[0] != '.' && name[0] != '-' &&
+         name.find_first_not_of(kLetters) == name.npos;
 }
 
 std::string command_word(const nlohmann::json& command) { return text_under("command", command); }

@@ -2,13 +2,8 @@
 // Commands of a preview as JSON, without a session: lines and files of them, two that become one, and their values.
 #pragma once
 
-#include <filesystem>
 #include <fstream>
 #include <iosfwd>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -20,6 +15,9 @@ namespace meniscus {
 
 /// A command or a reply as one line of text, without a line end; bytes that are not UTF-8 are replaced.
 std::string json_line(const nlohmann::json& json);
+
+/// True for a file's name of letters, digits, '.', '_' and '-', the first no '.' or '-', at most 100 of them.
+bool is_plain_name(std::string_view name);
 
 /// The text under "command"; empty if there is none.
 std::string command_word(const nlohmann::json& command);

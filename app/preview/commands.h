@@ -2,13 +2,6 @@
 // The table of all commands of a preview: their words, their keys, their undo, and the functions that run them.
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <variant>
-#include <vector>
-
-#include <nlohmann/json.hpp>
-
 #include "app/preview/command_json.h"
 #include "app/preview/preview_state.h"
 #include "app/preview/shown_molecule.h"

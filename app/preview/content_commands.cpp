@@ -1,21 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The commands for working by hand: lists of chains, ligands and residues, where atoms are, and atoms that are hidden,
 // shown again or looked into.
-#include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstddef>
-#include <cstdint>
-#include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <unordered_map>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "app/preview/commands.h"

@@ -1,17 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The commands that write and read files of the output folder: exports, scenes, the command line of a picture.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "app/film/film.h"
 #include "app/options/property_options.h"
@@ -260,6 +248,7 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   };
   if (format == Format::film) {
     if (!exporter.context.make_film) throw RequestError("export: this preview makes no films");
+    exporter.keep_files();
     const auto make = [order = film_order(command, around, target), target,
                        make = exporter.context.make_film](const ExportWatch& watch) {
       make(order, target, watch);
@@ -277,6 +266,7 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
       ExportedView{molecule.structure(), molecule.atoms(), molecule.balls(), std::move(coloring), molecule.key(state),
                    state, molecule.extras(), std::move(annotations), options.size, options.samples, options.transparent,
                    format == Format::png ? scene_of(command, around) : ""});
+  if (!view->scene.empty()) exporter.keep_files();
   const auto write = [view, target, format, archives = command.flag_or(false, "archive"),
                       make_device](const ExportWatch& watch) {
     return written(*view, format, archives, make_device, target, watch);
@@ -320,6 +310,7 @@ Json get_scene(const CommandReader& command, const Surroundings& around) {
 
 Json render_command(const CommandReader& command, const Surroundings& around) {
   const std::vector<std::string> words = render_words(shown_scene(command, around));
+  around.exporter.keep_files();
   return {{"words", words}, {"text", shell_line(words)}};
 }
 
@@ -335,6 +326,7 @@ Json save_scene(const CommandReader& command, const Surroundings& around) {
   if (is_strip && around.state.strip.empty()) throw RequestError("save: no scene is kept");
   const Scene scene = shown_scene(command, around);
   if (const std::string fault = scene_fault(scene); !fault.empty()) throw RequestError("save: " + fault);
+  around.exporter.keep_files();
   OutputFile file(target.path, target.existing);
   file.write(is_strip ? strip_text(command, around, folder)
                       : scene_text(scene, folder, around.molecule.structure().added));

@@ -1,16 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Computes surfaces on the CPU, and colours them as the preview does.
-#include "app/preview/figure_tables.h"
-
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <numeric>
-#include <string>
-#include <utility>
-
-#include <nlohmann/json.hpp>
-
+#include "app/preview/view_cache.h"
 #include "core/base/error.h"
 #include "core/queries/surface_parts.h"
 #include "core/scene/surface_computer.h"

@@ -2,12 +2,6 @@
 // Remembers figures for undo and redo, and turns what is shown into a scene and back.
 #include "app/preview/preview_state.h"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <utility>
-
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"

@@ -2,19 +2,6 @@
 // The state that commands of a preview change, with the steps before it, and as a scene that `meniscus render` draws.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <deque>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
 #include "core/camera/camera.h"
 #include "core/color/color_schemes.h"
 #include "core/render/legend.h"
@@ -139,5 +126,25 @@ Scene rendered_scene(const PreviewFigure& figure, const RenderedView& view);
 
 /// Returns a request for a look with these numbers. `asked` gives the values that are not numbers.
 LookRequest look_request(LookRequest asked, Look look, bool outlines_patches);
+
+// How commands turn and place a camera: pure functions (camera_motion.cpp).
+
+/// Å between the lower and upper edge of the picture, in the plane through the target.
+double height_at_target(const Camera& camera);
+
+/// Turns about the target as a trackball: the front follows the cursor. drag: in heights of the picture, to the right
+/// and down; a drag over the whole height turns the molecule half around. The distance from the target stays.
+Camera orbited(const Camera& camera, glm::dvec2 drag);
+
+/// The same view by another projection: what lies in the plane of the target keeps its size. An orthographic camera
+/// is outside of all `balls`, whichever way it turns, since it sees nothing behind its plane.
+Camera projected(const Camera& camera, Projection projection, std::span<const Ball> balls);
+
+/// Looks the same way at all of `shown`, with a small margin, from outside of all `balls` if orthographic. There must
+/// be a ball in each. aspect: width / height of the picture.
+Camera zoomed_to(const Camera& camera, std::span<const Ball> shown, std::span<const Ball> balls, double aspect);
+
+/// The default view of all of the balls (frame_camera), which may be turned any way. There must be a ball.
+Camera overview(std::span<const Ball> balls, double aspect, Projection projection);
 
 }  // namespace meniscus

@@ -1,17 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Carries out the commands "set" and "add", which change the values of properties, and lists the properties for pages.
-#include <algorithm>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include "app/preview/camera_motion.h"
 #include "app/preview/commands.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -340,7 +329,6 @@ nlohmann::json property_choices() {
     nlohmann::json& choice =
         choices.emplace_back(nlohmann::json{{"key", property->key},
                                             {"label", label_of(*property)},
-                                            {"group", property->heading},
                                             {"type", control_of(*property)},
                                             {"is_list", property->has(repeatable)},
                                             {"unit", property->value.starts_with("Å")   ? property->value

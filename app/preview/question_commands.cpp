@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The commands that ask: what is under the cursor, how fast it is, what the state is.
-#include <algorithm>
-#include <limits>
-#include <string>
-
-#include <glm/common.hpp>
 
 #include "app/preview/command_json.h"
 #include "app/preview/commands.h"
@@ -95,7 +90,6 @@ Json get_state(const CommandReader&, const Surroundings& around) {
   Json reply{{"file", escaped(structure.file)},
              {"atoms", atoms},
              {"copies", copies},
-             {"placed_atoms", structure.instances.empty() ? atoms : placed_count(structure.instances)},
              {"low", {low.x, low.y, low.z}},
              {"high", {high.x, high.y, high.z}},
              {"revision", state.revision},
@@ -154,11 +148,7 @@ Json get_choices(const CommandReader&, const Surroundings& around) {
       schemes.back()["lacks"] = lack;
   }
   for (const ColorMapMetadata& map : color_maps()) maps.push_back(map.name);
-  return {{"schemes", schemes},
-          {"maps", maps},
-          {"presets", words_of(property_of("look.preset"))},
-          {"properties", property_choices()},
-          {"representations", {"sticks", "balls", "spheres", "tube", "bases", "glycans"}}};
+  return {{"schemes", schemes}, {"maps", maps}, {"properties", property_choices()}};
 }
 
 Json pick(const CommandReader& command, const Surroundings& around) {

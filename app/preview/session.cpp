@@ -2,10 +2,7 @@
 // Carries out commands, and keeps a live view current: first a draft, and the full picture when nothing moves.
 #include "app/preview/session.h"
 
-#include <algorithm>
 #include <new>
-
-#include <fmt/format.h>
 
 #include "app/preview/command_json.h"
 #include "app/preview/commands.h"

@@ -2,23 +2,7 @@
 // A preview as its page and recorded sessions drive it: commands go in, replies and pictures come out.
 #pragma once
 
-#include <chrono>
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <iosfwd>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <nlohmann/json.hpp>
-
 #include "app/preview/command_json.h"
-#include "app/preview/figure_tables.h"
 #include "app/preview/preview_state.h"
 #include "app/preview/shown_molecule.h"
 #include "app/preview/view_cache.h"

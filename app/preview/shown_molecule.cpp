@@ -2,15 +2,6 @@
 // Computes again what another state needs, and keeps the rest; draws the legend around a hole for the molecule.
 #include "app/preview/shown_molecule.h"
 
-#include <algorithm>
-#include <cstddef>
-#include <numeric>
-#include <utility>
-
-#include <fmt/format.h>
-#include <glm/common.hpp>
-
-#include "app/preview/camera_motion.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_key.h"

@@ -3,18 +3,6 @@
 // legend, laid out once for a size.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
 #include "app/preview/preview_state.h"
 #include "core/camera/camera.h"
 #include "core/color/coloring.h"

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The commands of the strip: scenes that are kept, and the way from each to the next, as `meniscus film` goes.
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "app/preview/command_json.h"
 #include "app/preview/commands.h"

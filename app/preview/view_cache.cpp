@@ -2,16 +2,6 @@
 // Draws missing pictures; exposed areas are computed on a thread meanwhile.
 #include "app/preview/view_cache.h"
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <limits>
-#include <span>
-#include <utility>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include "core/base/error.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/surface/compute_surface.h"

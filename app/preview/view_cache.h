@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a state to its picture: keeps the last picture, surfaces while only looks change, and areas once they are known.
+// From a state to its picture, and to the tables of which a page casts it: keeps the last picture, surfaces while only
+// looks change, and areas once they are known.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <future>
-#include <map>
-#include <memory>
-#include <optional>
 #include <tuple>
-#include <vector>
-
-#include <glm/vec2.hpp>
 
 #include "app/preview/shown_molecule.h"
+#include "core/queries/surface_object.h"
 #include "core/scene/renderers.h"
 #include "core/scene/surface_computer.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
+
+namespace page {
+struct PackedFrame;
+}
 
 /// Whose areas are asked for.
 struct AtomsInView {
@@ -129,6 +126,24 @@ class ViewCache {
   bool has_surface_ = false;  ///< some picture showed one
   double milliseconds_ = 0.0;
   std::vector<StageTime> stages_;
+};
+
+/// Packs what a state shows as `meniscus export page` packs the same scene, and keeps the complete surface, which
+/// depends on the atoms and the probe alone. Used by one thread.
+class FigureTables {
+ public:
+  /// Returns the frame, packed plainly, with the colours of the figure and no others. stop: called before each stage of
+  /// a surface and after the last one; if it returns true, the figure is given up and the result is nullptr. Throws
+  /// RequestError with a plain sentence if pages cannot show the figure, and OpenSurfaceError and CapacityError.
+  std::shared_ptr<const page::PackedFrame> packed(const PreviewState& state, const ShownMolecule& molecule,
+                                                  const std::function<bool()>& stop);
+
+ private:
+  bool compute(const PreviewState& state, const ShownMolecule& molecule, const std::function<bool()>& stop);
+  void color(const Structure& structure, const PreviewState& state, const ShownMolecule& molecule);
+
+  std::vector<Ball> balls_;  ///< of the surface
+  SurfaceObject object_;     ///< the surface of the last figure that had one, with its colours
 };
 
 }  // namespace meniscus

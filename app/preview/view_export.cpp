@@ -2,16 +2,9 @@
 // Exports a view on a thread of its own, which reports its progress and can be cancelled.
 #include "app/preview/view_export.h"
 
-#include <chrono>
-#include <condition_variable>
-#include <exception>
-#include <mutex>
 #include <new>
-#include <string_view>
-#include <utility>
 
-#include <fmt/format.h>
-
+#include "app/preview/command_json.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
@@ -264,10 +257,7 @@ void export_blender(const ExportedView& view, const ExportTarget& target, const 
 }
 
 std::filesystem::path export_path(const std::filesystem::path& folder, const std::string& name) {
-  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
-  constexpr std::size_t kLongest = 100;
-  if (name.empty() || name.size() > kLongest || name[0] == '.' || name[0] == '-' ||
-      name.find_first_not_of(kLetters) != std::string::npos) {
+  if (!is_plain_name(name)) {
     throw RequestError(fmt::format(
         "export: \"path\" is {}; it must be a plain file name of letters, digits, '.', '_' and '-', such as view.png",
         in_quotes(name)));

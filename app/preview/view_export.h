@@ -3,16 +3,6 @@
 // the program.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <thread>
-#include <vector>
-
-#include <glm/vec2.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/preview/preview_state.h"
@@ -101,8 +91,7 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target, 
 /// As `meniscus export blender`.
 void export_blender(const ExportedView& view, const ExportTarget& target, const ExportWatch& watch);
 
-/// The path in `folder` of a file with this plain name: letters, digits, '.', '_' and '-', the first no '.' or '-', at
-/// most 100 of them. Throws RequestError.
+/// The path in `folder` of a file with this name. Throws RequestError unless it is a plain name.
 std::filesystem::path export_path(const std::filesystem::path& folder, const std::string& name);
 
 /// A figure that a scene file says, of the molecule that is shown.
@@ -129,6 +118,9 @@ struct SessionContext {
   std::function<Camera(const Scene& scene, const Structure& structure)> aim;
   /// Reads a scene. Throws InputError, UsageError; RequestError where it is one of another molecule.
   std::function<OpenedScene(const std::filesystem::path& path)> open_scene;
+  /// Puts the files of a molecule that a page has handed over where scenes name them, unless they are there. Returns
+  /// those that it has written. Empty for other molecules. Throws OutputError.
+  std::function<std::vector<std::filesystem::path>()> keep_files;
 };
 
 /// What exports go to; the latest of them may still be written, beside the pictures.
@@ -151,6 +143,11 @@ struct Exporter {
     for (const char* key : {"path", "archive"})
       if (reply.contains(key)) add_once(paths, reply[key].get<std::string>());
     return paths;
+  }
+  /// Lets the files stay that scenes of this molecule name.
+  void keep_files() {
+    if (!context.keep_files) return;
+    for (const std::filesystem::path& path : context.keep_files()) add_once(written, path);
   }
   static void add_once(std::vector<std::filesystem::path>& paths, const std::filesystem::path& path) {
     std::erase(paths, path);

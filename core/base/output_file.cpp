@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/base/error.h"
+#include "core/base/scratch_file.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
 
@@ -208,6 +209,20 @@ void make_folders_of(const fs::path& file) {
 }
 
 void check_output(const fs::path& target, Existing existing) { const OutputFile possible(target, existing); }
+
+ScratchFile::ScratchFile(fs::path path) : path_(std::move(path)) {
+  bool made = false;
+  unfinished.add(path_, [&] {
+    const int file = system_file::create(path_);
+    return made = file >= 0 && system_file::close(file);
+  });
+  if (!made) throw OutputError(text_of_path(path_), "cannot be made: " + reason(errno));
+}
+
+ScratchFile::~ScratchFile() {
+  system_file::remove(path_);
+  unfinished.remove(path_);
+}
 
 OutputFolder::OutputFolder(fs::path folder, Existing existing) : folder_(std::move(folder)), existing_(existing) {
   if (folder_.empty()) throw OutputError("output folder", "the name is empty");

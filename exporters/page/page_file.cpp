@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
+#include "core/color/named_colors.h"
 #include "core/gpu/shader_source.h"
 #include "core/image/color_space.h"
 #include "core/render/light_maps.h"
@@ -93,11 +94,6 @@ json camera_of(const Camera& camera, const glm::dvec3& origin) {
           {"orthographic", camera.projection == Projection::orthographic},
           {"fov", camera.vertical_fov},
           {"height", camera.height}};
-}
-
-std::string hex_color(const glm::vec3& color) {
-  const auto byte = [](float channel) { return std::lround(255.0f * std::clamp(channel, 0.0f, 1.0f)); };
-  return fmt::format("#{:02x}{:02x}{:02x}", byte(color.x), byte(color.y), byte(color.z));
 }
 
 /// Swatches are drawings: a style of their own the page's policy would refuse.

@@ -140,7 +140,7 @@ class Looks(unittest.TestCase):
                               cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         replies = [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]
-        self.assertEqual(replies[0]["presets"], words)
+        self.assertEqual(next(one["words"] for one in replies[0]["properties"] if one["key"] == "look.preset"), words)
         for n, word in enumerate(WRITTEN_OUT):
             with self.subTest(word):
                 self.assertEqual(replies[3 * n + 2]["values"]["look.preset"], word)

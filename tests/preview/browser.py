@@ -72,6 +72,7 @@ class Browser:
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self.downloads = os.path.join(self.folder.name, "downloads")
         self.waiting, self.number, self.complaints = {}, 0, []
+        self.tasks, self.handlers = [], {}  # coroutines for events, by the events' names
 
     async def __aenter__(self):
         self.process = subprocess.Popen(
@@ -119,6 +120,8 @@ class Browser:
                     message["params"]["exceptionDetails"].get("exception", {}).get("description")))
             elif message["method"] == "Log.entryAdded" and message["params"]["entry"]["level"] == "error":
                 self.complaints.append(message["params"]["entry"]["text"])
+            elif message["method"] in self.handlers:
+                self.tasks.append(asyncio.create_task(self.handlers[message["method"]](message["params"])))
 
     async def send(self, method, **parameters):
         self.number += 1

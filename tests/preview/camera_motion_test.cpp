@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Motions of the camera keep what they promise, from random cameras of both projections.
-#include "app/preview/camera_motion.h"
+#include "app/preview/preview_state.h"
 
 #include <cmath>
 #include <random>

@@ -5,6 +5,7 @@ import asyncio
 import http.client
 import json
 import os
+import re
 import signal
 import socket
 import subprocess
@@ -99,6 +100,24 @@ class Server(ServerCase):
                 reply = await ask(client, command)
                 self.assertFalse(reply["ok"], command)
                 self.assertTrue(reply["error"].startswith(command["command"] + ": "), reply)
+
+    async def test_page_and_program_speak_of_the_same_things(self):
+        """What the page sends there is, and what it is told it reads; the rest is for scripts and tests."""
+        page = {name: open(os.path.join(PAGE, name)).read() for name in os.listdir(PAGE) if name.endswith(".js")}
+        whole = "\n".join(page.values())
+        with open(os.path.join(PAGE, "../../commands.md")) as file:
+            rows = re.findall(r"^\| (`[a-z_]+`(?:, `[a-z_]+`)*) \|", file.read(), re.MULTILINE)
+        commands = set(re.findall("[a-z_]+", " ".join(rows)))
+        sent = set(re.findall(r'"([a-z_]+)"', " ".join(re.findall(r"\b(?:command\(|command: )[^,)}]*", whole))))
+        sent |= {"undo", "redo"}  # named by a variable
+        self.assertEqual((sent - commands, commands - sent), (set(), {"orbit", "next_frame", "quit", "scene", "stats"}))
+        async with self.preview.socket() as client:
+            choices = await ask(client, {"command": "choices"})
+            state = await ask(client, {"command": "state"})
+        unread = [key for key in choices.keys() - {"ok", "id"} if f"choices.{key}" not in page["program.js"]]
+        unread += [key for choice in choices["properties"] for key in choice if not re.search(rf"\b{key}\b", page["properties.js"])]
+        unread += [key for key in state.keys() - {"ok", "id"} if not re.search(rf"[.{{,]\s*{key}\b", whole)]
+        self.assertEqual(sorted(set(unread)), ["copies", "drawn_by"])
 
     def test_a_token_of_the_users_own(self):
         token = "my-token_0123456789"

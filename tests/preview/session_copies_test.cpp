@@ -50,7 +50,6 @@ TEST(PreviewCopies, AreDrawnPickedAndKeptApart) {
     const Json state = apply(R"({"command":"state"})");
     EXPECT_EQ(state["atoms"], 4);
     EXPECT_EQ(state["copies"], 3);
-    EXPECT_EQ(state["placed_atoms"], 11);
     ASSERT_TRUE(session.render(Quality::full));
     // Where the camera sees an atom of a copy that is what a pick finds.
     const Camera camera = session.state().camera;

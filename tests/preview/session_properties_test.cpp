@@ -212,7 +212,6 @@ TEST_F(PreviewProperties, AreOfferedWithWhatControlsNeed) {
     EXPECT_EQ(help.find_first_of("@_"), std::string::npos) << help;
     EXPECT_EQ(help.find("--"), std::string::npos) << help;
     EXPECT_EQ(label.find_first_of("@_."), std::string::npos) << label;
-    EXPECT_FALSE(choice["group"].get<std::string>().empty()) << label;
     offered[choice["key"]] = choice;
   }
   EXPECT_EQ(offered["surface.kind"]["words"], Json({"ses", "sas", "vdw"}));

@@ -3,12 +3,8 @@
 #include "app/preview/server/clients.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
-#include <span>
-#include <string_view>
-#include <utility>
 
 #include <sys/random.h>
 
@@ -38,6 +34,12 @@ bool Mailbox::put(ClientNumber client, const nlohmann::json& id, nlohmann::json 
   return true;
 }
 
+void Mailbox::open(OpenRequest request) {
+  const std::lock_guard lock(mutex_);
+  content_.opening = std::move(request);
+  wake();
+}
+
 void Mailbox::wake() {
   news_ = true;
   arrived_.notify_one();
@@ -45,7 +47,7 @@ void Mailbox::wake() {
 
 Change Mailbox::waiting_change() {
   const std::lock_guard lock(mutex_);
-  Change most = Change::none;
+  Change most = content_.opening ? Change::surface : Change::none;
   for (const ClientCommand& waiting : content_.commands) most = std::max(most, change_of(waiting.command));
   return most;
 }
@@ -121,14 +123,19 @@ std::string token_fault(std::string_view token) {
                      kShortest, kLongest);
 }
 
-bool is_own_host(std::string_view host, std::uint16_t port) {
-  return host == fmt::format("127.0.0.1:{}", port) || host == fmt::format("localhost:{}", port);
+namespace {
+
+/// Closes a folder to other users, before there is anything in it.
+const std::filesystem::path& made_private(const std::filesystem::path& folder) {
+  std::filesystem::permissions(folder, std::filesystem::perms::owner_all);
+  return folder;
 }
 
-bool is_own_origin(std::string_view origin, std::uint16_t port) {
-  constexpr std::string_view kScheme = "http://";
-  return origin.starts_with(kScheme) && is_own_host(origin.substr(kScheme.size()), port);
-}
+}  // namespace
+
+ReceivedFile::ReceivedFile(std::string_view name)
+    : folder_(std::filesystem::temp_directory_path() / ("meniscus-" + random_token()), Existing::refuse),
+      file_(made_private(folder_.path()) / name) {}
 
 std::string host_fault(std::string_view host) {
   constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789.-:[]_";
@@ -136,20 +143,21 @@ std::string host_fault(std::string_view host) {
   return "a host is a name in small letters with its port, such as hub.example.org or localhost:8888";
 }
 
-Admission admit(std::string_view target, std::string_view token) {
+std::optional<std::string_view> admitted_path(std::string_view target, std::string_view token) {
   if (target.size() < token.size() + 2 || target[0] != '/' || target[token.size() + 1] != '/') return {};
   if (!equal_in_constant_time(target.substr(1, token.size()), token)) return {};
-  return {true, target.substr(token.size() + 2)};
+  return target.substr(token.size() + 2);
 }
 
 bool Clients::is_host(std::string_view host) const {
-  return is_own_host(host, port) || std::ranges::find(trusted, host) != trusted.end();
+  return host == fmt::format("127.0.0.1:{}", port) || host == fmt::format("localhost:{}", port) ||
+         std::ranges::find(trusted, host) != trusted.end();
 }
 
 bool Clients::is_origin(std::string_view origin) const {
-  return is_own_origin(origin, port) || std::ranges::any_of(trusted, [origin](const std::string& host) {
-           return origin == "http://" + host || origin == "https://" + host;
-         });
+  constexpr std::string_view kPlain = "http://", kSecure = "https://";
+  if (origin.starts_with(kPlain)) return is_host(origin.substr(kPlain.size()));
+  return origin.starts_with(kSecure) && std::ranges::find(trusted, origin.substr(kSecure.size())) != trusted.end();
 }
 
 bool Clients::full() const { return sockets.size() >= kMostClients; }

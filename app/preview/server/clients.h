@@ -5,23 +5,13 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
 #include <functional>
-#include <map>
-#include <memory>
 #include <mutex>
-#include <optional>
 #include <set>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "app/preview/command_json.h"
+#include "core/base/output_file.h"
+#include "core/base/scratch_file.h"
 
 namespace meniscus {
 
@@ -34,12 +24,35 @@ struct ClientCommand {
   std::vector<nlohmann::json> ids;  ///< of the messages, for their replies
 };
 
+/// A file that a page has handed over, in a folder of its own that this user alone can read. Both vanish with this
+/// object, and when the program is ended from outside.
+class ReceivedFile {
+ public:
+  /// Makes the file, empty. name: is_plain_name(). Throws OutputError.
+  explicit ReceivedFile(std::string_view name);
+  const std::filesystem::path& path() const { return file_.path(); }
+
+ private:
+  OutputFolder folder_;
+  ScratchFile file_;
+};
+using ReceivedFiles = std::vector<std::shared_ptr<const ReceivedFile>>;
+
+/// A request for another molecule.
+struct OpenRequest {
+  ClientNumber client = 0;
+  nlohmann::json id;    ///< of the message, for its reply
+  ReceivedFiles files;  ///< a molecule, its trajectory, or both
+};
+
 /// Drags not drawn yet become one drag, and of values such as the probe radius the latest counts, so
 /// that a slow picture never makes a queue. Every function may be called from any thread.
 class Mailbox {
  public:
   /// False, and nothing happens, if too many commands wait already.
   bool put(ClientNumber client, const nlohmann::json& id, nlohmann::json command);
+  /// Another molecule is wanted; of several the latest counts.
+  void open(OpenRequest request);
   /// The most that a waiting command will change.
   Change waiting_change();
   /// The client has shown its last picture and is ready for another.
@@ -53,6 +66,7 @@ class Mailbox {
 
   struct Content {
     std::vector<ClientCommand> commands;                           ///< in order
+    std::optional<OpenRequest> opening;                            ///< the molecule that is wanted instead
     std::set<ClientNumber> wanting;                                ///< clients that are ready for a picture
     std::map<ClientNumber, std::set<std::string>> wanting_figure;  ///< those ready for a figure, and their tables
     std::set<ClientNumber> gone;                                   ///< clients that left since the last time
@@ -73,9 +87,11 @@ class Mailbox {
 // How much the server takes from others.
 inline constexpr std::size_t kMostClients = 4;  ///< sockets that look or control
 inline constexpr std::size_t kMostConnections = 32;
-inline constexpr std::size_t kLargestMessage = 4096;  ///< bytes
-inline constexpr std::size_t kLargestHeader = 8192;   ///< bytes of a request's header
-inline constexpr int kPatience = 10;                  ///< seconds for a request
+inline constexpr std::size_t kLargestMessage = 4096;        ///< bytes
+inline constexpr std::size_t kLargestHeader = 8192;         ///< bytes of a request's header
+inline constexpr int kPatience = 10;                        ///< seconds for a request
+inline constexpr std::size_t kMostReceived = 2;             ///< files that a page has handed over and not opened yet
+inline constexpr std::uint64_t kLargestFile = 512'000'000;  ///< bytes of such a file
 
 /// 128 random bits of the system as 32 hexadecimal digits. Throws Error where the system has none.
 std::string random_token();
@@ -83,22 +99,11 @@ std::string random_token();
 /// Why a token of a user's own is none; empty: it is one.
 std::string token_fault(std::string_view token);
 
-/// Is this the Host header of a request to us? 127.0.0.1:PORT and localhost:PORT are; a name that someone else's DNS
-/// points here is not.
-bool is_own_host(std::string_view host, std::uint16_t port);
-
-/// Is this the Origin header of our own page?
-bool is_own_origin(std::string_view origin, std::uint16_t port);
-
 /// Returns why a text is not a host that a user may trust, such as hub.example.org:8888; empty: it is one.
 std::string host_fault(std::string_view host);
 
-/// "/TOKEN/rest" -> "rest" if the token is right, else nothing with `admitted` false.
-struct Admission {
-  bool admitted = false;
-  std::string_view path;
-};
-Admission admit(std::string_view target, std::string_view token);
+/// "/TOKEN/rest" -> "rest" if the token is right, else nothing.
+std::optional<std::string_view> admitted_path(std::string_view target, std::string_view token);
 
 /// Bytes on their way to clients, which share them.
 struct OutgoingMessage {
@@ -124,6 +129,8 @@ struct Clients {
   std::uint16_t port = 0;
   std::vector<std::string> trusted{};  ///< further hosts under which browsers reach this server, as behind a proxy
   std::map<std::string, std::filesystem::path, std::less<>> files{};  ///< what browsers may download, by name
+  std::map<std::string, std::shared_ptr<const ReceivedFile>, std::less<>> received{};  ///< from pages, whole, by name
+  bool is_receiving = false;    ///< true while a file comes from a page
   std::string announcement{};   ///< what a new client is told, as JSON; empty: nothing
   std::size_t connections = 0;  ///< sockets of any kind, open
   std::map<ClientNumber, std::shared_ptr<Client>> sockets;
@@ -134,8 +141,10 @@ struct Clients {
   std::uint64_t next_stranger = 1;
   ClientNumber controller = 0;  ///< 0: none
 
-  /// True if requests to this host are for this server, and if pages of this origin are its pages.
+  /// True if requests to this host are for this server: 127.0.0.1:PORT, localhost:PORT and trusted ones. A name that
+  /// someone else's DNS points here is none.
   bool is_host(std::string_view host) const;
+  /// True if pages of this origin are its pages.
   bool is_origin(std::string_view origin) const;
   bool controls(ClientNumber client) const { return client == controller; }
   /// This client controls from now on; both are notified.

@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads requests and commands within limits; answers with files of the page, a refusal, replies and pictures.
+// Reads requests, commands and files within limits; answers with files of the page, a refusal, replies and pictures.
 #include "app/preview/server/connection.h"
 
-#include <chrono>
-#include <cstdint>
+#include <algorithm>
 #include <deque>
-#include <memory>
-#include <optional>
-#include <set>
-#include <string>
-#include <string_view>
-#include <utility>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -20,7 +13,6 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
-#include <fmt/format.h>
 
 #include "app/preview/command_json.h"
 #include "app/preview/server/page_files.h"
@@ -47,6 +39,14 @@ std::optional<std::set<std::string>> tables_known_to(const Json& message) {
   return known;
 }
 
+/// The names of the files in a request to open them; nothing: the message is none.
+std::optional<std::vector<std::string>> files_to_open(const Json& message) {
+  const Json files = message.value("files", Json());
+  if (message.value("request", Json()) != "open" || message.size() != 2 || !files.is_array()) return {};
+  if (!std::ranges::all_of(files, &Json::is_string) || files.empty() || files.size() > kMostReceived) return {};
+  return files.get<std::vector<std::string>>();
+}
+
 /// Messages that wait for a client that does not read; a page that is alive never has as many.
 constexpr std::size_t kLongestQueue = 512;
 
@@ -70,8 +70,9 @@ class SocketClient : public Client, public std::enable_shared_from_this<SocketCl
     socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
       if (error) return self->leave();
       self->open_ = true;
-      self->send(
-          text_message(json_line({{"event", "welcome"}, {"controls", self->clients_->controls(self->number_)}})));
+      self->send(text_message(json_line({{"event", "welcome"},
+                                         {"controls", self->clients_->controls(self->number_)},
+                                         {"largest_file", kLargestFile}})));
       if (!self->clients_->announcement.empty()) self->send(text_message(self->clients_->announcement));
       self->read();
     });
@@ -111,7 +112,19 @@ class SocketClient : public Client, public std::enable_shared_from_this<SocketCl
     if (const auto known = tables_known_to(message)) return clients_->mailbox.want_figure(number_, *known);
     if (message == Json{{"request", "control"}}) return clients_->give_control(number_);
     if (!clients_->controls(number_) && !is_question(message)) return reply(id, "another page controls this preview");
+    if (const auto names = files_to_open(message)) return open(id, *names);
     if (!clients_->mailbox.put(number_, id, std::move(message))) reply(id, "too many commands wait; send fewer");
+  }
+
+  void open(const Json& id, const std::vector<std::string>& names) {
+    OpenRequest request{number_, id, {}};
+    for (const std::string& name : names) {
+      const auto file = clients_->received.find(name);
+      if (file == clients_->received.end()) return reply(id, "the file has not come; open it again");
+      request.files.push_back(file->second);
+    }
+    clients_->received.clear();
+    clients_->mailbox.open(std::move(request));
   }
 
   void reply(const Json& id, const char* error) {
@@ -161,6 +174,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
   ~Connection() {
     clients_->strangers.erase(stranger_);
+    end_receiving();
     --clients_->connections;
   }
 
@@ -170,13 +184,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
       if (const auto self = weak.lock()) self->stream_.close();
     };
     parser_.header_limit(kLargestHeader);
-    parser_.body_limit(0);
+    parser_.body_limit(boost::none);  // it is refused, or read by another parser with a limit
     stream_.expires_after(std::chrono::seconds(kPatience));
-    http::async_read(stream_, buffer_, parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+    const auto answered = [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (!error) return self->answer();
-      if (error == http::error::header_limit || error == http::error::body_limit)
+      if (error == http::error::header_limit)
         self->refuse(http::status::request_header_fields_too_large, "the request is too large");
-    });
+    };
+    http::async_read_header(stream_, buffer_, parser_, answered);
   }
 
  private:
@@ -189,17 +204,20 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (!clients_->is_host(host)) return refuse(http::status::forbidden, "this is not the host asked for");
     if (request.method() == http::verb::get && clients_->take_entry(target)) return lead_to_the_page();
     // A proxy may add a query of its own, such as its user's token.
-    const Admission admission = admit(target.substr(0, target.find('?')), clients_->token);
-    if (!admission.admitted)
-      return refuse(http::status::forbidden, "the address lacks the token that meniscus printed");
+    const std::optional<std::string_view> path = admitted_path(target.substr(0, target.find('?')), clients_->token);
+    if (!path) return refuse(http::status::forbidden, "the address lacks the token that meniscus printed");
     clients_->strangers.erase(stranger_);
+    constexpr std::string_view kReceived = "received/";
+    if (request.method() == http::verb::post && path->starts_with(kReceived))
+      return receive(path->substr(kReceived.size()));
+    if (!parser_.is_done()) return refuse(http::status::request_header_fields_too_large, "the request is too large");
     if (request.method() != http::verb::get) return refuse(http::status::method_not_allowed, "only GET is supported");
-    if (admission.path == "socket") return open_socket();
+    if (*path == "socket") return open_socket();
     constexpr std::string_view kFiles = "files/";
-    if (admission.path.starts_with(kFiles)) return send_file(admission.path.substr(kFiles.size()));
-    const std::optional<std::string> file = served_file(admission.path);
+    if (path->starts_with(kFiles)) return send_file(path->substr(kFiles.size()));
+    const std::optional<std::string> file = served_file(*path);
     if (!file) return refuse(http::status::not_found, "there is no such page");
-    send(http::status::ok, content_type(admission.path), *file);
+    send(http::status::ok, content_type(*path), *file);
   }
 
   void open_socket() {
@@ -233,6 +251,54 @@ class Connection : public std::enable_shared_from_this<Connection> {
     stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
   }
 
+  /// Takes a file that the page hands over. Only the page can ask for it, for another's Origin is another.
+  void receive(std::string_view name) {
+    if (!clients_->is_origin(view(parser_.get()[http::field::origin])))
+      return refuse(http::status::forbidden, "this page comes from elsewhere");
+    if (!is_plain_name(name)) return refuse(http::status::bad_request, "the file name has other letters than it may have");
+    const auto length = parser_.content_length();
+    if (!length) return refuse(http::status::length_required, "the request does not say how long the file is");
+    if (*length > kLargestFile) return refuse(http::status::payload_too_large, "the file is too large");
+    if (clients_->is_receiving)
+      return refuse(http::status::service_unavailable, "another file is on its way; open this one again after it");
+    receives_ = clients_->is_receiving = true;
+    beast::error_code error;
+    try {
+      received_ = std::make_shared<const ReceivedFile>(name);
+      upload_.emplace(std::move(parser_));
+      upload_->body_limit(kLargestFile);
+      upload_->get().body().open(received_->path().c_str(), beast::file_mode::write, error);
+    } catch (const std::exception&) {
+      error = beast::errc::make_error_code(beast::errc::no_space_on_device);
+    }
+    if (!error) return receive_piece();
+    end_receiving();
+    refuse(http::status::insufficient_storage, "there is no room for the file where temporary files are");
+  }
+
+  void end_receiving() {
+    if (std::exchange(receives_, false)) clients_->is_receiving = false;
+  }
+
+  /// Reads the file piece by piece, so that the patience is for each piece.
+  void receive_piece() {
+    if (upload_->is_done()) return keep_received();
+    stream_.expires_after(std::chrono::seconds(kPatience));
+    http::async_read_some(stream_, buffer_, *upload_,
+                          [self = shared_from_this()](beast::error_code error, std::size_t) {
+                            if (!error) self->receive_piece();
+                          });
+  }
+
+  void keep_received() {
+    upload_->get().body().close();
+    end_receiving();
+    auto& received = clients_->received;
+    if (received.size() >= kMostReceived) received.clear();  // they were never opened
+    received.insert_or_assign(received_->path().filename().string(), received_);
+    send(http::status::ok, content_type(".txt"), "");
+  }
+
   /// Sends a file that the session has written, for the browser to keep.
   void send_file(std::string_view name) {
     const auto file = clients_->files.find(name);
@@ -262,17 +328,19 @@ class Connection : public std::enable_shared_from_this<Connection> {
     });
   }
 
-  /// The page runs its own script and style only, talks to this server only, and is in no frame.
+  /// The page runs its own script and style only, talks to this server and the Protein Data Bank only, and is in no
+  /// frame.
   void describe(auto& response, http::status status, std::string_view type) {
     response.result(status);
     response.version(11);
     response.keep_alive(false);
     response.set(http::field::content_type, beast::string_view(type.data(), type.size()));
-    std::string sockets = fmt::format("'self' ws://127.0.0.1:{0} ws://localhost:{0}", clients_->port);
-    for (const std::string& host : clients_->trusted) sockets += fmt::format(" ws://{0} wss://{0}", host);
+    std::string hosts = fmt::format("'self' ws://127.0.0.1:{0} ws://localhost:{0}", clients_->port);
+    for (const std::string& host : clients_->trusted) hosts += fmt::format(" ws://{0} wss://{0}", host);
+    if (type == content_type("")) hosts += " https://files.rcsb.org";
     response.set("Content-Security-Policy",
-                 "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src " +
-                     sockets + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+                 "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src " + hosts +
+                     "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
     response.set("X-Content-Type-Options", "nosniff");
     response.set("Referrer-Policy", "no-referrer");
     response.set("Cross-Origin-Opener-Policy", "same-origin");
@@ -283,6 +351,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_{2 * kLargestHeader};
   http::request_parser<http::empty_body> parser_;
+  std::optional<http::request_parser<http::file_body>> upload_;
+  std::shared_ptr<const ReceivedFile> received_;  // to which the upload goes
+  bool receives_ = false;                         // true while it comes
   http::response<http::string_body> response_;
   http::response<http::file_body> download_;
   std::optional<http::response_serializer<http::file_body>> serializer_;

@@ -2,8 +2,6 @@
 // One TCP connection to the preview server: a file of the page, a refusal, or a socket for commands and pictures.
 #pragma once
 
-#include <memory>
-
 #include <boost/asio/ip/tcp.hpp>
 
 #include "app/preview/server/clients.h"

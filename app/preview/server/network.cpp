@@ -2,15 +2,11 @@
 // The listener, its thread, and the list of clients.
 #include "app/preview/server/network.h"
 
-#include <chrono>
-#include <functional>
 #include <thread>
-#include <utility>
 
 #include <fcntl.h>
 
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <fmt/format.h>

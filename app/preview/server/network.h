@@ -2,14 +2,6 @@
 // The preview's web server: pages and sockets on 127.0.0.1, in a thread of its own.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <nlohmann/json.hpp>
-
 #include "app/preview/server/clients.h"
 
 namespace meniscus {

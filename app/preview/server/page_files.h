@@ -3,9 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 
 #include "core/base/text.h"
 

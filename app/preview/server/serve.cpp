@@ -2,16 +2,7 @@
 // Runs the loop that carries out commands and draws what waiting pages have not seen.
 #include "app/preview/server/serve.h"
 
-#include <algorithm>
-#include <chrono>
-#include <map>
-#include <memory>
-#include <optional>
-#include <set>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
+#include <new>
 
 #include <turbojpeg.h>
 
@@ -28,6 +19,7 @@ namespace {
 
 using Clock = LiveView::Clock;
 using Json = nlohmann::json;
+using MakeOther = std::function<std::unique_ptr<PreviewSession>(const ReceivedFiles& files)>;
 
 /// Returns pixels as PNG, lightly compressed, without any loss. rgba: 4 bytes a pixel, rows from the top; alpha is
 /// left out. scene: the scene of the picture; empty for none.
@@ -57,7 +49,8 @@ class ServedSession {
   ServedSession(PreviewSession& session, Network& network, Mailbox& mailbox)
       : session_(session), view_(session), network_(network), mailbox_(mailbox) {}
 
-  void run() {
+  /// Returns the session that takes its place; nullptr: a command has ended it.
+  std::unique_ptr<PreviewSession> run(const MakeOther& make) {
     while (!session_.wants_to_quit()) {
       Mailbox::Content news = mailbox_.take(next_deadline());
       for (const ClientNumber client : news.gone) {
@@ -68,14 +61,43 @@ class ServedSession {
       waiting_.merge(news.wanting);
       for (auto& [client, known] : news.wanting_figure) figure_pages_[client].known = std::move(known);
       for (const ClientCommand& command : news.commands) carry_out(command);
+      if (news.opening)
+        if (auto other = opened(*news.opening, make)) return other;
       play();
       // Of a large molecule there is something to see before its first surface.
       if (picture_.number > 0 || waiting_.empty() || !session_.wants_balls()) show_figure();
       show();
     }
+    return nullptr;
   }
 
  private:
+  /// Returns the session of another molecule; nullptr, and all pages say why, if there is none.
+  std::unique_ptr<PreviewSession> opened(const OpenRequest& request, const MakeOther& make) {
+    try {
+      if (question("export_state")["running"])
+        throw RequestError("something is still being written; wait for it, or cancel it");
+      std::unique_ptr<PreviewSession> other = make(request.files);
+      network_.offer_files({});
+      network_.announce(nullptr);
+      network_.send_to_all({{"event", "opened"}});
+      return other;
+    } catch (const GpuError&) {
+      throw;
+    } catch (const Error& error) {
+      fail(request, error.what());
+    } catch (const std::bad_alloc&) {
+      fail(request, "there is not enough memory for this molecule");
+    }
+    return nullptr;
+  }
+
+  void fail(const OpenRequest& request, std::string_view why) {
+    network_.announce(nullptr);
+    network_.send(request.client, {{"id", request.id}, {"ok", false}});
+    network_.send_to_all({{"event", "error"}, {"error", escaped(why)}, {"state", question("state")}});
+  }
+
   void carry_out(const ClientCommand& command) {
     Json reply = view_.apply(command.command);
     network_.offer_files(session_.written_paths());
@@ -268,11 +290,14 @@ void serve_session(const ServeOptions& options, const MakeSession& make) {
   Network network(options, mailbox);
   options.ready({network.url(), network.url_once(), network.port()});
   try {
-    const std::unique_ptr<PreviewSession> session = make([&](const std::string& what) {
-      network.announce({{"event", "progress"}, {"what", escaped(what)}});
-    });
+    const auto begun = [&](const ReceivedFiles& files) {
+      return make(files, [&](const std::string& what) {
+        network.announce({{"event", "progress"}, {"what", escaped(what)}});
+      });
+    };
+    std::unique_ptr<PreviewSession> session = begun({});
     network.announce(nullptr);
-    ServedSession(*session, network, mailbox).run();
+    while (auto other = ServedSession(*session, network, mailbox).run(begun)) session = std::move(other);
   } catch (const std::exception& error) {
     network.send_to_all({{"event", "ended"}, {"error", escaped(error.what())}});
     throw;

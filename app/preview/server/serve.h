@@ -2,15 +2,6 @@
 // The preview as a web page.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <glm/vec2.hpp>
-
 #include "app/preview/server/network.h"
 #include "app/preview/session.h"
 
@@ -28,12 +19,14 @@ struct ServeOptions : NetworkOptions {
   std::function<void(const ServedAddress&)> ready;
 };
 
-/// Makes the session, and tells meanwhile what it is doing, such as "Reading 1tii.pdb".
-using MakeSession = std::function<std::unique_ptr<PreviewSession>(const std::function<void(const std::string&)>& tell)>;
+/// Makes a session, and tells meanwhile what it is doing, such as "Reading 1tii.pdb". files: those of another molecule
+/// that a page has handed over; empty: it is the first session.
+using MakeSession = std::function<std::unique_ptr<PreviewSession>(const ReceivedFiles& files,
+                                                                  const std::function<void(const std::string&)>& tell)>;
 
 /// Serves a session on 127.0.0.1 until a command ends it; pages can be opened while it is made. Makes and draws it on
-/// this thread, which has its GL context. Throws what Network throws, and after the pages were notified GpuError and
-/// what `make` throws.
+/// this thread, which has its GL context. Another one takes its place when a page opens another molecule. Throws what
+/// Network throws, and after the pages were notified GpuError and what `make` throws for the first session.
 void serve_session(const ServeOptions& options, const MakeSession& make);
 
 /// Returns a picture as JPEG; nothing in a build without TurboJPEG. rgba: 4 bytes a pixel, rows from the top; alpha is

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The camera and how it moves: as core/camera and app/preview/camera_motion have it.
+// The camera and how it moves: as core/camera and app/preview/camera_motion.cpp have it.
 
 const plus = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
@@ -77,6 +77,16 @@ function frame_of(camera, width, height) {
   return { ...basis, eye_distance, pixel_size: angstroms / height, orthographic: camera.orthographic ? 1 : 0,
     first_offset: [0.5 - width / 2, 0.5 - height / 2], sample_offset: [0, 0], size: [width, height],
     pivot: plus(camera.position, times(basis.forward, eye_distance)) };
+}
+
+/// Where points are seen in a picture of a frame, from its top left; null for those behind the camera.
+function places_of(points, { right, up, forward, eye_distance, pixel_size, orthographic, pivot }, [width, height]) {
+  return points.map((point) => {
+    const from = minus(point, pivot), depth = eye_distance + dot(from, forward);
+    if (!orthographic && depth <= 0) return null;
+    const unit_size = pixel_size * (orthographic ? 1 : depth / eye_distance);
+    return [width / 2 + dot(from, right) / unit_size, height / 2 - dot(from, up) / unit_size];
+  });
 }
 
 /// The same view where a picture is narrower than the one that it was made for: all that was seen across is seen.

@@ -29,7 +29,6 @@ class Caster {
     this.canvas = canvas;
     this.early_depth = gl.getExtension("EXT_conservative_depth") !== null;
     this.programs = new Map();
-    this.blocks = new Map();
     this.size = [0, 0];
     this.tables = {};
     this.ready = new Map();  // what frames are drawn from, by their numbers
@@ -169,7 +168,7 @@ class Caster {
     if (!gl.getProgramParameter(program, gl.LINK_STATUS))
       throw new NoWebGl(`This device cannot compile the figure's shaders (${fragment}): what is shown is a still picture. ` +
         shaders.map((shader) => gl.getShaderInfoLog(shader)).join(" ") + gl.getProgramInfoLog(program));
-    const made = { program, blocks: {}, uniforms: {} };
+    const made = { program, blocks: {} };
     for (let n = 0; n < gl.getProgramParameter(program, gl.ACTIVE_UNIFORM_BLOCKS); ++n) {
       const name = gl.getActiveUniformBlockName(program, n), members = {};
       const indices = gl.getActiveUniformBlockParameter(program, n, gl.UNIFORM_BLOCK_ACTIVE_UNIFORM_INDICES);
@@ -423,15 +422,10 @@ class Caster {
 
   /// background: linear. The canvas may have other pixels than the picture, as a draft has fewer.
   present(background, target = null, size = [this.canvas.width, this.canvas.height]) {
-    const gl = this.gl;
-    gl.bindFramebuffer(gl.FRAMEBUFFER, target);
-    gl.bindVertexArray(null);
-    gl.disable(gl.DEPTH_TEST);
-    gl.viewport(0, 0, ...size);
-    const present = this.program("whole.vert", "present.frag");
-    this.use(present, { sum_texels: this.summed.texture });
-    this.set_block(present, "Parameters", [], { background, per_sample: 1 / this.summed.samples, size });
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    const { texture, samples } = this.summed;
+    this.gl.viewport(0, 0, ...size);
+    this.draw_whole(target, this.program("whole.vert", "present.frag"), { sum_texels: texture }, {},
+      { Parameters: { words: [], values: { background, per_sample: 1 / samples, size } } });
   }
 
   /// Returns an attachment of the first sample in a rectangle of pixels, four words a pixel, rows from the top.

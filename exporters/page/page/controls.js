@@ -7,7 +7,7 @@ const kSections = "meniscus sections";  // in the browser's storage
 
 /// Says a sentence over the picture until another takes its place, or for some seconds.
 function say(sentence, { is_error = true, seconds = 0 } = {}) {
-  const box = element("message");
+  const box = $("message");
   box.textContent = sentence;
   delete box.dataset.seconds;
   box.classList.toggle("error", is_error);
@@ -18,11 +18,11 @@ function say(sentence, { is_error = true, seconds = 0 } = {}) {
 
 /// The live picture, or the still one.
 function show_picture(live) {
-  element("picture").hidden = !live;
-  element("labels").toggleAttribute("hidden", !live);
-  element("controls").hidden = !live;
-  element("frames").hidden = !live || element("frame").max === "0";
-  if (element("still")) element("still").hidden = live;
+  $("picture").hidden = !live;
+  $("labels").toggleAttribute("hidden", !live);
+  $("controls").hidden = !live;
+  $("frames").hidden = !live || $("frame").max === "0";
+  if ($("still")) $("still").hidden = live;
 }
 
 function follow_pointer(viewer) {
@@ -59,7 +59,7 @@ function follow_pointer(viewer) {
     pointers.delete(event.pointerId);
     if (event.type === "pointerup" && drag && drag.button === 0 && drag.wandered < kClick) {
       viewer.pick(event.clientX, event.clientY).then((found) => {
-        if (!viewer.selects) element("picked").textContent = viewer.tell(found);
+        if (!viewer.selects) $("picked").textContent = viewer.tell(found);
         viewer.picked?.(found, event);
       });
     }
@@ -91,9 +91,9 @@ function is_for(control, key) {
 function follow_keys(viewer, other = () => false) {
   const step = 1 / 36, steps = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
   const acts = { "+": () => viewer.move(zoomed(viewer.camera, 1.1)), "-": () => viewer.move(zoomed(viewer.camera, 1 / 1.1)),
-    "<": () => viewer.move(rolled(viewer.camera, -0.1)), ">": () => viewer.move(rolled(viewer.camera, 0.1)), r: () => element("reset").click(),
+    "<": () => viewer.move(rolled(viewer.camera, -0.1)), ">": () => viewer.move(rolled(viewer.camera, 0.1)), r: () => $("reset").click(),
     o: () => set_projection(viewer, !viewer.camera.orthographic) };
-  const faces = { h: () => show_help(element("help").hidden), Escape: () => show_help(false), p: () => document.body.classList.toggle("bare") };
+  const faces = { h: () => show_help($("help").hidden), Escape: () => show_help(false), p: () => document.body.classList.toggle("bare") };
   Object.assign(acts, { "=": acts["+"] });
   Object.assign(faces, { "?": faces.h });
   const frames = { " ": (all) => all.toggle(), ",": (all) => all.go(-1), ".": (all) => all.go(1), PageUp: (all) => all.go(-1), PageDown: (all) => all.go(1) };
@@ -110,8 +110,8 @@ function follow_keys(viewer, other = () => false) {
 }
 
 function show_help(open) {
-  element("help").hidden = !open;
-  element("show-help").setAttribute("aria-expanded", String(open));
+  $("help").hidden = !open;
+  $("show-help").setAttribute("aria-expanded", String(open));
 }
 
 /// Sections stay open or closed as they were left. closed: those that begin closed.
@@ -130,27 +130,27 @@ function remember_sections(closed = []) {
 
 function set_projection(viewer, orthographic) {
   viewer.move(projected(viewer.camera, orthographic, viewer.caster.radius), false);
-  element("projection").value = projection_of(viewer.camera);
+  $("projection").value = projection_of(viewer.camera);
 }
 
 const projection_of = (camera) => (camera.orthographic ? "orthographic" : "perspective");
 
 function follow_controls(viewer) {
   const hex = viewer.background.map((c) => Math.round(255 * c).toString(16).padStart(2, "0")).join("");
-  element("background").value = `#${hex}`;
-  element("projection").value = projection_of(viewer.camera);
+  $("background").value = `#${hex}`;
+  $("projection").value = projection_of(viewer.camera);
   for (const name of ["shade", "lines"]) {
-    element(name).checked = viewer.effects[name];
-    element(name).parentElement.hidden = !viewer.effects[name];
-    element(name).addEventListener("change", () => { viewer.effects[name] = element(name).checked; viewer.change(); });
+    $(name).checked = viewer.effects[name];
+    $(name).parentElement.hidden = !viewer.effects[name];
+    $(name).addEventListener("change", () => { viewer.effects[name] = $(name).checked; viewer.change(); });
   }
   follow_layers(viewer);
   follow_views(viewer);
-  viewer.figure.schemes.forEach(({ name }, n) => element("scheme").append(new Option(name, n)));
-  element("scheme").addEventListener("change", () => viewer.set_scheme(Number(element("scheme").value)));
-  element("projection").addEventListener("change", () => set_projection(viewer, element("projection").value === "orthographic"));
-  element("background").addEventListener("input", () => {
-    viewer.background = [1, 3, 5].map((n) => parseInt(element("background").value.slice(n, n + 2), 16) / 255);
+  viewer.figure.schemes.forEach(({ name }, n) => $("scheme").append(new Option(name, n)));
+  $("scheme").addEventListener("change", () => viewer.set_scheme(Number($("scheme").value)));
+  $("projection").addEventListener("change", () => set_projection(viewer, $("projection").value === "orthographic"));
+  $("background").addEventListener("input", () => {
+    viewer.background = [1, 3, 5].map((n) => parseInt($("background").value.slice(n, n + 2), 16) / 255);
     viewer.change();
   });
   follow_frames(viewer);
@@ -162,32 +162,32 @@ function follow_layers(viewer) {
   const { layers, names, views } = viewer.figure;
   // Where the figure hides atoms, their patches are not in it, and nothing tells what is solid.
   const cuts = layers?.whole && views.every(({ planes }) => planes.length < kMostPlanes);
-  element("cutting").hidden = !cuts;
-  element("opacity").parentElement.hidden = !layers;
-  element("cut").addEventListener("input", () => viewer.set_cut(Number(element("cut").value) / 100));
-  element("cut-with").addEventListener("change", () => { viewer.cuts_with_view = element("cut-with").value === "view"; viewer.set_layers(); });
-  element("opacity").addEventListener("input", () => { viewer.opacity = Number(element("opacity").value) / 100; viewer.set_layers(); });
+  $("cutting").hidden = !cuts;
+  $("opacity").parentElement.hidden = !layers;
+  $("cut").addEventListener("input", () => viewer.set_cut(Number($("cut").value) / 100));
+  $("cut-with").addEventListener("change", () => { viewer.cuts_with_view = $("cut-with").value === "view"; viewer.set_layers(); });
+  $("opacity").addEventListener("input", () => { viewer.opacity = Number($("opacity").value) / 100; viewer.set_layers(); });
   const chains = [...new Set(names.chains)], shown = new Set(chains);
-  element("chains").hidden = chains.length < 2 || chains.length > kMostChains;
-  element("shown").hidden = !layers && element("chains").hidden;
-  if (element("chains").hidden) return;
+  $("chains").hidden = chains.length < 2 || chains.length > kMostChains;
+  $("shown").hidden = !layers && $("chains").hidden;
+  if ($("chains").hidden) return;
   for (const chain of chains) {
     const label = document.createElement("label"), box = document.createElement("input");
     Object.assign(box, { type: "checkbox", checked: true });
     label.append(box, ` ${chain || "none"}`);
     box.addEventListener("change", () => { shown[box.checked ? "add" : "delete"](chain); viewer.show_chains(shown); });
-    element("chains").append(label);
+    $("chains").append(label);
   }
 }
 
 async function main() {
-  element("show-help").addEventListener("click", () => show_help(element("help").hidden));
-  if (element("data").dataset.bytes === "0") return;  // the program brings the figure
+  $("show-help").addEventListener("click", () => show_help($("help").hidden));
+  if ($("data").dataset.bytes === "0") return;  // the program brings the figure
   remember_sections();
   show_picture(false);
   if (typeof DecompressionStream === "undefined") return say("This browser is too old to unpack the figure: what is shown is a still picture.");
   try {
-    const viewer = new Viewer(await read_figure(element("data").textContent, Number(element("data").dataset.bytes)));
+    const viewer = new Viewer(await read_figure($("data").textContent, Number($("data").dataset.bytes)));
     show_picture(true);
     follow_pointer(viewer);
     follow_keys(viewer);

@@ -80,14 +80,14 @@ class Frames {
 
   tell() {
     const words = `${this.wanted + 1} of ${this.count}: ${this.viewer.figure.moments[this.wanted]}`;
-    Object.assign(element("frame"), { value: this.wanted }).setAttribute("aria-valuetext", words);
-    element("moment").textContent = words;
+    Object.assign($("frame"), { value: this.wanted }).setAttribute("aria-valuetext", words);
+    $("moment").textContent = words;
   }
 
   /// One after the other, and again from the first, until the reader has enough.
   async play() {
     this.playing = this.viewer.playing = true;
-    element("play").textContent = "Pause";
+    $("play").textContent = "Pause";
     while (this.playing && this.viewer.caster && !this.viewer.saving) {
       const began = performance.now();
       await this.show((this.wanted + 1) % this.count);
@@ -100,7 +100,7 @@ class Frames {
   pause() {
     if (!this.playing) return;
     this.playing = this.viewer.playing = false;
-    element("play").textContent = "Play";
+    $("play").textContent = "Play";
     this.viewer.change();
   }
 
@@ -114,11 +114,11 @@ class Frames {
 
 function follow_frames(viewer) {
   if (viewer.figure.frames.length < 2) return;
-  const frames = viewer.frames = new Frames(viewer), input = element("frame");
-  element("frames").hidden = false;
+  const frames = viewer.frames = new Frames(viewer), input = $("frame");
+  $("frames").hidden = false;
   input.max = frames.count - 1;
   frames.tell();
   input.addEventListener("input", () => { frames.pause(); frames.show(Number(input.value)); });
-  element("play").addEventListener("click", () => frames.toggle());
+  $("play").addEventListener("click", () => frames.toggle());
   frames.look_ahead();
 }

@@ -29,11 +29,11 @@ function show_colors(viewer, colors, label) {
   const asked = figure.schemes[last].asked ? last : last + 1;
   figure.tables[`scheme_${asked}`] = words;
   figure.schemes[asked] = { name: label, legend: "", by_kind: false, asked: true };
-  if (asked > last) element("scheme").append(new Option(label, asked));
-  element("scheme").options[asked].text = label;
-  element("scheme").value = asked;
+  if (asked > last) $("scheme").append(new Option(label, asked));
+  $("scheme").options[asked].text = label;
+  $("scheme").value = asked;
   viewer.set_scheme(asked);
-  element("legend").textContent = label;
+  $("legend").textContent = label;
 }
 
 function follow_messages(viewer) {
@@ -60,11 +60,11 @@ function follow_messages(viewer) {
     }
     if (asked) {
       told = JSON.stringify(told_camera(asked, origin));
-      element("projection").value = projection_of(asked);
+      $("projection").value = projection_of(asked);
       viewer.move(asked, false);
     }
     if (colors instanceof Uint8Array) show_colors(viewer, colors, String(label ?? "given"));
-    if (scheme === 0) { element("scheme").value = 0; viewer.set_scheme(0); }
+    if (scheme === 0) { $("scheme").value = 0; viewer.set_scheme(0); }
     viewer.changed();
   });
 }

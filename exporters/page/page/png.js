@@ -73,10 +73,10 @@ async function draw_png(viewer, size, tell) {
 }
 
 function follow_png(viewer) {
-  const button = element("save"), input = element("width"), words = button.textContent;
-  element("write").addEventListener("submit", (event) => event.preventDefault());
+  const button = $("save"), input = $("width"), words = button.textContent;
+  $("write").addEventListener("submit", (event) => event.preventDefault());
   input.addEventListener("focus", () => {
-    element("widths").replaceChildren(...[1, 2, 4].map((times) => new Option("", times * viewer.pixels()[0])));
+    $("widths").replaceChildren(...[1, 2, 4].map((times) => new Option("", times * viewer.pixels()[0])));
   });
   button.addEventListener("click", async () => {
     if (viewer.saving) { viewer.saving.stopped = true; return; }
@@ -86,12 +86,12 @@ function follow_png(viewer) {
     if (width < 16 || width > most) return say(`The width of a PNG of this view is 16 to ${most} pixels.`);
     say("");
     button.textContent = "Stop";
-    const others = [element("sections"), input.parentElement];
+    const others = [$("sections"), input.parentElement];
     for (const other of others) other.inert = true;
-    const tell = (done, all) => { element("picked").textContent = `Drawing ${size[0]} × ${size[1]} pixels: ${Math.floor(100 * done / all)} %`; };
+    const tell = (done, all) => { $("picked").textContent = `Drawing ${size[0]} × ${size[1]} pixels: ${Math.floor(100 * done / all)} %`; };
     try {
       const png = await draw_png(viewer, size, tell);
-      element("picked").textContent = png ? "The PNG is drawn." : "Nothing is saved.";
+      $("picked").textContent = png ? "The PNG is drawn." : "Nothing is saved.";
       if (!png) return;
       download(png, `${(viewer.figure.title.match(/[\w-]+/g) ?? ["figure"]).join("_")}.png`);
     } catch (error) {

@@ -3,13 +3,13 @@
 
 const kDraft = 40;         // ms that a frame may take while the view moves
 const kMostPixels = 2048;  // along a side
-const element = (id) => document.getElementById(id);
+const $ = (id) => document.getElementById(id);
 
 class Viewer {
   /// pictures: draws in place of this browser's WebGL, as the program's do.
   constructor(figure, pictures = null) {
     Object.assign(this, { figure, pictures });
-    this.canvas = element("picture");
+    this.canvas = $("picture");
     this.view_number = 0;
     this.camera = this.view.camera;
     this.background = figure.background;
@@ -29,7 +29,7 @@ class Viewer {
     this.start();
     this.canvas.addEventListener("webglcontextlost", (event) => { event.preventDefault(); this.fail("The graphics device was reset; a still picture is shown until it is back."); });
     this.canvas.addEventListener("webglcontextrestored", () => { this.start(); show_picture(true); say(""); this.change(); });
-    new ResizeObserver(() => this.change()).observe(element("stage"));
+    new ResizeObserver(() => this.change()).observe($("stage"));
   }
 
   get view() { return this.figure.views[this.view_number]; }
@@ -40,7 +40,7 @@ class Viewer {
       made.textContent = text;
       return made;
     });
-    element("labels").replaceChildren(...this.texts);
+    $("labels").replaceChildren(...this.texts);
   }
 
   /// Shows another figure, whose number no other has; the camera stays.
@@ -93,7 +93,7 @@ class Viewer {
   set_scheme(scheme) {
     this.scheme = scheme;
     this.caster.set_scheme(scheme);
-    element("legend").innerHTML = this.figure.schemes[scheme].legend;  // escaped where it was written
+    $("legend").innerHTML = this.figure.schemes[scheme].legend;  // escaped where it was written
     this.change();
   }
 
@@ -174,14 +174,14 @@ class Viewer {
   get casts() { return this.caster !== null && this.caster !== this.pictures; }
 
   pixels() {
-    const stage = element("stage"), scale = Math.min(window.devicePixelRatio || 1,
+    const stage = $("stage"), scale = Math.min(window.devicePixelRatio || 1,
       kMostPixels / Math.max(stage.clientWidth, stage.clientHeight, 1));
     return [Math.max(1, Math.round(stage.clientWidth * scale)), Math.max(1, Math.round(stage.clientHeight * scale))];
   }
 
   /// By how much more is seen from top to bottom than the camera says.
   growth() {
-    const [width, height] = this.figure.size, { clientWidth, clientHeight } = element("stage");
+    const [width, height] = this.figure.size, { clientWidth, clientHeight } = $("stage");
     return Math.max(1, (width / height) * (clientHeight / Math.max(clientWidth, 1)));
   }
 
@@ -230,20 +230,14 @@ class Viewer {
 
   /// Where points are seen, CSS pixels from the top left; nothing for those behind the camera.
   places(points) {
-    const { right, up, forward, eye_distance, pixel_size, orthographic, pivot } = this.caster.frame;
-    const scale = this.canvas.clientHeight / this.caster.whole[1], { clientWidth, clientHeight } = this.canvas;
-    return points.map((point) => {
-      const from = minus(point, pivot), depth = eye_distance + dot(from, forward);
-      if (!orthographic && depth <= 0) return null;
-      const unit_size = pixel_size * (orthographic ? 1 : depth / eye_distance) / scale;
-      return [clientWidth / 2 + dot(from, right) / unit_size, clientHeight / 2 - dot(from, up) / unit_size];
-    });
+    const { frame, whole } = this.caster, { clientWidth, clientHeight } = this.canvas;
+    return places_of(points, { ...frame, pixel_size: frame.pixel_size * whole[1] / clientHeight }, [clientWidth, clientHeight]);
   }
 
   /// Labels stand at their atoms, in front of all.
   draw_labels() {
     const { labels } = this.figure, dark = this.background.reduce((sum, c) => sum + c, 0) < 1.5;
-    element("labels").classList.toggle("on-dark", dark);
+    $("labels").classList.toggle("on-dark", dark);
     this.places(labels.map(({ point }) => point)).forEach((place, n) => {
       const text = this.texts[n];
       text.setAttribute("visibility", place ? "visible" : "hidden");
@@ -322,7 +316,7 @@ class Viewer {
 
   /// Labels on a picture so many pixels wide.
   paint_labels(context, width) {
-    const style = getComputedStyle(element("labels")), scale = width / this.canvas.clientWidth;
+    const style = getComputedStyle($("labels")), scale = width / this.canvas.clientWidth;
     context.scale(scale, scale);
     Object.assign(context, { font: `600 ${style.fontSize} ${style.fontFamily}`, textAlign: "center", textBaseline: "middle", lineWidth: 3, lineJoin: "round" });
     this.places(this.figure.labels.map(({ point }) => point)).forEach((place, n) => {

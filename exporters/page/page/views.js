@@ -36,18 +36,18 @@ function follow_views(viewer) {
   const show = (number) => {
     const view = viewer.figure.views[number];
     Object.assign(viewer, { view_number: number, cut: null, depth: 0, opacity: view.opacity });
-    Object.assign(element("cut"), { value: 0 });
-    Object.assign(element("opacity"), { value: 100 * view.opacity });
-    element("projection").value = projection_of(view.camera);
-    element("picked").textContent = view.name;
+    Object.assign($("cut"), { value: 0 });
+    Object.assign($("opacity"), { value: 100 * view.opacity });
+    $("projection").value = projection_of(view.camera);
+    $("picked").textContent = view.name;
     viewer.set_layers();
     glide(viewer, view.camera);
   };
-  element("reset").addEventListener("click", () => show(0));
+  $("reset").addEventListener("click", () => show(0));
   viewer.figure.views.forEach(({ name }, number) => {
     if (number === 0) return;
     const button = Object.assign(document.createElement("button"), { type: "button", textContent: name });
     button.addEventListener("click", () => show(number));
-    element("views").append(button);
+    $("views").append(button);
   });
 }

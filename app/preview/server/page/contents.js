@@ -2,8 +2,6 @@
 // What the molecule consists of: a list of its chains, ligands, ions and waters, and the sequence of a chain.
 import { element } from "./figure.js";
 
-const $ = (id) => document.getElementById(id);
-
 /// Shows the list and the sequence; selection: of select_controls(). Returns show(state).
 export function contents_controls({ command, ask }, selection) {
   let entries = [], known = "", chain = null;  // chain: the entry whose sequence is shown

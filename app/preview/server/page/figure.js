@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The controls of the figure: a chip for each thing shown, cuts, caps, legend, kept views.
 
-const $ = (id) => document.getElementById(id);
-
 export function element(tag, properties = {}, ...children) {
   const made = Object.assign(document.createElement(tag), properties);
   made.append(...children);

@@ -18,7 +18,7 @@ const has_lines = ({ values }) => ["silhouettes", "outer_lines", "inner_lines", 
 
 /// Returns press(key), which does what the key means, and returns false for keys without a meaning. state() is what the
 /// program shows, schemes() the words of the colour schemes, name() goes to the name of what is written.
-export function program_keys({ command, set, state, schemes, name }) {
+export function program_keys({ command, set, set_scheme, state, schemes, name }) {
   const values = () => state().values;
   const flip = (key, is_on) => set(key, is_on ? 0 : kUsual[key]);
   const last = {};  // what the keys have set, and when
@@ -52,7 +52,7 @@ export function program_keys({ command, set, state, schemes, name }) {
   };
   return (key) => {
     const scheme = /^[1-9]$/.test(key) && schemes().filter((word) => !kUnnumbered.includes(word))[key - 1];
-    const act = scheme ? () => set("surface.color", [scheme, ...values()["surface.color"].filter((entry) => entry.includes("="))]) : acts[key.toLowerCase()];
+    const act = scheme ? () => set_scheme(scheme) : acts[key.toLowerCase()];
     if (act) act();
     return Boolean(act);
   };

@@ -6,13 +6,14 @@ import { contents_controls } from "./contents.js";
 import { figure_controls, rows_of } from "./figure.js";
 import { key_help, program_keys } from "./keys.js";
 import { follow_lamp, place_lamp } from "./lamp.js";
+import { forget_fault, is_working, say_anew, say_fault, say_working, sentence_of, tell } from "./notices.js";
+import { open_controls } from "./open.js";
 import { Pictures } from "./pictures.js";
 import { hex_of, property_controls } from "./properties.js";
 import { select_controls } from "./select.js";
 import { strip_controls } from "./strip.js";
 import { write_controls } from "./write.js";
 
-const $ = element;
 place_sections();
 remember_sections(["cutting", "viewing"]);
 
@@ -32,14 +33,18 @@ const server = new Connection({
   picture: (message, bytes) => show_program_picture(message, bytes).finally(want),
   figure: (message, bytes) => show_program_figure(message, bytes).finally(want),
   welcome: async (message) => {
+    largest_file = message.largest_file;
     set_role(message.controls);
+    if (sessionStorage.getItem(kOpened)) server.request("control");
+    sessionStorage.removeItem(kOpened);
     server.ask({ command: "choices" }).then(fill_choices);
     writing.begin();
     await fit();  // before a picture is asked for, which would have another size
   },
   role: (message) => { set_role(message.controls); fit(); },
   progress: (message) => say_working(message.what),
-  error: (message) => { apply_state(message.state); tell(message.error, true); },
+  error: (message) => { is_opening = false; apply_state(message.state); say_fault(sentence_of(message.error)); },
+  opened: show_other_molecule,
   ended: (message) => { end(message.error ?? "The preview has ended.", Boolean(message.error)); },
   lost: () => {
     end("The connection to the preview is lost; trying again …", true);
@@ -65,12 +70,10 @@ const tells_only = new Set(["pick", "export", "export_state", "cancel_export", "
 const changes_state = new Set(["key", "keep_scene", "forget_scene", "time_scene", "play", "pause", "save"]);
 let last_change = 0;
 
-/// What an error says, without the words of its command and its property, which are a program's and no reader's.
-const sentence_of = (error, word) => error.replace(new RegExp(`^${word}: ([a-z]+\\.[a-z_]+: )?`), "");
-
 /// Carries out a command; a refusal is said, to the controls it came from if they can tell it. Returns the reply, or
 /// null.
 async function command(word, values = {}, refuse = (text) => tell(text, true)) {
+  if (is_opening) return null;  // what is done now would be lost
   if (word !== "camera") tell_camera();
   if (!tells_only.has(word)) {
     const now = performance.now();
@@ -85,7 +88,7 @@ async function command(word, values = {}, refuse = (text) => tell(text, true)) {
   if (viewer?.casts && word !== "camera" && reply.revision !== undefined) follow_change(reply.revision);
   note_rest();
   if (!reply.ok && reply.error) refuse(sentence_of(reply.error, word));
-  else if (reply.ok && word !== "resize") forget_errors();
+  else if (reply.ok && word !== "resize") { forget_fault(); selection.forget_fault(); }
   if (reply.ok && reply.revision === undefined && changes_state.has(word)) ask_state();
   return reply.ok ? reply : null;
 }
@@ -173,33 +176,16 @@ const page_camera = (camera, now = { fov: 30, height: 1 }, origin = [0, 0, 0]) =
 
 // Messages
 
-let message_timer = 0;
-let working = null;  // what is done before the first picture, and since when
-let stays = true;    // does what is said stay until another takes its place by say_anew()?
-const kAgain = "meniscus connected again";  // in the session's storage
-say("The first picture …", { is_error: false });
-setInterval(() => { if (working) say_working(working.what); }, 1000);
+const kAgain = "meniscus connected again", kOpened = "meniscus opened here";  // in the session's storage
+let is_opening = false;  // is another molecule on its way from this page?
+let largest_file = 0;    // bytes of one that the server takes
 
-/// What takes long, and how long it has by now.
-function say_working(what) {
-  const now = performance.now();
-  if (working?.what !== what) working = { what, since: now };
-  const seconds = Math.floor((now - working.since) / 1000);
-  if ($("message").textContent !== `${what} …`) $("message").textContent = `${what} …`;
-  $("message").dataset.seconds = seconds < 1 ? "" : ` ${seconds} s`;  // which nobody wants to hear each time
-}
-
-/// Says a sentence over the picture for some seconds, or until another takes its place by say_anew().
-function tell(text, is_error = false, for_good = false) {
-  if (stays && ($("message").classList.contains("error") || !is_error)) return;
-  stays = for_good;
-  say(text, { is_error, seconds: for_good ? 0 : 6 });
-}
-
-/// What was wrong with an earlier command, once another one has worked.
-function forget_errors() {
-  if ($("message").classList.contains("error") && !stays) $("message").hidden = true;
-  selection.forget_fault();
+/// A fresh page, with nothing of the molecule before.
+function show_other_molecule() {
+  for (const key of Object.keys(sessionStorage)) if (key.startsWith("meniscus ")) sessionStorage.removeItem(key);
+  if (controls) sessionStorage.setItem(kOpened, "yes");
+  state = null;  // nobody wants what is gone
+  location.reload();
 }
 
 /// A fresh page, once the server answers again.
@@ -218,17 +204,8 @@ async function connect_again() {
 
 /// The last word.
 function end(text, is_error) {
-  working = null;
-  say_anew("");
-  tell(text, is_error, true);
+  say_anew(text, is_error, true);
   $("controls").disabled = true;
-}
-
-/// In place of one that stays.
-function say_anew(text, is_error = false) {
-  stays = false;
-  allow_controls();
-  tell(text, is_error);
 }
 
 function set_role(in_control) {
@@ -304,8 +281,7 @@ async function show_program_picture(message, bytes) {
   Object.assign(times.program, message.full ? { rest: took } : { draft: took / share ** 2, took });
   if (message.balls) {
     say_working(`Computing the surface of ${message.state.atoms.toLocaleString("en")} atoms`);
-  } else if (!shown || working) {
-    working = null;
+  } else if (!shown || (is_working() && !is_opening)) {
     say_anew(sessionStorage.getItem(kAgain) ? "Connected again." : "");
     sessionStorage.removeItem(kAgain);
   }
@@ -346,14 +322,19 @@ new ResizeObserver(fit).observe(stage);
 
 // State
 
-const context = { command, set, ask, say: (text, is_error) => tell(text, is_error), viewer: () => viewer };
+const context = { command, set, ask, say: tell, viewer: () => viewer, page_camera };
 const show_figure = figure_controls(context);
 const properties = property_controls(context);
 const show_strip = strip_controls(context);
 const selection = select_controls(context);
 const show_contents = contents_controls(context, selection);
-const press = program_keys({ command, set, state: () => state, schemes: () => schemes, name: go_to_name });
+const press = program_keys({ command, set, set_scheme, state: () => state, schemes: () => schemes, name: go_to_name });
+open_controls({ ask: (question) => server.ask(question), may: () => controls, loses: () => Boolean(state?.unsaved), largest: () => largest_file,
+  work: (what) => { is_opening = Boolean(what); if (what) say_working(what); else say_anew(""); }, fail: (error) => say_fault(sentence_of(error)) });
 const writing = write_controls({ ...context, picture: () => has_picture() ? full_picture : null, changed: ask_state });
+
+/// Colours by another scheme; the rules stay.
+function set_scheme(scheme) { set("surface.color", [scheme, ...state.values["surface.color"].filter((entry) => entry.includes("="))]); }
 
 /// At once: what is typed behind the key that opens a field is for the field, however late the session replies.
 function go_to_name() {
@@ -461,7 +442,6 @@ const set_probe = (radius) => { if (Number.isFinite(radius)) set("surface.probe"
 $("probe").addEventListener("input", (event) => set_probe(event.target.valueAsNumber));
 $("probe-number").addEventListener("change", (event) => set_probe(event.target.valueAsNumber));
 
-const set_scheme = (scheme) => set("surface.color", [scheme, ...state.values["surface.color"].filter((entry) => entry.includes("="))]);
 $("scheme").addEventListener("change", () => set_scheme($("scheme").value === kOneColor ? $("one-color").value : $("scheme").value));
 $("one-color").addEventListener("input", () => set_scheme($("one-color").value));
 $("range").addEventListener("change", () => set("surface.color_range", $("range").value.trim() || null));
@@ -481,36 +461,7 @@ $("key").addEventListener("click", () => command("key", { on: !is_key(state) }))
 $("follow").addEventListener("change", (event) => command("follow_keys", { on: event.target.checked }));
 $("rate").addEventListener("change", () => { if (state?.playing) command("play", { fps: $("rate").valueAsNumber || 10 }); });
 
-// Atoms under the cursor
-
-const kHoverRest = 120;  // ms that the pointer rests before an atom is named
-let hovered = 0;  // number of the latest hover; older answers are late
-
-canvas.addEventListener("pointermove", (event) => {
-  const number = ++hovered;
-  $("tip").hidden = true;
-  if (event.buttons === 0) setTimeout(() => { if (number === hovered) hover(event, number); }, kHoverRest);
-});
-for (const kind of ["pointerdown", "pointerleave"])
-  canvas.addEventListener(kind, () => { ++hovered; $("tip").hidden = true; });
 canvas.addEventListener("pointerdown", () => { last_change = 0; });
-
-async function hover(event, number, more = 10) {
-  if (canvas.dataset.rest !== "true") return;
-  const found = await viewer.pick(event.clientX, event.clientY);
-  if (number !== hovered || !found) return;
-  const tip = $("tip"), area = found.exposed_area;
-  tip.hidden = false;
-  const [label, what] = found.label ? [found.label, found.what] : viewer.words(found).split(" – ");
-  tip.children[0].textContent = label;
-  tip.children[1].textContent = (what ?? "") + (typeof area === "number" ? ` · ${area.toFixed(2)} Å² exposed` : "");
-  const { left, top } = stage.getBoundingClientRect();
-  const x = Math.min(event.clientX - left + 14, stage.clientWidth - tip.offsetWidth - 8);
-  const y = Math.min(event.clientY - top + 16, stage.clientHeight - tip.offsetHeight - 8);
-  tip.style.transform = `translate(${Math.max(x, 0)}px, ${Math.max(y, 0)}px)`;
-  // Where it is cheap the area comes soon.
-  if (found.area_follows && more > 0) setTimeout(() => { if (number === hovered) hover(event, number, more - 1); }, 300);
-}
 
 /// The server keeps the figure, but nobody may come back to it.
 window.addEventListener("beforeunload", (event) => { if (controls && state?.unsaved) event.preventDefault(); });

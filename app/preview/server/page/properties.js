@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Controls made from the table of properties, with its words, limits and help.
 
-const $ = (id) => document.getElementById(id);
 const kSuchAs = { "image.width": "such as 85mm", "image.dpi": "300" };
 const kWords = { ses: "solvent-excluded", sas: "solvent-accessible", vdw: "van der Waals" };
 export const hex_of = (color) => ({ black: "#000000", white: "#ffffff" })[color] ?? (/^#/.test(color) ? color : null);
@@ -62,5 +61,5 @@ export function property_controls({ command }) {
     }
   }
 
-  return { fill, show, row_of: (key) => $(key.replace(".", "-"))?.parentElement };
+  return { fill, show };
 }

@@ -3,10 +3,10 @@
 // card with what can be done with them.
 import { element, kShapes, rows_of, shape_words } from "./figure.js";
 
-const $ = (id) => document.getElementById(id);
 const kSeries = 400;                             // ms between the clicks of a double or triple click
 const kNear = 6;                                 // CSS pixels between them
 const kAround = 5;                               // Å
+const kHoverRest = 120;                          // ms that the pointer rests before an atom is named
 const kLevels = ["atom", "residue", "molecule"];  // selected by one, two and three clicks
 
 /// Returns the rule of a label, which names a residue or an atom as "ASP 25" or "ASP 25 CA".
@@ -15,22 +15,41 @@ function label_of({ selection, name }) {
   return `${selection}=${residue ? [residue, number, atom].filter(Boolean).join(" ") : name}`;
 }
 
-/// Returns where a camera of a state shows points, in pixels of a picture of this size; null for points behind it.
-function projected(points, { position, target, up, projection, vertical_fov, height }, [width, rows]) {
-  const forward = unit(minus(target, position)), right = unit(cross(forward, up)), above = cross(right, forward);
-  return points.map((point) => {
-    const from = minus(point, position), depth = dot(from, forward);
-    if (projection === "perspective" && depth <= 0) return null;
-    const half = projection === "perspective" ? depth * Math.tan(vertical_fov * Math.PI / 360) : height / 2;
-    return [width / 2 + rows / 2 * dot(from, right) / half, rows / 2 - rows / 2 * dot(from, above) / half];
-  });
+/// Names the atom under the cursor, with its exposed area. viewer(): what draws the stage.
+function follow_hover(viewer) {
+  const canvas = $("picture"), tip = $("tip");
+  let hovered = 0;  // number of the latest hover; older answers are late
+
+  async function hover(event, number, more = 10) {
+    if (canvas.dataset.rest !== "true") return;
+    const found = await viewer().pick(event.clientX, event.clientY);
+    if (number !== hovered || !found) return;
+    const area = found.exposed_area, [label, what] = found.label ? [found.label, found.what] : viewer().words(found).split(" – ");
+    tip.hidden = false;
+    tip.children[0].textContent = label;
+    tip.children[1].textContent = (what ?? "") + (typeof area === "number" ? ` · ${area.toFixed(2)} Å² exposed` : "");
+    const { left, top } = $("stage").getBoundingClientRect(), { clientWidth, clientHeight } = $("stage");
+    const x = Math.min(event.clientX - left + 14, clientWidth - tip.offsetWidth - 8);
+    const y = Math.min(event.clientY - top + 16, clientHeight - tip.offsetHeight - 8);
+    tip.style.transform = `translate(${Math.max(x, 0)}px, ${Math.max(y, 0)}px)`;
+    // Where it is cheap the area comes soon.
+    if (found.area_follows && more > 0) setTimeout(() => { if (number === hovered) hover(event, number, more - 1); }, 300);
+  }
+
+  for (const kind of ["pointermove", "pointerdown", "pointerleave"])
+    canvas.addEventListener(kind, (event) => {
+      const number = ++hovered;
+      tip.hidden = true;
+      if (kind === "pointermove" && event.buttons === 0) setTimeout(() => { if (number === hovered) hover(event, number); }, kHoverRest);
+    });
 }
 
 /// Returns the selection: {click(found, event), choose(entry, adds), forget_fault(), has(text), listen(listener), show(state)}.
 /// An entry is {selection, name, residue, molecule}: its expression, its name for people, and the expressions of the
 /// residue and the chain that it is part of. `viewer` returns what draws the stage.
-export function select_controls({ command, set, ask, say, viewer }) {
+export function select_controls({ command, set, ask, say, viewer, page_camera }) {
   const card = $("card"), listeners = [];
+  follow_hover(viewer);
   let entries = [], series = { at: -1e9 }, state = null, located = null, key = "", latest = 0, offered = "", labels = [], placed = 0;
   let size = null, written = null;  // of the molecule's part of the picture; the labels that the viewer has
 
@@ -197,7 +216,8 @@ export function select_controls({ command, set, ask, say, viewer }) {
   function draw() {
     const { width = 1, height = 1, camera } = state ?? {}, svg = $("rings"), { figure } = viewer();
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    const place = (points) => state ? projected(points, camera, size ?? [width, height]) : [];
+    const box = size ?? [width, height], frame = state && frame_of(page_camera(camera), ...box);
+    const place = (points) => state ? places_of(points, frame, box) : [];
     const rings = place(located?.points ?? []).filter(Boolean).map(([cx, cy]) => drawn("circle", { cx, cy, r: located.points.length > 60 ? 3 : 6 }));
     const texts = place(labels.map(({ point }) => point)).map((at, n) => at && drawn("text", { x: at[0], y: at[1] }, labels[n].text));
     svg.replaceChildren(...rings, ...texts.filter(Boolean));

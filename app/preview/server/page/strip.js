@@ -2,7 +2,6 @@
 // The strip: scenes that are kept for a film, and the way from each to the next.
 import { element, remove_button } from "./figure.js";
 
-const $ = (id) => document.getElementById(id);
 const kThumb = 112;  // pixels across a small picture
 
 /// Returns a small picture of the stage.

@@ -3,7 +3,6 @@
 import { element } from "./figure.js";
 import { hex_of } from "./properties.js";
 
-const $ = (id) => document.getElementById(id);
 const kEndings = { film: ".mp4", povray: "", blender: ".mns", scene: ".json", story: ".json", camera_path: ".json" };
 const kFilms = { strip: "Strip", turntable: "Turntable", frames: "Frames" };
 
