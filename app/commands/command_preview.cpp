@@ -212,8 +212,7 @@ bool is_trajectory(const std::string& name) {
   for (const TrajectoryFormat* format : formats.first(formats.size() - 1))
     if (format->metadata.names(plain)) return true;
   if (std::ranges::none_of(readers(), [&](const Reader* reader) { return reader->metadata.names(plain); }))
-    throw RequestError(
-        fmt::format("{}: its name says no molecule and no trajectory; {} are read", name, format_names()));
+    throw RequestError("{}: its name says no molecule and no trajectory; {} are read", name, format_names());
   return false;
 }
 

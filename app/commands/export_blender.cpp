@@ -66,8 +66,8 @@ void log_size(const SceneCommand& command, const FigureMeshes& meshes, const Mes
 void export_to_blender(const SceneCommand& requested) {
   check_blender(requested.scene);
   if (requested.scene.output.ends_with(".blend"))
-    throw UsageError(fmt::format("{}: Blender writes .blend files; name this one .mns, and import it with the add-on",
-                                 requested.scene.output));
+    throw UsageError("{}: Blender writes .blend files; name this one .mns, and import it with the add-on",
+                     requested.scene.output);
   check_saved_camera(requested);
   const blender::SurfaceNumbers numbers = blender::parse_surface_numbers(requested.scene.mesh.attributes);
   FigureRun run(requested, Velocities::central);

@@ -130,8 +130,8 @@ CommandReader::CommandReader(const nlohmann::json& command) : command_(command) 
 void CommandReader::expect_only(std::span<const std::string_view> keys) const {
   for (const auto& [key, value] : command_.items()) {
     if (key == "command" || std::ranges::find(keys, key) != keys.end()) continue;
-    throw RequestError(fmt::format("{}: unknown key {}; {}", shown_word(), in_quotes(key),
-                                   keys.empty() ? "it takes none" : fmt::format("it takes {}", fmt::join(keys, ", "))));
+    throw RequestError("{}: unknown key {}; {}", shown_word(), in_quotes(key),
+                       keys.empty() ? "it takes none" : fmt::format("it takes {}", fmt::join(keys, ", ")));
   }
 }
 
@@ -139,7 +139,7 @@ const nlohmann::json& CommandReader::value(const char* key) const {
   const auto found = command_.find(key);
   if (found != command_.end()) return *found;
   if (std::string_view(key) == "command") throw RequestError("\"command\" is missing, the word that says what to do");
-  throw RequestError(fmt::format("{}: \"{}\" is missing", shown_word(), key));
+  throw RequestError("{}: \"{}\" is missing", shown_word(), key);
 }
 
 double CommandReader::number(const char* key, double lowest, double highest) const {
@@ -185,8 +185,7 @@ std::string CommandReader::shown_word() const {
 
 void CommandReader::fail(const char* key, const std::string& wanted) const {
   const bool named = std::string_view(key) != "command";
-  throw RequestError(
-      fmt::format("{}\"{}\" is {}; it must be {}", named ? shown_word() + ": " : "", key, shown(value(key)), wanted));
+  throw RequestError("{}\"{}\" is {}; it must be {}", named ? shown_word() + ": " : "", key, shown(value(key)), wanted);
 }
 
 }  // namespace meniscus

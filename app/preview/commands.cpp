@@ -83,11 +83,10 @@ const Command& row_of(const CommandReader& command) {
   if (row == command_table().end()) {
     for (const auto& [word, key] : kFormerWords)
       if (command.word() == word)
-        throw RequestError(fmt::format("{} is no command any more; use set with the key {}", in_quotes(word), key));
+        throw RequestError("{} is no command any more; use set with the key {}", in_quotes(word), key);
     std::vector<std::string_view> words;
     for (const Command& known : command_table()) words.push_back(known.word);
-    throw RequestError(
-        fmt::format("{} is not a command; the commands are {}", in_quotes(command.word()), fmt::join(words, ", ")));
+    throw RequestError("{} is not a command; the commands are {}", in_quotes(command.word()), fmt::join(words, ", "));
   }
   command.expect_only(row->keys);
   return *row;

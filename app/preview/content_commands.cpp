@@ -235,8 +235,7 @@ FigureObjectRequest companion_object(const Selection& atoms, ShapeKind kind) {
 /// Adds an object to the figure. Throws RequestError if there is no room for it.
 void add_object(PreviewFigure& figure, FigureObjectRequest object) {
   if (figure.figure.representations.requests.size() + figure.figure.objects.size() >= kMostShown)
-    throw RequestError(
-        fmt::format("at most {} sets of atoms can be drawn in addition to the surface; remove one", kMostShown));
+    throw RequestError("at most {} sets of atoms can be drawn in addition to the surface; remove one", kMostShown);
   figure.figure.objects.push_back(std::move(object));
 }
 

@@ -47,14 +47,14 @@ enum class Format { png, povray, blender, film, camera, camera_path };  // the l
 void check_ending(const std::string& name, Format format) {
   constexpr std::string_view kEndings[] = {"", "", ".mns", "", ".json", ".json"};
   if (format == Format::film && !is_film_path(name))
-    throw RequestError(fmt::format("export: \"path\" is {}; a film's name must end in .mp4, .mov, .mkv, .webm or .gif",
-                                   in_quotes(name)));
+    throw RequestError("export: \"path\" is {}; a film's name must end in .mp4, .mov, .mkv, .webm or .gif",
+                       in_quotes(name));
   if (format == Format::povray ? name.find('.') != std::string::npos
                                : !name.ends_with(kEndings[static_cast<std::size_t>(format)]))
-    throw RequestError(fmt::format(
-        "export: \"path\" is {}; {}", in_quotes(name),
-        format == Format::povray ? "a scene is a folder, whose name has no dot"
-                                 : fmt::format("its name must end in {}", kEndings[static_cast<std::size_t>(format)])));
+    throw RequestError("export: \"path\" is {}; {}", in_quotes(name),
+                       format == Format::povray
+                           ? "a scene is a folder, whose name has no dot"
+                           : fmt::format("its name must end in {}", kEndings[static_cast<std::size_t>(format)]));
 }
 
 /// The work of an export of what takes long.
@@ -141,9 +141,9 @@ Scene shown_scene(const CommandReader& command, const Surroundings& around) {
     using By = ColorScheme::By;
     if (state.molecule.color.by == By::index || state.molecule.color.by == By::radial)
       throw RequestError(
-          fmt::format("{}: {} counts the atoms of all models here, and those of one in a picture by "
-                      "render; choose another scheme",
-                      command.word(), in_quotes(scheme_word(state.molecule.color))));
+          "{}: {} counts the atoms of all models here, and those of one in a picture by "
+          "render; choose another scheme",
+          command.word(), in_quotes(scheme_word(state.molecule.color)));
     view.model = molecule.model_of(state.frame);
     // A model alone would have a scale of its own.
     if (state.molecule.color.has_scale() && !(state.molecule.color.takes_file() && state.molecule.color.file.of_colors))
@@ -170,7 +170,7 @@ std::string strip_text(const CommandReader& command, const Surroundings& around,
     scene.output.clear();
     if (around.molecule.has_trajectory()) show_one_frame(scene, around.molecule.number_of(kept.frame));
     if (const std::string fault = scene_fault(scene); !fault.empty())
-      throw RequestError(fmt::format("{}: {}", command.word(), fault));
+      throw RequestError("{}: {}", command.word(), fault);
     story.scenes.push_back(scene_text(scene, folder, around.molecule.structure().added));
     story.hold.push_back(kept.hold);
     story.transition.push_back(kept.transition);
@@ -319,7 +319,7 @@ Json save_scene(const CommandReader& command, const Surroundings& around) {
   if (!exporter.context.writes_scenes) throw RequestError("save: this preview writes no scenes");
   const std::string name = command.text("path");
   if (!name.ends_with(".json"))
-    throw RequestError(fmt::format("save: \"path\" is {}; a scene's name must end in .json", in_quotes(name)));
+    throw RequestError("save: \"path\" is {}; a scene's name must end in .json", in_quotes(name));
   const ExportTarget target = target_of(command, exporter.folder);
   const std::string folder = target.path.parent_path().string();
   const bool is_strip = command.flag_or(false, "strip");
@@ -354,8 +354,7 @@ Outcome open_scene(const CommandReader& command, PreviewState state, const Surro
     static_cast<PreviewFigure&>(state) = std::move(opened.figure);
     require_copies_apart(molecule.structure(), state, around.state.probe_reach());
     if (molecule.has_models()) state.frame = static_cast<std::size_t>(opened.frame);
-    if (state.frame >= molecule.frame_count())
-      throw RequestError(fmt::format("open: {} is of a model that is not there", name));
+    if (state.frame >= molecule.frame_count()) throw RequestError("open: {} is of a model that is not there", name);
   };
   if (story) state.strip.clear();
   for (std::size_t n = story ? story->scenes.size() : 1; n-- > 0;) {

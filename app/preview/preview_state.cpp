@@ -29,7 +29,7 @@ std::string who_shows(ColorScheme::By scheme, bool has_numbers) {
 
 void require_shown(const ColorScheme& color) {
   if (const std::string who = who_shows(color.by, !color.file.empty()); !who.empty())
-    throw RequestError(fmt::format("colour by {} needs more than atoms: {}", in_quotes(scheme_word(color)), who));
+    throw RequestError("colour by {} needs more than atoms: {}", in_quotes(scheme_word(color)), who);
 }
 
 }  // namespace

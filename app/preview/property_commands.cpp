@@ -43,8 +43,8 @@ const Property& live_property(const std::string& key) {
     keys.push_back(property->key);
   }
   const std::string_view nearest = nearest_word(key, keys);
-  throw RequestError(fmt::format("set: \"key\" is {}, which is not a property that the preview changes{}",
-                                 in_quotes(key), nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
+  throw RequestError("set: \"key\" is {}, which is not a property that the preview changes{}", in_quotes(key),
+                     nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest));
 }
 
 /// Returns the value in the form of replace_value(). Throws RequestError.
@@ -57,7 +57,7 @@ Texts given_texts(const Property& property, Ordered value) {
   try {
     return texts_of_json(property, value);
   } catch (const RequestError& error) {
-    throw RequestError(fmt::format("{} {}", in_quotes(shortened(value.dump(), 60)), error.what()));
+    throw RequestError("{} {}", in_quotes(shortened(value.dump(), 60)), error.what());
   }
 }
 
@@ -106,9 +106,9 @@ void check_extent(const Property& property, const Scene& scene) {
   const std::size_t most = property.key == "surface.clip" ? kMostCuts : is_drawn ? kMostShown : kMostEntries;
   const std::size_t count =
       is_drawn ? scene.figure.representations.requests.size() + scene.figure.objects.size() : texts.size();
-  if (count > most) throw RequestError(fmt::format("at most {} entries are allowed, not {}", most, count));
+  if (count > most) throw RequestError("at most {} entries are allowed, not {}", most, count);
   if (property.section() == "legend" && !texts.empty() && texts.back().size() > kLongestText)
-    throw RequestError(fmt::format("at most {} letters are allowed", kLongestText));
+    throw RequestError("at most {} letters are allowed", kLongestText);
 }
 
 /// Throws RequestError for a value that contradicts others.
@@ -118,7 +118,7 @@ void check_among_others(const Property& property, const Scene& scene, const Show
     throw RequestError("the van der Waals surface has no probe; choose another kind of surface first");
   if (!color.uses_scale() && (property.key == "surface.map" || property.key == "surface.color_range" ||
                               property.key == "surface.missing_color"))
-    throw RequestError(fmt::format("is for colours by a number, not {}", in_quotes(scheme_word(color))));
+    throw RequestError("is for colours by a number, not {}", in_quotes(scheme_word(color)));
   if (property.key == "surface.patches") patch_atoms(*scene.molecule.patches, molecule.annotated_structure());
   if (property.key == "annotations.labels") annotations_of(scene.annotations, molecule.annotated_structure());
   if (property.key == kObjects)
@@ -278,9 +278,9 @@ Outcome set_property(const CommandReader& command, PreviewState state, const Sur
       state.has_size = !texts.empty() || scene_values::has_lengths_of_sides(state);
     follow(property, state, around);
   } catch (const SelectionError& error) {
-    throw RequestError(fmt::format("{}: {}: {}", word, key, error.sentence()));
+    throw RequestError("{}: {}: {}", word, key, error.sentence());
   } catch (const RequestError& error) {
-    throw RequestError(fmt::format("{}: {}: {}", word, key, error.what()));
+    throw RequestError("{}: {}: {}", word, key, error.what());
   }
   const bool is_changed = entry && word != "add" && !entry->is_removed;
   // The places of a slider that follow each other are one step; any other value is a step by itself.

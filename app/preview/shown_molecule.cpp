@@ -114,9 +114,8 @@ std::vector<Ball> balls_shown(const ShownMolecule& molecule, const PreviewFigure
 std::size_t count_of(const std::vector<bool>& shown, const PreviewFigure& figure, const ShownMolecule& molecule) {
   const auto count = static_cast<std::size_t>(std::ranges::count(shown, true));
   if (count > 0) return count;
-  throw RequestError(fmt::format("nothing would be left of the surface of {}; {}",
-                                 in_quotes(figure.molecule.show->text()),
-                                 figure.molecule.show->why_none(molecule.atoms_in_view())));
+  throw RequestError("nothing would be left of the surface of {}; {}", in_quotes(figure.molecule.show->text()),
+                     figure.molecule.show->why_none(molecule.atoms_in_view()));
 }
 
 }  // namespace

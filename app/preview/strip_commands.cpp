@@ -63,7 +63,7 @@ Outcome at_place(PreviewState state, double place, const Surroundings& around) {
 
 /// The scene that "index" names.
 std::vector<KeptScene>::iterator scene_in(const CommandReader& command, PreviewState& state) {
-  if (state.strip.empty()) throw RequestError(fmt::format("{}: no scene is kept", command.word()));
+  if (state.strip.empty()) throw RequestError("{}: no scene is kept", command.word());
   return state.strip.begin() + command.integer("index", 0, static_cast<int>(state.strip.size()) - 1);
 }
 
@@ -89,7 +89,7 @@ Outcome keep_scene(const CommandReader& command, PreviewState state, const Surro
     *replaced = std::move(kept);
   } else {
     if (state.strip.size() == kMostScenes)
-      throw RequestError(fmt::format("keep_scene: at most {} scenes are kept; forget one", kMostScenes));
+      throw RequestError("keep_scene: at most {} scenes are kept; forget one", kMostScenes);
     if (!state.strip.empty()) with_times_of(state.strip.back());
     state.strip.push_back(std::move(kept));
     state.strip_place = static_cast<double>(state.strip.size() - 1);

@@ -258,9 +258,9 @@ void export_blender(const ExportedView& view, const ExportTarget& target, const 
 
 std::filesystem::path export_path(const std::filesystem::path& folder, const std::string& name) {
   if (!is_plain_name(name)) {
-    throw RequestError(fmt::format(
+    throw RequestError(
         "export: \"path\" is {}; it must be a plain file name of letters, digits, '.', '_' and '-', such as view.png",
-        in_quotes(name)));
+        in_quotes(name));
   }
   return folder / name;
 }

@@ -264,9 +264,8 @@ void refuse_limited_size(const std::filesystem::path& path, const ImageToEncode&
   const rlim_t largest = pixels + pixels / 1000 + kOfALine * lines + kDirectories;
   rlimit limit{};
   if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= largest) return;
-  throw OutputError(text_of_path(path),
-                    fmt::format("may have up to {} bytes, but the system limits files to {} (ulimit -f)",
-                                with_thousands(largest), with_thousands(limit.rlim_cur)));
+  throw OutputError(text_of_path(path), "may have up to {} bytes, but the system limits files to {} (ulimit -f)",
+                    with_thousands(largest), with_thousands(limit.rlim_cur));
 }
 
 }  // namespace

@@ -130,9 +130,9 @@ class AreaDivider {
       }
     if (std::abs(sum - of_surface) <= noise && least >= -noise) return;
     throw OpenSurfaceError(
-        fmt::format("the areas of atoms, {} Å² in sum and {} Å² the least, do not make up the surface's {} Å²; nothing "
-                    "was written; please report this structure",
-                    sum, least, of_surface));
+        "the areas of atoms, {} Å² in sum and {} Å² the least, do not make up the surface's {} Å²; nothing "
+        "was written; please report this structure",
+        sum, least, of_surface);
   }
 
   // Lists the atoms of patches whose shares do not add up; call it after run().

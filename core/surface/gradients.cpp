@@ -72,9 +72,9 @@ class ProbePulls {
     const std::vector<std::uint32_t> tied = tied_atoms(surface);
     if (tied.empty()) return;
     throw RequestError(
-        fmt::format("one probe touches {} atoms at once ({}): the surface has no derivative there; move one atom "
-                    "slightly, or ask for that of the accessible surface",
-                    tied.size(), fmt::join(tied, ", ")));
+        "one probe touches {} atoms at once ({}): the surface has no derivative there; move one atom "
+        "slightly, or ask for that of the accessible surface",
+        tied.size(), fmt::join(tied, ", "));
   }
 
   /// Adds, for each probe, the vector area of its patch, directed towards the probe.

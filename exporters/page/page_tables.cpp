@@ -292,8 +292,8 @@ void Tables::find_surfaces(std::span<const PictureObject> objects) {
 
 void Tables::check_size(std::size_t texels, const char* what) const {
   if (texels > kMostTexels)
-    throw CapacityError(fmt::format("a page holds at most {} texels of {}; this figure has {}. Show fewer atoms",
-                                    with_thousands(kMostTexels), what, with_thousands(texels)));
+    throw CapacityError("a page holds at most {} texels of {}; this figure has {}. Show fewer atoms",
+                        with_thousands(kMostTexels), what, with_thousands(texels));
 }
 
 }  // namespace meniscus::page

@@ -97,7 +97,7 @@ bool is_cut_or_seen_through(const PictureObject& object) { return object.surface
 void place_objects(const std::vector<PictureObject>& objects, const SurfaceObject& whole, const FigureExtras& extras,
                    const FigureRequest& request, PageFigure& shown) {
   const auto refuse = [](const char* why) {
-    throw RequestError(fmt::format("{}: pages show {}; make them alike, or use render", option_name("object"), why));
+    throw RequestError("{}: pages show {}; make them alike, or use render", option_name("object"), why);
   };
   const bool is_cut_by_views =
       std::ranges::any_of(shown.views, [](const PageView& view) { return !view.clip.empty() || view.opacity < 1.0f; });
@@ -189,7 +189,7 @@ StillPicture png_still(const Framebuffer& drawn, const Look& look) {
 
 void check_scene(const Scene& scene) {
   const auto refuse = [](const std::string& option, const char* why) {
-    throw RequestError(fmt::format("{}: pages do not show {} yet; leave it out, or use render", option, why));
+    throw RequestError("{}: pages do not show {} yet; leave it out, or use render", option, why);
   };
   for (const FigureObjectRequest& object : scene.figure.objects) {
     const ColorScheme& color = object.color ? *object.color : scene.molecule.color;
@@ -202,8 +202,8 @@ void check_scene(const Scene& scene) {
     if (object.cuts.size() > kMostPlanes) refuse(option_name("object"), "objects cut by so many planes");
   }
   if (scene.figure.cuts.size() > kMostPlanes)
-    throw RequestError(fmt::format("{}: pages show at most {} planes, and there are {}; leave some out",
-                                   option_name("clip"), kMostPlanes, scene.figure.cuts.size()));
+    throw RequestError("{}: pages show at most {} planes, and there are {}; leave some out", option_name("clip"),
+                       kMostPlanes, scene.figure.cuts.size());
 }
 
 std::vector<OtherColors> other_colors(const Structure& structure, const ColorScheme& requested,

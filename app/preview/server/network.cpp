@@ -34,8 +34,8 @@ struct Network::State {
       acceptor.listen();
       clients->port = acceptor.local_endpoint().port();
     } catch (const boost::system::system_error& error) {
-      throw RequestError(fmt::format("--serve: port {} of {} is not available: {}; try another, or 0 for any",
-                                     options.port, options.address, error.code().message()));
+      throw RequestError("--serve: port {} of {} is not available: {}; try another, or 0 for any", options.port,
+                         options.address, error.code().message());
     }
   }
 
