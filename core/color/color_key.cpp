@@ -140,9 +140,12 @@ ColorKey chain_element_key(const Structure& structure, std::vector<bool> atoms) 
     of_chains[a] = atoms[a] && has_chain_color(structure.atoms[a]);
     atoms[a] = atoms[a] && !of_chains[a];
   }
+  ColorScheme scheme;
+  scheme.by = By::chain;
   ColorKey key;
-  if (any_of(of_chains)) key = key_of_scheme(structure, {.by = By::chain}, of_chains, {});
-  if (any_of(atoms)) add_key(key, key_of_scheme(structure, {.by = By::element_cpk}, atoms, {}), "chain-element");
+  if (any_of(of_chains)) key = key_of_scheme(structure, scheme, of_chains, {});
+  scheme.by = By::element_cpk;
+  if (any_of(atoms)) add_key(key, key_of_scheme(structure, scheme, atoms, {}), "chain-element");
   return key;
 }
 

@@ -220,7 +220,7 @@ class SkyWatcher : LightedPack {
   explicit SkyWatcher(const LanePack& scene) : LightedPack(scene) {}
 
   void watch(const vec3* points, const vec3* normals, float* seen, int count) const {
-    Floats lanes[6];
+    Floats lanes[6] = {};
     for (int n = 0; n < kLanes; ++n)
       for (int axis = 0; axis < 3; ++axis) {
         lanes[axis][n] = points[n < count ? n : 0][axis];

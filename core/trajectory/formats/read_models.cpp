@@ -307,7 +307,8 @@ std::unique_ptr<Trajectory> open_models(const std::string& path, const Trajector
   const bool text =
       start.find('\0') == std::string::npos && start.find_first_not_of(" \t\r\n\v\f") != std::string::npos;
   if (text && !start.starts_with("\x1f\x8b")) {
-    const Reader& reader = choose_reader(TextFile{path, start});
+    const TextFile file{path, start};
+    const Reader& reader = choose_reader(file);
     if (can_find_text_frames(reader, start)) return std::make_unique<ModelsInFile>(path, reader);
   }
   return std::make_unique<ModelsInMemory>(path);

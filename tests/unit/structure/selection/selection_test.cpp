@@ -324,8 +324,9 @@ TEST(Selection, MistakesArePointedAt) {
           << mistake.expression << ": " << error.sentence();
       // What is proposed in place of another program's words is understood.
       const std::string sentence = error.sentence();
-      if (const std::size_t ours = sentence.find("write '"); ours != std::string::npos)
+      if (const std::size_t ours = sentence.find("write '"); ours != std::string::npos) {
         EXPECT_NO_THROW(parse_selection(sentence.substr(ours + 7, sentence.rfind('\'') - ours - 7))) << sentence;
+      }
       const std::string picture = error.picture();
       EXPECT_EQ(picture, pointed_at(mistake.expression, mistake.caret)) << mistake.expression;
     }
