@@ -6,6 +6,7 @@
 #include "app/commands/command_table.h"
 #include "app/commands/figure_meshes.h"
 #include "app/options/scene_options.h"
+#include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
 #include "core/mesh/mesh_objects.h"

@@ -374,7 +374,7 @@ class PageTest(PageCase):
     def test_a_page_of_five_thousand_atoms_is_small(self):
         size = os.path.getsize(self.export(TOXIN))
         print(f"1tii: {size} bytes")
-        self.assertLessEqual(size, 2_000_000)
+        self.assertLessEqual(size, 1_150_000)
 
 
 def asked(words):
