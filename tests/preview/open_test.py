@@ -193,8 +193,8 @@ class Opened(ServerCase):
             self.post("three.pdb", THREE)
             self.post("other.pdb", ATOMS)
             self.assertIn("two files are a molecule and its trajectory", (await self.open(client, "three.pdb", "other.pdb"))["error"])
-            self.post("run.mdcrd", RUN[:200])
-            self.assertIn("run.mdcrd", (await self.open(client, "run.mdcrd"))["error"])
+            self.post("run.xtc", "nonsense")
+            self.assertIn("run.xtc", (await self.open(client, "run.xtc"))["error"])
             self.assertEqual((await ask(client, {"command": "state"}))["frames"], 4)
 
     async def test_a_trajectory_of_the_molecule_of_the_command_line(self):
@@ -225,8 +225,9 @@ class Opened(ServerCase):
         self.preview.end()
         with open(self.path("three.pdb")) as file:
             self.assertEqual(file.read(), "another file\n")
-        for words in ([PROGRAM, *words[1:], "-o", self.path("b.png")], [PROGRAM, "render", "--scene", self.path("fig.json"), "-o", self.path("c.png")],
-                      [PROGRAM, "render", "--scene", self.path("a.png"), "-o", self.path("d.png")]):
+        program = os.path.abspath(PROGRAM)
+        for words in ([program, *words[1:], "-o", self.path("b.png")], [program, "render", "--scene", self.path("fig.json"), "-o", self.path("c.png")],
+                      [program, "render", "--scene", self.path("a.png"), "-o", self.path("d.png")]):
             done = subprocess.run([*words, "--force"], capture_output=True, text=True, timeout=120, cwd=self.folder.name)
             self.assertEqual(done.returncode, 0, done.stderr)
 

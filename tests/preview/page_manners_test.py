@@ -144,7 +144,7 @@ class PageManners(PageCase):
                 self.assertEqual(await page.evaluate(cut), [], size)
                 self.assertEqual(await page.evaluate("[...document.querySelectorAll('#panel h2')].filter((h) => "
                                                      "h.offsetParent).map((h) => h.textContent)"),
-                                 ["Contents", "Surface", "Colours", "Shown", "Cut", "View", "Look", "Frames", "Film", "Times",
+                                 ["Open another molecule", "Contents", "Surface", "Colours", "Shown", "Cut", "View", "Look", "Frames", "Film", "Times",
                                   "Write"])
                 if size[0] > 736:
                     self.assertTrue(await page.evaluate("""[...document.querySelectorAll("#writers button:not([hidden])")].every((one) =>

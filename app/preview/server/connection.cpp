@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <limits>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -184,7 +185,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
       if (const auto self = weak.lock()) self->stream_.close();
     };
     parser_.header_limit(kLargestHeader);
-    parser_.body_limit(boost::none);  // it is refused, or read by another parser with a limit
+    parser_.body_limit(std::numeric_limits<std::uint64_t>::max());  // another parser reads it, with a limit
     stream_.expires_after(std::chrono::seconds(kPatience));
     const auto answered = [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (!error) return self->answer();
@@ -255,7 +256,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void receive(std::string_view name) {
     if (!clients_->is_origin(view(parser_.get()[http::field::origin])))
       return refuse(http::status::forbidden, "this page comes from elsewhere");
-    if (!is_plain_name(name)) return refuse(http::status::bad_request, "the file name has other letters than it may have");
+    if (!is_plain_name(name))
+      return refuse(http::status::bad_request, "the file name has other letters than it may have");
     const auto length = parser_.content_length();
     if (!length) return refuse(http::status::length_required, "the request does not say how long the file is");
     if (*length > kLargestFile) return refuse(http::status::payload_too_large, "the file is too large");
