@@ -2,7 +2,7 @@
 { pkgs ? import <nixpkgs> { } }:
 pkgs.stdenv.mkDerivation {
   pname = "libmeniscus";
-  version = "0.2.0";
+  version = "0.3.0";
   src = ../..;
   nativeBuildInputs = with pkgs; [ cmake ninja pkg-config ];
   buildInputs = with pkgs; [ glm fmt (pkgs.onetbb or tbb_2021) gemmi zlib freetype nlohmann_json libdeflate ]

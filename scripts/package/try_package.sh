@@ -24,7 +24,7 @@ awk '/^```cpp$/ { on = 1; next } /^```$/ { on = 0 } on' docs/reference/library.m
 cat >"$home/cpp/CMakeLists.txt" <<'CMAKE'
 cmake_minimum_required(VERSION 3.16)
 project(balls LANGUAGES CXX)
-find_package(Meniscus 0.2 REQUIRED)
+find_package(Meniscus 0.3 REQUIRED)
 add_executable(balls balls.cpp)
 target_link_libraries(balls PRIVATE Meniscus::cpp)
 CMAKE

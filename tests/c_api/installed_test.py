@@ -42,7 +42,7 @@ def agree(found, told):
 
 CPP_PROJECT = """cmake_minimum_required(VERSION 3.16)
 project(balls LANGUAGES CXX)
-find_package(Meniscus 0.2 REQUIRED)
+find_package(Meniscus 0.3 REQUIRED)
 add_executable(balls balls.cpp)
 target_link_libraries(balls PRIVATE Meniscus::cpp)
 """

@@ -3,7 +3,7 @@
 only, and runs in Blender 3.4 and later."""
 
 bl_info = {
-    "name": "Meniscus", "author": "The Meniscus developers", "version": (0, 2, 0), "blender": (3, 4, 0),
+    "name": "Meniscus", "author": "The Meniscus developers", "version": (0, 3, 0), "blender": (3, 4, 0),
     "location": "File > Import > Meniscus surface (.mns); 3D View > Sidebar > Meniscus",
     "description": "Exact solvent-excluded molecular surfaces: import, compute, animate", "category": "Import-Export"}
 

@@ -58,7 +58,7 @@
 
 /* The version of this header; meniscus_version() returns that of the library. */
 #define MENISCUS_VERSION_MAJOR 0
-#define MENISCUS_VERSION_MINOR 2
+#define MENISCUS_VERSION_MINOR 3
 #define MENISCUS_VERSION_PATCH 0
 
 #if defined(_WIN32) && defined(MENISCUS_BUILDS_LIBRARY)
@@ -103,7 +103,7 @@ typedef enum meniscus_status {
  * valid until another call of this thread fails. */
 MENISCUS_API const char* meniscus_last_error(void);
 
-/* Returns the version of the loaded library, such as "0.2.0". */
+/* Returns the version of the loaded library, such as "0.3.0". */
 MENISCUS_API const char* meniscus_version(void);
 
 /* ---- Radii --------------------------------------------------------------------------------------------------- */

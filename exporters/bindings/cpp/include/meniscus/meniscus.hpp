@@ -111,7 +111,7 @@ Result result(Function* function, const Arguments&... arguments) {
 
 }  // namespace detail
 
-// Returns the version of the loaded library, such as "0.2.0", which may differ from that of this header.
+// Returns the version of the loaded library, such as "0.3.0", which may differ from that of this header.
 inline std::string version() { return meniscus_version(); }
 
 // ---- Radii ----
