@@ -255,7 +255,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// Takes a file that the page hands over. Only the page can ask for it, for another's Origin is another.
   void receive(std::string_view name) {
     if (!clients_->is_origin(view(parser_.get()[http::field::origin])))
-      return refuse(http::status::forbidden, "this page comes from elsewhere");
+      return refuse(http::status::forbidden, "this page is from another site");
     if (!is_plain_name(name))
       return refuse(http::status::bad_request, "the file name has other letters than it may have");
     const auto length = parser_.content_length();
