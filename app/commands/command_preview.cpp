@@ -138,13 +138,13 @@ std::unique_ptr<PreviewRenderer> make_renderer(const PreviewCommand& command, co
   return make_cpu_copies_renderer(copies);
 }
 
-/// The files of a molecule that a page has handed over.
+/// A molecule whose files came from a page.
 struct HandedOver {
-  std::vector<std::string> read;  ///< the molecule's, and its trajectory's if there is one
-  std::vector<std::string> kept;  ///< where scenes name them; the same for files that stay
-  ReceivedFiles files{};          ///< they live as long as their session
+  std::vector<std::string> read;  ///< paths of the molecule and of its trajectory, if it has one
+  std::vector<std::string> kept;  ///< paths by which scenes name the files
+  ReceivedFiles files{};          ///< the files, which vanish with their session
 
-  /// Writes what does not stay. Returns the paths of these.
+  /// Copies files that would vanish to the paths by which scenes name them. Returns the paths of the copies.
   std::vector<std::filesystem::path> keep() const {
     std::vector<std::filesystem::path> written;
     for (std::size_t n = 0; n < read.size(); ++n) {
@@ -192,7 +192,7 @@ std::unique_ptr<PreviewSession> begin_session(DeclaredPreview& declared, bool on
   return session;
 }
 
-/// Returns the path in a folder under which a file is kept: its own name, unless another file has that.
+/// Returns the path in a folder for a copy of a file: its own name, unless another file has that name.
 std::string kept_path(const std::filesystem::path& file, const std::filesystem::path& folder) {
   const std::string name = file.filename().string();
   std::filesystem::path path = folder / name;
@@ -205,7 +205,7 @@ std::string kept_path(const std::filesystem::path& file, const std::filesystem::
   return path.string();
 }
 
-/// True if a file with this name is a trajectory. Throws RequestError if it is no molecule either.
+/// Returns true if the ending of this name is that of a trajectory. Throws RequestError if no format has it.
 bool is_trajectory(const std::string& name) {
   const std::string plain = name.ends_with(".gz") ? name.substr(0, name.size() - 3) : name;
   const auto formats = trajectory_formats();
@@ -216,8 +216,8 @@ bool is_trajectory(const std::string& name) {
   return false;
 }
 
-/// Begins a session of another molecule, which opens as the program would open it by itself, on the same device.
-/// handed: the files of the molecule that is shown, if pages have handed them over; it becomes the new molecule's.
+/// Begins the session of another molecule on the same device. It opens as if the program had been started with it.
+/// handed: files of the current molecule that came from a page; they are replaced by those of the new molecule.
 std::unique_ptr<PreviewSession> open_files(const PreviewCommand& begun, const ReceivedFiles& files, bool on_gl,
                                            std::shared_ptr<const HandedOver>& handed,
                                            const std::function<void(const std::string&)>& show_status) {
@@ -234,7 +234,7 @@ std::unique_ptr<PreviewSession> open_files(const PreviewCommand& begun, const Re
   }
   if (files.size() == 2 && (next.read.size() != 2 || next.read[0].empty()))
     throw RequestError("two files are a molecule and its trajectory; open other molecules one after another");
-  if (next.read[0].empty()) {  // a trajectory of the molecule there is
+  if (next.read[0].empty()) {  // only a trajectory came: it belongs to the current molecule
     next.read[0] = handed ? handed->read[0] : begun.scene.molecule.file;
     next.kept[0] = handed ? handed->kept[0] : begun.scene.molecule.file;
     if (handed) next.files.insert(next.files.end(), handed->files.begin(), handed->files.end());

@@ -16,7 +16,7 @@ namespace meniscus {
 /// A command or a reply as one line of text, without a line end; bytes that are not UTF-8 are replaced.
 std::string json_line(const nlohmann::json& json);
 
-/// True for a file's name of letters, digits, '.', '_' and '-', the first no '.' or '-', at most 100 of them.
+/// Returns true if a name has at most 100 letters, digits, '.', '_' and '-', and does not begin with '.' or '-'.
 bool is_plain_name(std::string_view name);
 
 /// The text under "command"; empty if there is none.

@@ -91,7 +91,7 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target, 
 /// As `meniscus export blender`.
 void export_blender(const ExportedView& view, const ExportTarget& target, const ExportWatch& watch);
 
-/// The path in `folder` of a file with this name. Throws RequestError unless it is a plain name.
+/// Returns the path in `folder` of a file with this name. Throws RequestError if the name is not plain.
 std::filesystem::path export_path(const std::filesystem::path& folder, const std::string& name);
 
 /// A figure that a scene file says, of the molecule that is shown.
@@ -118,8 +118,8 @@ struct SessionContext {
   std::function<Camera(const Scene& scene, const Structure& structure)> aim;
   /// Reads a scene. Throws InputError, UsageError; RequestError where it is one of another molecule.
   std::function<OpenedScene(const std::filesystem::path& path)> open_scene;
-  /// Puts the files of a molecule that a page has handed over where scenes name them, unless they are there. Returns
-  /// those that it has written. Empty for other molecules. Throws OutputError.
+  /// Copies the files of a molecule that came from a page to the paths by which scenes name them, unless they exist.
+  /// Returns the paths of the copies; none for other molecules. Throws OutputError.
   std::function<std::vector<std::filesystem::path>()> keep_files;
 };
 
@@ -144,7 +144,7 @@ struct Exporter {
       if (reply.contains(key)) add_once(paths, reply[key].get<std::string>());
     return paths;
   }
-  /// Lets the files stay that scenes of this molecule name.
+  /// Keeps the copies that scenes of this molecule name.
   void keep_files() {
     if (!context.keep_files) return;
     for (const std::filesystem::path& path : context.keep_files()) add_once(written, path);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that vanish with the program, whatever ends it; output_file.cpp keeps the list.
+// Temporary files, which vanish with the program, whatever ends it. output_file.cpp keeps their list.
 #pragma once
 
 #include <filesystem>
 
 namespace meniscus {
 
-/// A new file of exactly this path that is deleted with this object, or by remove_unfinished_outputs().
-/// Others write it. Throws OutputError if there is a file of this path already, or none can be made.
+/// A temporary file at a given path. It is deleted with this object, or by remove_unfinished_outputs(). The constructor
+/// makes it empty. Throws OutputError if the path exists already, or if the file cannot be made.
 class ScratchFile {
  public:
   explicit ScratchFile(std::filesystem::path path);

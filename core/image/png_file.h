@@ -13,8 +13,8 @@
 
 namespace meniscus {
 
-/// Returns a whole stream in zlib's format (RFC 1950). level: of libdeflate, 1 to 12. Throws CapacityError if there is
-/// not enough memory to compress.
+/// Returns a whole stream in zlib's format (RFC 1950). level: libdeflate's, from 1 to 12. Throws CapacityError if there
+/// is not enough memory to compress.
 std::vector<std::uint8_t> zlib_stream(std::span<const std::byte> bytes, int level);
 
 /// Appends a number, the most significant byte first.

@@ -6,9 +6,9 @@
 
 namespace meniscus::page {
 
-/// What is rounded to this is stored in less room: Å, or a part of a unit vector.
+/// Coordinates (Å) and parts of unit vectors are multiples of this step, so that they take less room.
 inline constexpr float kRounding = 1.0f / (1 << 17);
-/// What colours alone depend on: the borders between atoms, and how much fades at a depth.
+/// The coarser step of numbers that affect only colours: borders between atoms, and fading with depth.
 inline constexpr float kColorRounding = 1.0f / (1 << 13);
 
 using RowWords = std::array<std::uint32_t, 4>;

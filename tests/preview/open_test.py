@@ -39,7 +39,7 @@ class Opened(ServerCase):
         return answer.status, answer.read().decode().strip()
 
     async def open(self, client, *names):
-        """The reply to a request to open files; what pages are told of an error is added."""
+        """Returns the reply to a request to open files, with the error that pages show."""
         await client.send(json.dumps({"id": 5, "request": "open", "files": names}))
         reply = await receive(client, lambda m: m.get("id") == 5 or m.get("event") == "opened")
         if not reply.get("ok", True) and "error" not in reply:
@@ -47,7 +47,7 @@ class Opened(ServerCase):
         return reply
 
     async def opened(self, *names):
-        """Opens files; the state of the molecule then."""
+        """Opens files and returns the state of the molecule."""
         async with self.preview.socket() as client:
             self.assertEqual(await self.open(client, *names), {"event": "opened"})
         async with self.preview.socket() as client:
@@ -121,7 +121,7 @@ class Opened(ServerCase):
         self.assertEqual(answer("Transfer-Encoding: chunked", more=b"3\r\nabc\r\n0\r\n\r\n"), ["411"])
         self.assertEqual(answer(), ["411"])
         self.assertEqual(os.listdir(self.temporary.name), [])
-        # Of one that does not come whole nothing stays, and others come meanwhile not, but after it.
+        # An incomplete file leaves nothing behind. Other files are refused while it comes, and accepted afterwards.
         slow = socket.create_connection(("127.0.0.1", self.preview.port))
         slow.sendall(f"POST /{self.preview.url.split('/')[3]}/received/slow.pdb HTTP/1.1\r\nHost: 127.0.0.1:{self.preview.port}\r\n"
                      f"Origin: {self.preview.origin}\r\nContent-Length: 1000\r\n\r\nATOM".encode())
@@ -205,7 +205,7 @@ class Opened(ServerCase):
         self.assertEqual((await self.opened("run.mdcrd"))["frames"], 4)
 
     async def test_what_is_written_names_a_file_that_stays(self):
-        """The file of the molecule is put where it is written, once something names it."""
+        """The molecule's file is copied to the output folder once a scene names it."""
         with open(self.path("three.pdb"), "w") as file:
             file.write("another file\n")
         self.post("three.pdb", THREE)

@@ -92,7 +92,7 @@ class Open(PageCase):
             await self.drop(page, x__psf="PSF\n\n       1 !NTITLE\n REMARKS x\n\n       1 !NATOM\n       1 A    1    GLY  CA   CT1    0.000000       12.0110           0\n\n       0 !NBOND: bonds\n\n")
             await self.says(page, "lists atoms without coordinates; open its trajectory together with it")
             self.assertNotIn("--", await page.evaluate("document.getElementById('message').textContent"))
-            # One that is too large is not even sent.
+            # The page does not send a file that is too large.
             await page.evaluate("Object.defineProperty(File.prototype, 'size', {get() { return 6e8; }, configurable: true}); 0")
             await self.drop(page, large__pdb=THREE)
             await self.says(page, "large.pdb has 600 MB, and a page can hand over 512 MB at most")

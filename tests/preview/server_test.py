@@ -102,7 +102,7 @@ class Server(ServerCase):
                 self.assertTrue(reply["error"].startswith(command["command"] + ": "), reply)
 
     async def test_page_and_program_speak_of_the_same_things(self):
-        """What the page sends there is, and what it is told it reads; the rest is for scripts and tests."""
+        """Every command that the page sends exists, and every key that it receives is read; scripts and tests use the rest."""
         page = {name: open(os.path.join(PAGE, name)).read() for name in os.listdir(PAGE) if name.endswith(".js")}
         whole = "\n".join(page.values())
         with open(os.path.join(PAGE, "../../commands.md")) as file:

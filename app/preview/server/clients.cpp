@@ -125,7 +125,7 @@ std::string token_fault(std::string_view token) {
 
 namespace {
 
-/// Closes a folder to other users, before there is anything in it.
+/// Takes the rights to an empty folder from other users.
 const std::filesystem::path& made_private(const std::filesystem::path& folder) {
   std::filesystem::permissions(folder, std::filesystem::perms::owner_all);
   return folder;

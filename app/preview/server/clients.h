@@ -24,11 +24,11 @@ struct ClientCommand {
   std::vector<nlohmann::json> ids;  ///< of the messages, for their replies
 };
 
-/// A file that a page has handed over, in a folder of its own that this user alone can read. Both vanish with this
+/// A file that came from a page, in a folder of its own that only this user can read. Both vanish with this
 /// object, and when the program is ended from outside.
 class ReceivedFile {
  public:
-  /// Makes the file, empty. name: is_plain_name(). Throws OutputError.
+  /// Makes an empty file. Its name must be plain (is_plain_name()). Throws OutputError.
   explicit ReceivedFile(std::string_view name);
   const std::filesystem::path& path() const { return file_.path(); }
 
@@ -41,7 +41,7 @@ using ReceivedFiles = std::vector<std::shared_ptr<const ReceivedFile>>;
 /// A request for another molecule.
 struct OpenRequest {
   ClientNumber client = 0;
-  nlohmann::json id;    ///< of the message, for its reply
+  nlohmann::json id;    ///< the number of the message, which its reply repeats
   ReceivedFiles files;  ///< a molecule, its trajectory, or both
 };
 
@@ -51,7 +51,7 @@ class Mailbox {
  public:
   /// False, and nothing happens, if too many commands wait already.
   bool put(ClientNumber client, const nlohmann::json& id, nlohmann::json command);
-  /// Another molecule is wanted; of several the latest counts.
+  /// Requests another molecule. A later request replaces an earlier one.
   void open(OpenRequest request);
   /// The most that a waiting command will change.
   Change waiting_change();
@@ -66,7 +66,7 @@ class Mailbox {
 
   struct Content {
     std::vector<ClientCommand> commands;                           ///< in order
-    std::optional<OpenRequest> opening;                            ///< the molecule that is wanted instead
+    std::optional<OpenRequest> opening;                            ///< a request for another molecule
     std::set<ClientNumber> wanting;                                ///< clients that are ready for a picture
     std::map<ClientNumber, std::set<std::string>> wanting_figure;  ///< those ready for a figure, and their tables
     std::set<ClientNumber> gone;                                   ///< clients that left since the last time
@@ -90,7 +90,7 @@ inline constexpr std::size_t kMostConnections = 32;
 inline constexpr std::size_t kLargestMessage = 4096;        ///< bytes
 inline constexpr std::size_t kLargestHeader = 8192;         ///< bytes of a request's header
 inline constexpr int kPatience = 10;                        ///< seconds for a request
-inline constexpr std::size_t kMostReceived = 2;             ///< files that a page has handed over and not opened yet
+inline constexpr std::size_t kMostReceived = 2;             ///< files that came from pages and are not open yet
 inline constexpr std::uint64_t kLargestFile = 512'000'000;  ///< bytes of such a file
 
 /// 128 random bits of the system as 32 hexadecimal digits. Throws Error where the system has none.
@@ -102,7 +102,7 @@ std::string token_fault(std::string_view token);
 /// Returns why a text is not a host that a user may trust, such as hub.example.org:8888; empty: it is one.
 std::string host_fault(std::string_view host);
 
-/// "/TOKEN/rest" -> "rest" if the token is right, else nothing.
+/// Returns "rest" for "/TOKEN/rest" if the token is right, otherwise nothing.
 std::optional<std::string_view> admitted_path(std::string_view target, std::string_view token);
 
 /// Bytes on their way to clients, which share them.
@@ -129,7 +129,8 @@ struct Clients {
   std::uint16_t port = 0;
   std::vector<std::string> trusted{};  ///< further hosts under which browsers reach this server, as behind a proxy
   std::map<std::string, std::filesystem::path, std::less<>> files{};  ///< what browsers may download, by name
-  std::map<std::string, std::shared_ptr<const ReceivedFile>, std::less<>> received{};  ///< from pages, whole, by name
+  std::map<std::string, std::shared_ptr<const ReceivedFile>, std::less<>>
+      received{};               ///< complete files from pages, by name
   bool is_receiving = false;    ///< true while a file comes from a page
   std::string announcement{};   ///< what a new client is told, as JSON; empty: nothing
   std::size_t connections = 0;  ///< sockets of any kind, open
@@ -141,10 +142,10 @@ struct Clients {
   std::uint64_t next_stranger = 1;
   ClientNumber controller = 0;  ///< 0: none
 
-  /// True if requests to this host are for this server: 127.0.0.1:PORT, localhost:PORT and trusted ones. A name that
-  /// someone else's DNS points here is none.
+  /// Returns true if a Host header names this server: 127.0.0.1:PORT, localhost:PORT or a trusted host. A foreign
+  /// name that DNS resolves to this machine is refused (DNS rebinding).
   bool is_host(std::string_view host) const;
-  /// True if pages of this origin are its pages.
+  /// Returns true if this server sent the pages of an origin.
   bool is_origin(std::string_view origin) const;
   bool controls(ClientNumber client) const { return client == controller; }
   /// This client controls from now on; both are notified.

@@ -40,7 +40,7 @@ std::optional<std::set<std::string>> tables_known_to(const Json& message) {
   return known;
 }
 
-/// The names of the files in a request to open them; nothing: the message is none.
+/// Returns the names of the files in a request to open them, or nothing if a message is not such a request.
 std::optional<std::vector<std::string>> files_to_open(const Json& message) {
   const Json files = message.value("files", Json());
   if (message.value("request", Json()) != "open" || message.size() != 2 || !files.is_array()) return {};
@@ -252,7 +252,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
   }
 
-  /// Takes a file that the page hands over. Only the page can ask for it, for another's Origin is another.
+  /// Receives a file from the page. Pages of other sites are refused by their Origin.
   void receive(std::string_view name) {
     if (!clients_->is_origin(view(parser_.get()[http::field::origin])))
       return refuse(http::status::forbidden, "this page is from another site");
@@ -282,7 +282,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (std::exchange(receives_, false)) clients_->is_receiving = false;
   }
 
-  /// Reads the file piece by piece, so that the patience is for each piece.
+  /// Reads the file piece by piece, so that the time limit applies to each piece.
   void receive_piece() {
     if (upload_->is_done()) return keep_received();
     stream_.expires_after(std::chrono::seconds(kPatience));
@@ -296,7 +296,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     upload_->get().body().close();
     end_receiving();
     auto& received = clients_->received;
-    if (received.size() >= kMostReceived) received.clear();  // they were never opened
+    if (received.size() >= kMostReceived) received.clear();  // the page never opened them
     received.insert_or_assign(received_->path().filename().string(), received_);
     send(http::status::ok, content_type(".txt"), "");
   }
@@ -354,8 +354,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   beast::flat_buffer buffer_{2 * kLargestHeader};
   http::request_parser<http::empty_body> parser_;
   std::optional<http::request_parser<http::file_body>> upload_;
-  std::shared_ptr<const ReceivedFile> received_;  // to which the upload goes
-  bool receives_ = false;                         // true while it comes
+  std::shared_ptr<const ReceivedFile> received_;  // the file that is being received
+  bool receives_ = false;                         // true while a file is being received
   http::response<http::string_body> response_;
   http::response<http::file_body> download_;
   std::optional<http::response_serializer<http::file_body>> serializer_;

@@ -49,7 +49,7 @@ class ServedSession {
   ServedSession(PreviewSession& session, Network& network, Mailbox& mailbox)
       : session_(session), view_(session), network_(network), mailbox_(mailbox) {}
 
-  /// Returns the session that takes its place; nullptr: a command has ended it.
+  /// Returns the session that replaces this one, or nullptr if a command ended it.
   std::unique_ptr<PreviewSession> run(const MakeOther& make) {
     while (!session_.wants_to_quit()) {
       Mailbox::Content news = mailbox_.take(next_deadline());
@@ -72,7 +72,7 @@ class ServedSession {
   }
 
  private:
-  /// Returns the session of another molecule; nullptr, and all pages say why, if there is none.
+  /// Returns the session of another molecule. If it cannot be opened, all pages say why and the result is nullptr.
   std::unique_ptr<PreviewSession> opened(const OpenRequest& request, const MakeOther& make) {
     try {
       if (question("export_state")["running"])

@@ -19,13 +19,13 @@ struct ServeOptions : NetworkOptions {
   std::function<void(const ServedAddress&)> ready;
 };
 
-/// Makes a session, and tells meanwhile what it is doing, such as "Reading 1tii.pdb". files: those of another molecule
-/// that a page has handed over; empty: it is the first session.
+/// Makes a session, and reports its progress, such as "Reading 1tii.pdb". files: the files of another molecule that
+/// came from a page; empty for the first session.
 using MakeSession = std::function<std::unique_ptr<PreviewSession>(const ReceivedFiles& files,
                                                                   const std::function<void(const std::string&)>& tell)>;
 
 /// Serves a session on 127.0.0.1 until a command ends it; pages can be opened while it is made. Makes and draws it on
-/// this thread, which has its GL context. Another one takes its place when a page opens another molecule. Throws what
+/// this thread, which has its GL context. Another session replaces it when a page opens another molecule. Throws what
 /// Network throws, and after the pages were notified GpuError and what `make` throws for the first session.
 void serve_session(const ServeOptions& options, const MakeSession& make);
 

@@ -79,7 +79,7 @@ function frame_of(camera, width, height) {
     pivot: plus(camera.position, times(basis.forward, eye_distance)) };
 }
 
-/// Where points are seen in a picture of a frame, from its top left; null for those behind the camera.
+/// Returns the pixels at which points appear, from the top left of a picture; null for points behind the camera.
 function places_of(points, { right, up, forward, eye_distance, pixel_size, orthographic, pivot }, [width, height]) {
   return points.map((point) => {
     const from = minus(point, pivot), depth = eye_distance + dot(from, forward);

@@ -182,7 +182,7 @@ function follow_layers(viewer) {
 
 async function main() {
   $("show-help").addEventListener("click", () => show_help($("help").hidden));
-  if ($("data").dataset.bytes === "0") return;  // the program brings the figure
+  if ($("data").dataset.bytes === "0") return;  // the program sends the figure later
   remember_sections();
   show_picture(false);
   if (typeof DecompressionStream === "undefined") return say("This browser is too old to unpack the figure: what is shown is a still picture.");

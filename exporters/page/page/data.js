@@ -58,7 +58,8 @@ function restored(name, words) {
   return words;
 }
 
-/// Of row_differences() (exporters/page/page_rows.h). surfaces: of the description's light_maps.
+/// Restores the rows of patches from the differences that row_differences() made (exporters/page/page_rows.h). surfaces: the
+/// list of this name in the description's light_maps.
 function restored_rows({ primitives, rows: sorted, balls, shown }, surfaces, probe) {
   const count = primitives.length / 12, groups = Array.from({ length: 25 }, () => []);
   const first_row = (n) => n < count ? primitives[12 * n + 5] : sorted.length / 4;
@@ -125,7 +126,7 @@ async function read_frame(figure, n, near = []) {
   const own = n === 0 ? figure.first : { ...figure.first, ...await description_of(figure.parts[figure.frames[n]]) };
   const tables = {}, part_of = (name) => own.tables[name][0];
   const sources = Object.fromEntries(Object.keys(own.tables).map((name) => [name, part_of(name)]));
-  sources.rows = ["rows", "primitives", "balls"].map(part_of).join();  // rows are restored from all of these
+  sources.rows = ["rows", "primitives", "balls"].map(part_of).join();  // rows are restored from all three
   const known = (name) => near.find((frame) => frame.sources[name] === sources[name])?.tables[name];
   await Promise.all(Object.entries(own.tables).map(async ([name, [part, stride]]) => {
     tables[name] = known(name) ?? restored(name, words_of(await inflated(figure.parts[part]), stride));

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Other molecules: files that are dropped on the page or chosen, and entries of the Protein Data Bank, which this browser
-// fetches when its button is pressed, and not before.
+// Opens other molecules: files that are dropped on the page or chosen, and entries of the Protein Data Bank, which the
+// browser fetches only when the reader presses the button.
 
-const kBank = "https://files.rcsb.org/download/";  // connection.cpp lets the page ask this host, and no other
+const kBank = "https://files.rcsb.org/download/";  // the only other host that connection.cpp allows
 
-/// Returns the code of an entry as the bank's files have it, "4hhb" or "pdb_10004hhb"; undefined: it is none.
+/// Returns the code of an entry as in the names of the bank's files, "4hhb" or "pdb_10004hhb"; undefined for other texts.
 export function code_of(text) {
   const [, short, long] = text.trim().toLowerCase().match(/^(?:pdb_0000)?([1-9][a-z0-9]{3})$|^(pdb_[a-z0-9]{8})$/) ?? [];
   return short ?? long;
 }
 
-/// Returns the name under which the program takes a file: no path, plain letters, its ending.
+/// Returns a name that the program accepts for a file: without a path, in plain letters, with the same ending.
 export const plain_name = (name) => name.replace(/^.*[/\\]/, "").replace(/[^A-Za-z0-9._-]+/g, "_").replace(/^[.-]+/, "").slice(-100) || "file";
 
-/// Returns the file of an entry. Throws an Error with a sentence for people.
+/// Fetches the file of an entry. Throws an Error with a sentence for readers.
 export async function fetch_entry(code) {
   const answer = await fetch(`${kBank}${code}.cif`, { credentials: "omit", referrerPolicy: "no-referrer" })
     .catch(() => { throw new Error("files.rcsb.org cannot be reached: this browser has no network, or it is not let through."); });
@@ -22,8 +22,8 @@ export async function fetch_entry(code) {
   return new File([await answer.blob()], `${code}.cif`);
 }
 
-/// Lets molecules be opened. may(): whether this page decides; loses(): whether changes would be lost; largest(): bytes of a
-/// file; work(what): says what is done, and "" that nothing is done any more; fail(sentence): says what is wrong.
+/// Prepares the page for opening molecules. may(): true if this page controls the preview; loses(): true if changes would be
+/// lost; largest(): the limit of a file in bytes; work(what): shows a task, "" ends it; fail(sentence): shows an error.
 export function open_controls({ ask, may, loses, largest, work, fail }) {
   async function hand_over(files) {
     const large = files.find(({ size }) => size > largest()), megabytes = (bytes) => Math.ceil(bytes / 1e6).toLocaleString("en");
@@ -38,7 +38,7 @@ export function open_controls({ ask, may, loses, largest, work, fail }) {
     if (reply.error) throw new Error(`${reply.error}.`);
   }
 
-  /// Opens what files_of() gives, which may take a while.
+  /// Opens the files that files_of() resolves to.
   async function open(what, files_of, refuse = fail) {
     if (!may()) return refuse("Another page controls this preview. Take control here before you open a molecule.");
     if (loses() && !confirm("The figure has changes that no file has. Open another molecule, without them?")) return;

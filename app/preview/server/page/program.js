@@ -73,7 +73,7 @@ let last_change = 0;
 /// Carries out a command; a refusal is said, to the controls it came from if they can tell it. Returns the reply, or
 /// null.
 async function command(word, values = {}, refuse = (text) => tell(text, true)) {
-  if (is_opening) return null;  // what is done now would be lost
+  if (is_opening) return null;  // the next molecule would discard the change
   if (word !== "camera") tell_camera();
   if (!tells_only.has(word)) {
     const now = performance.now();
@@ -176,15 +176,15 @@ const page_camera = (camera, now = { fov: 30, height: 1 }, origin = [0, 0, 0]) =
 
 // Messages
 
-const kAgain = "meniscus connected again", kOpened = "meniscus opened here";  // in the session's storage
-let is_opening = false;  // is another molecule on its way from this page?
-let largest_file = 0;    // bytes of one that the server takes
+const kAgain = "meniscus connected again", kOpened = "meniscus opened here";  // keys of the session's storage
+let is_opening = false;  // true while this page opens another molecule
+let largest_file = 0;    // the server's limit of a file, in bytes
 
-/// A fresh page, with nothing of the molecule before.
+/// Loads the page anew, so that nothing of the previous molecule remains.
 function show_other_molecule() {
   for (const key of Object.keys(sessionStorage)) if (key.startsWith("meniscus ")) sessionStorage.removeItem(key);
   if (controls) sessionStorage.setItem(kOpened, "yes");
-  state = null;  // nobody wants what is gone
+  state = null;  // no question about unsaved changes
   location.reload();
 }
 

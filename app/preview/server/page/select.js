@@ -15,7 +15,7 @@ function label_of({ selection, name }) {
   return `${selection}=${residue ? [residue, number, atom].filter(Boolean).join(" ") : name}`;
 }
 
-/// Names the atom under the cursor, with its exposed area. viewer(): what draws the stage.
+/// Names the atom under the cursor, with its exposed area. viewer() returns the viewer of the stage.
 function follow_hover(viewer) {
   const canvas = $("picture"), tip = $("tip");
   let hovered = 0;  // number of the latest hover; older answers are late
@@ -32,7 +32,7 @@ function follow_hover(viewer) {
     const x = Math.min(event.clientX - left + 14, clientWidth - tip.offsetWidth - 8);
     const y = Math.min(event.clientY - top + 16, clientHeight - tip.offsetHeight - 8);
     tip.style.transform = `translate(${Math.max(x, 0)}px, ${Math.max(y, 0)}px)`;
-    // Where it is cheap the area comes soon.
+    // The area follows soon if the program knows it already.
     if (found.area_follows && more > 0) setTimeout(() => { if (number === hovered) hover(event, number, more - 1); }, 300);
   }
 
