@@ -217,7 +217,7 @@ bool is_trajectory(const std::string& name) {
 }
 
 /// Begins the session of another molecule on the same device. It opens as if the program had been started with it.
-/// handed: files of the current molecule that came from a page; they are replaced by those of the new molecule.
+/// handed: files of the current molecule that came from a page; the files of the new molecule replace them.
 std::unique_ptr<PreviewSession> open_files(const PreviewCommand& begun, const ReceivedFiles& files, bool on_gl,
                                            std::shared_ptr<const HandedOver>& handed,
                                            const std::function<void(const std::string&)>& show_status) {
