@@ -64,8 +64,8 @@ class RowPredictor {
     predict(first + 4, {a_z, a_out, b_z, b_out});
     // The start is perpendicular to the axis, so that one angle gives it; another is that from start to end.
     const glm::dvec3 axis = vector(first + 2), start = vector(first + 1), x = perpendicular_to(axis);
-    const auto steps = [](double y, double x) {
-      const double angle = std::atan2(y, x);
+    const auto steps = [](double sine, double cosine) {
+      const double angle = std::atan2(sine, cosine);
       return static_cast<std::uint32_t>(std::lround((angle < 0 ? angle + 2 * std::numbers::pi : angle) * kTurnSteps));
     };
     words_[first + 1] = {steps(glm::dot(glm::cross(axis, x), start), glm::dot(x, start)),

@@ -307,8 +307,10 @@ std::string surface_page(const Surface& surface, const Coloring& colors, const S
   shown.look = page_look(look_of(look.look, shown.size, look.image.background, Hues::free));
   shown.fades_always = look.look.depth_cue.has_value();
   shown.scheme = "given";
+  ColorScheme by_element;
+  by_element.by = ColorScheme::By::element;
   if (structure)
-    for (const OtherColors& other : other_colors(*structure, {.by = ColorScheme::By::element})) {
+    for (const OtherColors& other : other_colors(*structure, by_element)) {
       shown.more_schemes.push_back(scheme_at(
           other, {&colors}, [&] { return std::vector{color_object(*structure, object.atom, other.scheme, 0)}; }));
       if (other.scheme.uses_scale())

@@ -322,10 +322,11 @@ TEST(Legend, ManyEntriesStandInColumnsBeforeAnyIsDropped) {
     EXPECT_GE(2 * legend.molecule_size().x * legend.molecule_size().y, size.x * size.y);
     for (const LegendText& a : legend.texts())
       for (const LegendText& b : legend.texts())
-        if (&a != &b && std::abs(a.place.y - b.place.y) < legend.font().height())
+        if (&a != &b && std::abs(a.place.y - b.place.y) < legend.font().height()) {
           EXPECT_TRUE(a.place.x + legend.font().width(a.text) < b.place.x ||
                       b.place.x + legend.font().width(b.text) < a.place.x)
               << a.text << " " << b.text;
+        }
   }
   EXPECT_TRUE(has_entry(Legend(classes(3), {800, 600}), "chain 2"));
 }

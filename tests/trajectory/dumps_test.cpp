@@ -62,7 +62,9 @@ TEST(Mdcrd, FramesOfEveryLayout) {
           for (int n = 0; n < 3 * atoms; ++n)
             EXPECT_DOUBLE_EQ(frame.positions[static_cast<std::size_t>(n / 3)][n % 3], mdcrd_number(number, n));
           EXPECT_EQ(frame.cell.has_value(), !box.empty());
-          if (frame.cell) EXPECT_EQ(*frame.cell, glm::dmat3(20, 0, 0, 0, 30, 0, 0, 0, 40));
+          if (frame.cell) {
+            EXPECT_EQ(*frame.cell, glm::dmat3(20, 0, 0, 0, 30, 0, 0, 0, 40));
+          }
           EXPECT_FALSE(frame.time || frame.step);
         }
       }

@@ -78,8 +78,9 @@ TEST(AmberRestart, CutAndDamagedFilesAreRefused) {
       EXPECT_EQ(frame.positions, all.positions) << length;
     });
     EXPECT_TRUE(length + 1 >= positions || said != "no error") << length;
-    if (length == positions + 42 || length == whole.size() - 5)  // within a number of the velocities, and of the box
+    if (length == positions + 42 || length == whole.size() - 5) {  // within a number of the velocities, and of the box
       EXPECT_NE(said.find("is the file cut short?"), std::string::npos) << said;
+    }
   }
   std::string starred = whole;
   starred.replace(starred.find("  -1.7500000"), 12, "************");

@@ -105,7 +105,9 @@ TEST(SceneValues, ComeBackAsTheyWereWritten) {
       continue;
     }
     ASSERT_FALSE(written.empty());
-    if (example.size() > 1) EXPECT_NE(written.front(), written.back());
+    if (example.size() > 1) {
+      EXPECT_NE(written.front(), written.back());
+    }
     set_value(again, *property, written);
     if (property->section() == "image" || !again.lengths.empty()) complete(again);
     EXPECT_EQ(value_texts(again, *property), written);
@@ -153,8 +155,12 @@ TEST(SceneValues, OfPresetsLieUnderTheOthers) {
     for (const auto& [key, texts] : own) {
       const Texts all = value_texts(first, property_of(key));
       EXPECT_EQ(all.back(), texts.back()) << key;
-      if (key == "surface.color") EXPECT_EQ(parse_color_scheme(all.front())->fixed, parse_color_scheme("red")->fixed);
-      if (key == "surface.clip") EXPECT_EQ(all, texts);
+      if (key == "surface.color") {
+        EXPECT_EQ(parse_color_scheme(all.front())->fixed, parse_color_scheme("red")->fixed);
+      }
+      if (key == "surface.clip") {
+        EXPECT_EQ(all, texts);
+      }
     }
     Scene again = first;
     complete(again);
