@@ -263,7 +263,7 @@ TEST_F(CStructure, NoMessageNamesAnOptionOfTheCommandLine) {
     return std::string(meniscus_last_error());
   };
   const std::string water = "HETATM    7  O   HOH A 201      40.000   0.000   0.000  1.00 25.00           O  \n";
-  EXPECT_NE(said("water.pdb", water, reading()).find("keep_water and keep_ions use more"), std::string::npos);
+  EXPECT_NE(said("water.pdb", water, reading()).find("add keep_water or keep_ions to use them"), std::string::npos);
   const std::string odd = "ATOM      1  ?1  XYZ A   1       0.000   0.000   0.000  1.00 10.00              \n";
   EXPECT_NE(said("odd.pdb", odd, reading()).find("choose unknown_element=guess or skip"), std::string::npos);
   meniscus_read_options options = reading();

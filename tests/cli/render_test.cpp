@@ -88,7 +88,7 @@ TEST_F(RenderCommand, FiguresAreChecked) {
   for (const char* option : {"--clip=x<3", "--opacity=0.5", "--film-opacity", "--sticks=all"}) {
     const ProgramResult result = render({"-o", path("c.png"), "--extent", "visible", "--device", "software", option});
     EXPECT_EQ(result.exit_code, 2) << option;
-    EXPECT_NE(result.err.find("leave --extent out"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("leave out --extent"), std::string::npos) << result.err;
   }
   EXPECT_FALSE(std::filesystem::exists(path("c.png")));
 }
