@@ -34,7 +34,7 @@ class PageObjectsTest(PageCase):
         for words, options in (("only one surface that is cut or transparent", ["--opacity", "0.5", *self.object("resid 1-5", opacity=0.5)]),
                                ("surfaces of one probe", self.object("all", probe=2)), ("their own material", self.object("all", specular=0.5)),
                                ("coloured by kind of patch", self.object("all", color="kind")), ("coloured by a map", ["--color", "lipophilicity", *self.object("all")]),
-                               ("seen through", self.object("all", representation="sticks", opacity=0.5))):
+                               ("transparent sticks", self.object("all", representation="sticks", opacity=0.5))):
             done = subprocess.run([PROGRAM, "export", "page", part, "-o", self.path("bad.html"), *options], capture_output=True, text=True)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertRegex(done.stderr, f"error: --object: pages (show|do not show) .*{words}")

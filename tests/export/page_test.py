@@ -225,10 +225,10 @@ class PageTest(PageCase):
                     await page.until(f"{shown} === {wanted}", 60)
             await page.at_rest(100)
             self.assertEqual(page.complaints, [])
-        done = subprocess.run([PROGRAM, "export", "page", self.run_of(UBIQUITIN, 12, 2), "--frames", "all", "--interpolate", "9000", "-o",
+        done = subprocess.run([PROGRAM, "export", "page", self.run_of(UBIQUITIN, 12, 2), "--frames", "all", "--interpolate", "20000", "-o",
                                self.path("large.html"), "--device", "cpu"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
-        self.assertRegex(done.stderr, r"9,001 frames come to about [\d,]+ bytes")
+        self.assertRegex(done.stderr, r"20,001 frames come to about [\d,]+ bytes")
         self.assertRegex(done.stderr, r"browsers open no more than 250,000,000; choose fewer frames \(--stride \d\)")
         self.assertFalse(os.path.exists(self.path("large.html")))
 
