@@ -331,7 +331,7 @@ class Wording(WithFolder):
         cases = {"--select: a selection is missing": "Selection: a selection is missing",
                  "select them by --trajectory-atoms": "select them by Trajectory's atoms",
                  "a.pdb: add --trajectory with a file": "a.pdb: add Trajectory with a file",
-                 "--keep-water and --keep-ions use more": "Keep water and Keep ions use more",
+                 "add --keep-water or --keep-ions to use them": "add Keep water or Keep ions to use them",
                  "--trim and --show cut more":
                      '"trim" and "show" cut more (trim, show: options of the program meniscus that this panel does not have)',
                  "/x/my--run.pdb: has no atoms": "/x/my--run.pdb: has no atoms"}

@@ -341,7 +341,7 @@ class Contents(Case):
         self.assertEqual((material["alphaMode"], material["extensions"]), ("BLEND", {"KHR_materials_ior": {"ior": 3.0}}))
         np.testing.assert_allclose(array(primitive["attributes"]["COLOR_0"])[:, 3] / 65535, of_residue, atol=1e-5)
         done = export(self.folder / "look.stl", *(word for word in words if word != "-q"), "--force")
-        self.assertIn("note: --opacity: STL, binary has none", done.stderr)
+        self.assertIn("note: --opacity: STL, binary files store no opacity", done.stderr)
 
     def test_vtp(self):
         root, arrays = read_vtp(self.export("a.vtp", MOLECULE, *WORDS, *EXTRA))
