@@ -11,7 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
-#include "core/color/color_key.h"
+#include "core/color/color_key_json.h"
 #include "exporters/povray/povray_files.h"
 #include "exporters/povray/scene_text.h"
 #include "exporters/povray/surface_pieces.h"

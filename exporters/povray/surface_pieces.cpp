@@ -9,7 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/color/color_key.h"
+#include "core/color/color_key_json.h"
 #include "core/color/color_maps.h"
 #include "core/surface/walks.h"
 #include "exporters/povray/scene_text.h"

@@ -73,7 +73,7 @@ class Panels(unittest.TestCase):
         self.assertIn("warning: #94cbfb is chain 'A' in panel 1 and chain 'B' in panel 2; 2 more colours differ", self.panels("a.png", "c.png"))
         self.render("b.pdb", "b.png", "--color", "bfactor", "--size", "90x90")
         self.render("a.pdb", "n.png", "--color", "bfactor", "--size", "90x90")
-        self.assertIn("warning: the colours of B-factor are of 10 to 33 in panel 1 and of 30 to 53 in panel 2", self.panels("n.png", "b.png"))
+        self.assertIn("warning: the colours of B-factor show 10 to 33 in panel 1, but 30 to 53 in panel 2", self.panels("n.png", "b.png"))
         self.assertNotIn("warning", self.panels("n.png", "b.png", "--one-scale"))
 
     def test_each_panel_is_the_picture_of_its_scene(self):
