@@ -166,9 +166,9 @@ class SymbolDrawer {
     std::vector<std::pair<glm::dvec2, glm::dvec2>>
         outline;  // points and normals from the apex to the middle of the base
     const auto arc = [&](const glm::dvec2& center, double from, double to) {
-      constexpr int kSides = 6;
-      for (int n = 0; n <= kSides; ++n) {
-        const double angle = from + (to - from) * n / kSides;
+      constexpr int kSteps = 6;
+      for (int n = 0; n <= kSteps; ++n) {
+        const double angle = from + (to - from) * n / kSteps;
         const glm::dvec2 normal(std::cos(angle), std::sin(angle));
         outline.emplace_back(center + edge * normal, normal);
       }
