@@ -132,7 +132,7 @@ TASKS = [
     ("", "help with an example", "'>>>' in meniscus.Structure.__doc__", "True"),
     ("", "python -m meniscus", "subprocess.run([sys.executable, '-m', 'meniscus', '--version'], capture_output=True, text=True, env={**os.environ, "
      "'PYTHONPATH': os.pathsep.join(sys.path), 'PATH': os.path.dirname(os.environ.get('MENISCUS_PROGRAM', '')) + ':' + os.environ['PATH']}).stdout "
-     "or 'not installed'", r"0\.2|not installed"),
+     "or 'not installed'", r"meniscus \d+\.\d+\.\d+|not installed"),
     ("pandas", "DataFrame of atoms", "m.to_dataframe().groupby('element').size()['N']", "105"),
     ("pandas", "DataFrame of residues", "s.to_dataframe('residue').shape", r"\(76, 8\)"),
     ("pandas", "DataFrame of atoms and areas", "round(s.to_dataframe().groupby('residue_name')['area'].sum()['LYS'])", "^[1-9]"),

@@ -82,7 +82,7 @@ class Pictures(unittest.TestCase):
             path.write_text("2\n\nC 0 0 0\nO 1.2 0 0\n")
             for values, said in (({"color": "bfactor"}, "choose another color"),
                                  ({"color": "rmsf"}, "color=rmsf measures fluctuations over frames; add frames=all"),
-                                 ({"scale_bar": "500"}, "scale_bar: 500 Å are"),
+                                 ({"scale_bar": "500"}, "scale_bar: 500 Å would be"),
                                  ({"color": "file"}, "file needs color_by_file=FILE"),
                                  ({"zoom_to": "resid 9"}, "zoom_to='resid 9': selects none"),
                                  ({"label": "resid 9=x"}, "label='resid 9': none of the 2 atoms"),

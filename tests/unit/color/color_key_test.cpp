@@ -190,7 +190,7 @@ TEST(ColorConflicts, AreToldOfColoursAndOfThings) {
   low.scale.emplace().title = high.scale.emplace().title = "B-factor";
   high.scale->range = {5.0, 80.0};
   EXPECT_EQ(found(low, low), "");
-  EXPECT_EQ(found(low, high), "the colours of B-factor are of 0 to 1 in panel 1 and of 5 to 80 in panel 2");
+  EXPECT_EQ(found(low, high), "the colours of B-factor show 0 to 1 in panel 1, but 5 to 80 in panel 2");
   ColorKey inside = key("element", {});
   inside.others.push_back(key("chain", {{"A", blue}}));
   EXPECT_NE(found(a, inside).find("chain 'A'"), std::string::npos) << "parts of a key count, too";

@@ -136,7 +136,7 @@ TEST(Colors, TablesOfAOneChainMoleculeNeedNoChain) {
   structure.atoms[2].kind = AtomClass::polymer;
   EXPECT_NE(complaint([&] {
               color_scale(structure, wish);
-            }).find("names residues without their chains, but the atoms used of four are of 2 chains, such as 'A' and"),
+            }).find("names residues without their chains, but the atoms used of four belong to 2 chains, such as 'A' and"),
             std::string::npos);
   wish.file = read_number_file(folder.file("n", "0 1.5\n1 2\n2 9\n"));
   EXPECT_NE(complaint([&] { color_scale(structure, wish); }).find("or resid,score for a molecule of one chain"),
