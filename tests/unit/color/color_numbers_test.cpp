@@ -134,10 +134,11 @@ TEST(Colors, TablesOfAOneChainMoleculeNeedNoChain) {
     EXPECT_TRUE(std::isnan(scale.value[2])) << "residue 2 is of another chain: " << text;
   }
   structure.atoms[2].kind = AtomClass::polymer;
-  EXPECT_NE(complaint([&] {
-              color_scale(structure, wish);
-            }).find("names residues without their chains, but the atoms used of four belong to 2 chains, such as 'A' and"),
-            std::string::npos);
+  EXPECT_NE(
+      complaint([&] {
+        color_scale(structure, wish);
+      }).find("names residues without their chains, but the atoms used of four belong to 2 chains, such as 'A' and"),
+      std::string::npos);
   wish.file = read_number_file(folder.file("n", "0 1.5\n1 2\n2 9\n"));
   EXPECT_NE(complaint([&] { color_scale(structure, wish); }).find("or resid,score for a molecule of one chain"),
             std::string::npos);

@@ -356,7 +356,8 @@ TEST(Mol2, BadFilesAreRefused) {
   expect_refused("a.mol2", with(kMol2, "2 O1 1.4 0.0 0.0 O.3 1 MOH9 0.5", "2 O1 1.4"),
                  ":10: '2 O1 1.4' is not an atom");
   expect_refused("a.mol2", with(kMol2, "2 O1", "1 O1"), ":10: atom 1 appears twice");
-  expect_refused("a.mol2", with(kMol2, "1 1 2 1", "1 1 77 1"), ":16: a bond names atom '77', which molecule 1 does not have");
+  expect_refused("a.mol2", with(kMol2, "1 1 2 1", "1 1 77 1"),
+                 ":16: a bond names atom '77', which molecule 1 does not have");
   expect_refused("a.mol2", "@<TRIPOS>MOLECULE\nm\n0\n", "has no atoms after @<TRIPOS>ATOM");
 }
 
