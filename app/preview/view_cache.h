@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a state to its picture, and to the tables of which a page casts it: keeps the last picture, surfaces while only
-// looks change, and areas once they are known.
+// Makes the picture of a state, or the tables from which a page casts it. The cache keeps the last picture, surfaces
+// while only looks change, and areas once they are known.
 #pragma once
 
 #include <future>

@@ -101,8 +101,8 @@ std::vector<bool> creases_to_keep(const Surface& surface, const std::function<do
 
 namespace {
 
-/// Sets HalfEdges::crease() of the edges of `links` that run along a border. `links` are the edges of `mesh`, of which
-/// `face` is filled. `keep` is true for each border of the surface that counts as a crease.
+/// Marks the half edges that run along a border as creases (HalfEdges::crease()). `links` holds the half edges of
+/// `mesh`, whose `face` must be filled. `keep` is true for each border of the surface that counts as a crease.
 void mark_creases(const Surface& surface, const SurfaceWalk& walk, const TriangleMesh& mesh,
                   const std::vector<bool>& keep, HalfEdges& links) {
   std::vector<bool> with_crease(surface.faces.size(), false);

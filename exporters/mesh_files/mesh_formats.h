@@ -22,11 +22,12 @@ struct VertexNumberKind {
 
 std::span<const VertexNumberKind> vertex_number_kinds();
 
-/// Returns the names in a text that separates them by commas, each once and in the order of the table. "usual" and
-/// "all" are replaced by several names, "none" by no name. For bare atoms, of which only positions and radii are known,
-/// the numbers of molecules are left out. Throws RequestError with the word that is no such name, or that bare atoms do
-/// not have.
+/// The source of the atoms: a molecule, or bare positions and radii.
 enum class AtomSource { molecule, bare };
+
+/// Returns the names in a list with commas, each once and in the order of the table. The word "usual" or "all" stands
+/// for several names, "none" for no name. Bare atoms lack the numbers of molecules. Throws RequestError with a word that
+/// is not a name, or that bare atoms do not have.
 std::vector<std::string> parse_vertex_numbers(std::string_view text, AtomSource atoms = AtomSource::molecule);
 
 /// A surface in one place, with its name, colours and atoms.
