@@ -26,8 +26,8 @@ std::span<const VertexNumberKind> vertex_number_kinds();
 enum class AtomSource { molecule, bare };
 
 /// Returns the names in a list with commas, each once and in the order of the table. The word "usual" or "all" stands
-/// for several names, "none" for no name. Bare atoms lack the numbers of molecules. Throws RequestError with a word that
-/// is not a name, or that bare atoms do not have.
+/// for several names, "none" for no name. Bare atoms lack the numbers of molecules. Throws RequestError with a word
+/// that is not a name, or that bare atoms do not have.
 std::vector<std::string> parse_vertex_numbers(std::string_view text, AtomSource atoms = AtomSource::molecule);
 
 /// A surface in one place, with its name, colours and atoms.
