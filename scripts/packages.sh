@@ -16,6 +16,8 @@ sample_packages=(pymol-data)
 compare_packages=(python3 python3-numpy python3-openimageio)
 # the figures of docs/gallery
 gallery_packages=(freesasa python3-prody python3-prody-tests apbs pdb2pqr python3-pil python3-numpy chromium python3-websockets)
+# Debian packages
+deb_packages=(dpkg-dev debhelper dh-python file)
 test_packages=(python3-venv python3-pip libgtest-dev libbenchmark-dev glslang-tools spirv-tools mesa-vulkan-drivers libvulkan-dev freesasa python3-prody-tests python3 python3-numpy mypy
   python3-openimageio xvfb chromium python3-websockets
   python3-mdanalysis python3-mdtraj python3-parmed r-cran-bio3d python3-h5py python3-pymol python3-pil
@@ -25,7 +27,7 @@ test_packages=(python3-venv python3-pip libgtest-dev libbenchmark-dev glslang-to
   python3-biopython python3-ost jmol
   python3-rdkit rdkit-data python3-openbabel openbabel
   admesh tetgen python3-meshio assimp-utils python3-openvdb
-  dpkg-dev lintian appstream desktop-file-utils man-db mandoc zsh fish ruby nix-bin)
+  "${deb_packages[@]}" lintian appstream desktop-file-utils man-db mandoc zsh fish ruby nix-bin)
 # compilers of programs that use the library
 compiler_packages=(g++-11 clang-13 clang-15 clang-16 clang-19)
 fuzz_packages=(clang-14 libclang-rt-14-dev)

@@ -3,7 +3,7 @@
 #
 #   scripts/release.sh [OUT]        OUT is a new folder; build/dist/VERSION by default
 #
-# Made are the source archive, the Debian packages, and, of each target that scripts/package/targets.sh has built from this commit, a
+# Made are the source archive, the Debian packages and their source package, and, of each target that scripts/package/targets.sh has built from this commit, a
 # wheel and a Blender extension. SHA256SUMS has a line for each. Refused are a tree with changes, versions that disagree, and
 # a changelog without this version.
 set -euo pipefail
@@ -17,7 +17,7 @@ refuse() { echo "release.sh: $1" >&2; exit 1; }
 /usr/bin/python3 -B tests/docs/version_test.py 2>/dev/null || refuse "the version is not $version everywhere: python3 tests/docs/version_test.py"
 [[ ! -e $out ]] || refuse "$out exists; give another folder, or remove it"
 
-install_packages "${build_packages[@]}" "${run_packages[@]}"
+install_packages "${build_packages[@]}" "${run_packages[@]}" "${deb_packages[@]}"
 made=build/release_files
 rm -rf "$made"
 mkdir -p "$made" "$(dirname "$out")"
@@ -26,12 +26,7 @@ echo "source" >&2
 git archive --format=tar --prefix="meniscus-$version/" HEAD | gzip -n -9 >"$made/meniscus-$version.tar.gz"
 
 echo "Debian packages" >&2
-cmake -S . -B build/packages -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=OFF -DMENISCUS_HARDENED=ON >/dev/null
-cmake --build build/packages >&2
-MENISCUS=build/packages/meniscus bash scripts/manual.sh build/packages/site >&2
-cmake build/packages -DMENISCUS_SITE="$PWD/build/packages/site" >/dev/null
-cpack --config build/packages/CPackConfig.cmake -B build/packages/made >&2
-mv build/packages/made/*.deb "$made"
+MENISCUS_SITE=yes bash scripts/package/debian.sh "$made"
 
 # wheels.py takes what lies in build/targets; of another commit it would be another version's.
 commit=$(git rev-parse HEAD)

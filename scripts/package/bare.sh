@@ -19,7 +19,7 @@ bare_system() {
 # take_packages [FOLDER]: sets $packages to a folder of Debian packages; without one they are made of build/test.
 take_packages() {
   packages=${1:-$work/packages}
-  [[ $1 ]] || cpack --config build/test/CPackConfig.cmake -B "$packages" >/dev/null
+  [[ $1 ]] || bash scripts/package/debian.sh "$packages" build/test 2>/dev/null
 }
 
 # enter_bare [BARE.tar]: makes the bare system in which `check` runs commands, or unpacks one that was made before.

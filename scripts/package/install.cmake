@@ -25,6 +25,3 @@ install(DIRECTORY ${share}/ DESTINATION share COMPONENT program)
 install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/share/ DESTINATION share COMPONENT program)  # for desktops
 install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/SECURITY.md DESTINATION share/doc/meniscus
         COMPONENT program)
-
-include(${CMAKE_CURRENT_LIST_DIR}/debian.cmake)
-install(FILES ${generated}/copyright DESTINATION share/doc/meniscus COMPONENT program)

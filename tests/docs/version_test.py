@@ -11,6 +11,7 @@ PLACES = {
     "CITATION.cff": r"^version: (.+)$",
     "exporters/blender/addon/meniscus_import/blender_manifest.toml": r'^version = "(.+)"$',
     "scripts/package/conda/recipe.yaml": r'^  version: "(.+)"$',
+    "scripts/package/debian/changelog": r"\Ameniscus \((.+)-1\) ",
     "scripts/package/default.nix": r'^  version = "(.+)";$',
     "scripts/package/share/metainfo/invalid.meniscus.meniscus.metainfo.xml": r'<releases>\n    <release version="(.+)" date="',
 }

@@ -13,9 +13,9 @@ HOW_IT_IS_BUILT = ("DEFINES", "FLAGS", "INCLUDES", "COMMAND", "LINK_FLAGS", "LIN
 
 
 def written(build):
-    """By path: how everything is built, the scripts of the installation, the exported targets, the packages. What else
+    """By path: how everything is built, the scripts of the installation and the exported targets. What else
     a first run of CMake writes into build.ninja (where symbols of other systems go, what it depends on) is its own."""
-    patterns = ("**/cmake_install.cmake", "CPackConfig.cmake", "**/Export/**/*.cmake")
+    patterns = ("**/cmake_install.cmake", "**/Export/**/*.cmake")
     states = {str(path.relative_to(build)): path.read_text() for pattern in patterns for path in build.glob(pattern)}
     lines = (build / "build.ninja").read_text().splitlines(keepends=True)
     states["build.ninja"] = "".join(line for line in lines if line.startswith("build ") and "RERUN_CMAKE" not in line

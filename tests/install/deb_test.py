@@ -32,6 +32,10 @@ HOLDS = {
 }
 
 
+def pack(folder, **options):
+    return run("bash", ROOT / "scripts/package/debian.sh", folder, BUILD, **options)
+
+
 def fields(package):
     lines = run("dpkg-deb", "-f", package).stdout.splitlines()
     return dict(line.split(": ", 1) for line in lines if line[:1] != " " and ": " in line)
@@ -43,16 +47,17 @@ def listed(package):
     return {path.split(" -> ")[0].removeprefix("./").rstrip("/"): (mode, owner) for mode, owner, _, _, _, path in rows}
 
 
-@unittest.skipUnless(shutil.which("dpkg-shlibdeps"), "dpkg-dev is not installed")
+@unittest.skipUnless(shutil.which("dh"), "debhelper is not installed")
 class DebianPackages(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
-        done = run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", folder.name, umask=0o077)
+        done = pack(folder.name, umask=0o077)
         assert done.returncode == 0, done.stdout + done.stderr
         cls.packages = {path.name.split("_")[0]: path for path in pathlib.Path(folder.name).glob("*.deb")}
-        cls.version = fields(cls.packages["meniscus"])["Version"]
+        cls.revision = fields(cls.packages["meniscus"])["Version"]
+        cls.version = cls.revision.rpartition("-")[0]
 
     def test_program_library_headers_python_and_manual_have_their_packages(self):
         self.assertEqual(set(self.packages), set(HOLDS))
@@ -71,16 +76,16 @@ class DebianPackages(unittest.TestCase):
         self.assertEqual(needed, {"libc6", "libepoxy0", "libfmt9", "libfreetype6", "libgcc-s1", "libstdc++6", "libtbb12", "zlib1g"})
 
     def test_what_uses_the_library_depends_on_it(self):
-        self.assertEqual(fields(self.packages["libmeniscus-dev"])["Depends"], f"libmeniscus0 (= {self.version})")
+        self.assertEqual(fields(self.packages["libmeniscus-dev"])["Depends"], f"libmeniscus0 (= {self.revision})")
         told = fields(self.packages["python3-meniscus"])
         self.assertEqual(told["Architecture"], "all")
-        self.assertRegex(told["Depends"], rf"\bpython3-numpy, libmeniscus0 \(>= {re.escape(self.version)}\)")
+        self.assertLessEqual({"python3-numpy", f"libmeniscus0 (>= {self.version})"}, set(told["Depends"].split(", ")))
 
     def test_packages_of_programs_that_are_linked_to_the_library_will_depend_on_it(self):
         shlibs = run("dpkg-deb", "-I", self.packages["libmeniscus0"], "shlibs").stdout
         self.assertEqual(shlibs, f"libmeniscus 0 libmeniscus0 (>= {self.version})\n")
         triggers = run("dpkg-deb", "-I", self.packages["libmeniscus0"], "triggers").stdout
-        self.assertEqual(triggers, "activate-noawait ldconfig\n")
+        self.assertIn("\nactivate-noawait ldconfig\n", triggers)
 
     def test_its_symbols_are_the_functions_of_the_header(self):
         header = (ROOT / "exporters/bindings/c/include/meniscus/meniscus.h").read_text()
@@ -94,7 +99,7 @@ class DebianPackages(unittest.TestCase):
         for name, expected in HOLDS.items():
             files = {path for path, (mode, _) in listed(self.packages[name]).items() if mode[0] != "d"}
             expected = {path.format(version=self.version) for path in expected}
-            papers = {f"usr/share/doc/{name}/copyright", f"usr/share/doc/{name}/changelog.gz"}
+            papers = {f"usr/share/doc/{name}/copyright", f"usr/share/doc/{name}/changelog.gz", f"usr/share/doc/{name}/changelog.Debian.gz"}
             self.assertLessEqual(expected | papers, files, name)
             if name not in ("meniscus", "meniscus-doc"):  # which also have pages, documents, completions
                 extra = {path for path in files - expected - papers if "/cmake/Meniscus/" not in path}
@@ -124,10 +129,10 @@ class DebianPackages(unittest.TestCase):
 
     def test_made_again_elsewhere_a_package_has_the_same_bytes(self):
         with tempfile.TemporaryDirectory() as folder:
-            done = run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", folder, "-D", "CPACK_COMPONENTS_ALL=libmeniscus")
+            done = pack(folder)
             self.assertEqual(done.returncode, 0, done.stderr)
-            again = pathlib.Path(folder) / self.packages["libmeniscus0"].name
-            self.assertEqual(again.read_bytes(), self.packages["libmeniscus0"].read_bytes())
+            for package in self.packages.values():
+                self.assertEqual((pathlib.Path(folder) / package.name).read_bytes(), package.read_bytes(), package.name)
 
     def test_file_managers_offer_the_preview_for_molecules(self):
         share = self.unpacked("meniscus") / "usr/share"
