@@ -3,10 +3,7 @@
 // cavities.
 #include "app/bench/rolling_probe.h"
 
-#include <numbers>
-
 #include "core/math/ball.h"
-#include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
 namespace {

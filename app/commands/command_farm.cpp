@@ -8,10 +8,10 @@
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
+#include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
 #include "app/commands/figure_meshes.h"
 #include "app/commands/povray_figures.h"
-#include "app/commands/render_command.h"
 #include "app/farm/bundle_folder.h"
 #include "app/farm/make_bundle.h"
 #include "app/farm/worker.h"

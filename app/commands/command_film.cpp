@@ -9,7 +9,6 @@
 #include "app/film/film.h"
 #include "app/options/named_files.h"
 #include "app/options/property_options.h"
-#include "app/options/storyboard_file.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/progress.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus panels`: makes one picture of several scenes, side by side; `meniscus looks`: of one molecule in all looks.
 
+#include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
-#include "app/commands/render_command.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_main.h"
@@ -13,7 +13,7 @@
 #include "core/scene/frame_run.h"
 #include "core/scene/panel_page.h"
 #include "core/scene/renderers.h"
-#include "core/scene/scene_lengths.h"
+#include "core/scene/scene_value.h"
 #include "core/scene/scene_values.h"
 #include "core/structure/superposition.h"
 

@@ -18,7 +18,6 @@
 #include "core/scene/frame_run.h"
 #include "core/scene/scene_json.h"
 #include "core/structure/selection/selection.h"
-#include "exporters/mesh_files/mesh_file_maker.h"
 #include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus {

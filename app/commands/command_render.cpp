@@ -5,7 +5,6 @@
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
 #include "app/commands/picture_sink.h"
-#include "app/commands/render_command.h"
 #include "app/film/film.h"
 #include "app/options/named_files.h"
 #include "app/options/property_options.h"

@@ -12,7 +12,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/render/look.h"
-#include "exporters/mesh_files/mesh_file_maker.h"
 #include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus {

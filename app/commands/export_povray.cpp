@@ -13,7 +13,6 @@
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/queries/copies.h"
-#include "exporters/povray/povray_run.h"
 #include "exporters/povray/povray_scene.h"
 
 namespace meniscus {

@@ -6,16 +6,11 @@
 #include <fmt/ranges.h>
 
 #include "app/farm/bundle_folder.h"
-#include "app/process/program_main.h"
 #include "app/reports/notes.h"
-#include "core/base/progress.h"
-#include "core/base/text.h"
 #include "core/base/version.h"
 #include "core/image/png_file.h"
 #include "core/render/picture_file.h"
-#include "core/scene/scene_json.h"
-#include "core/scene/scene_lengths.h"
-#include "core/scene/scene_values.h"
+#include "core/scene/scene_value.h"
 
 namespace meniscus {
 namespace {

@@ -2,7 +2,7 @@
 // The destination of the pictures of `meniscus render`: a file, numbered files, or a film.
 #pragma once
 
-#include "app/commands/render_command.h"
+#include "app/commands/command_run.h"
 #include "app/film/film.h"
 #include "app/options/named_files.h"
 #include "app/reports/run_frames.h"

@@ -7,16 +7,11 @@
 #include <fmt/ranges.h>
 
 #include "app/commands/storyboard.h"
-#include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"
-#include "core/base/progress.h"
-#include "core/base/text.h"
-#include "core/color/color_maps.h"
-#include "core/properties/properties.h"
 #include "core/queries/copies.h"
-#include "exporters/povray/povray_run.h"
+#include "exporters/povray/povray_scene.h"
 
 namespace meniscus {
 

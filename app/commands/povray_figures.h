@@ -6,8 +6,8 @@
 #include "core/math/ball.h"
 #include "core/scene/figure.h"
 #include "core/scene/scene.h"
-#include "exporters/povray/povray_options.h"
 #include "exporters/povray/povray_scene.h"
+#include "exporters/povray/scene_text.h"
 
 namespace meniscus {
 

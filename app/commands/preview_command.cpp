@@ -5,20 +5,10 @@
 #include <charconv>
 #include <sstream>
 
-#include "app/options/property_options.h"
 #include "app/process/child_process.h"
 #include "app/process/program_main.h"
-#include "core/base/error.h"
 #include "core/base/system_file.h"
-#include "core/base/text.h"
-#include "core/queries/surface_object.h"
-#include "core/render/legend.h"
-#include "core/scene/figure.h"
-#include "core/scene/frame_run.h"
-#include "core/scene/molecule.h"
 #include "core/scene/scene_picture.h"
-#include "core/scene/scene_values.h"
-#include "core/scene/surface_computer.h"
 #include "core/scene/view_aim.h"
 
 namespace meniscus {

@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus render --extent`: pictures by the GPU, from atoms to pixels, without the complete surface.
-#include "app/commands/render_command.h"
 #include "core/gpu/egl_context.h"
 
 #ifdef MENISCUS_WITH_GL
 
-#include <algorithm>
-#include <initializer_list>
 #include <iostream>
-#include <memory>
-#include <numeric>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <fmt/ostream.h>
 
 #include "app/commands/command_run.h"

@@ -2,12 +2,7 @@
 // Reads the scenes of a storyboard, counts its pictures, and goes through them.
 #include "app/commands/storyboard.h"
 
-#include "app/commands/render_command.h"
-#include "app/process/program_main.h"
 #include "app/reports/notes.h"
-#include "core/base/text.h"
-#include "core/base/text_file.h"
-#include "core/color/color_key.h"
 
 namespace meniscus {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files on a command line: numbered outputs, and outputs that would replace inputs.
+// Files on a command line: numbered outputs, outputs that would replace inputs, and storyboards, which hold the scenes
+// of a film in one JSON file, with its times.
 #pragma once
 
 #include <cstdint>
@@ -54,5 +55,22 @@ class NamedFiles {
   std::set<std::pair<std::uint64_t, std::uint64_t>> inputs_;  ///< identities of files, as in system_file::State
   std::vector<std::pair<std::string, std::string>> outputs_;  ///< option and path
 };
+
+/// The content of a storyboard file.
+struct StoryboardFile {
+  std::vector<std::string> scenes;       ///< the JSON of each scene, as scene_text() returns it
+  std::vector<double> hold, transition;  ///< seconds of each, or one number for all; empty: the defaults of the film
+};
+
+/// Returns the text of a storyboard file, ending with a newline.
+std::string storyboard_text(const StoryboardFile& story);
+
+/// Reads a storyboard file. Returns nothing for a file that is something else. Throws InputError if a storyboard is
+/// damaged, and the errors of read_text_file().
+std::optional<StoryboardFile> read_storyboard(const std::string& file);
+
+/// Returns the JSON of a scene by a name such as "story.json#2", which is the second scene of the storyboard
+/// story.json. Returns nothing for other names. Throws InputError if the storyboard has no such scene.
+std::optional<std::string> scene_of_storyboard(const std::string& name);
 
 }  // namespace meniscus

@@ -7,12 +7,8 @@
 
 #include "app/film/film.h"
 #include "app/process/program_main.h"
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/properties/properties.h"
 #include "core/scene/scene_json.h"
 #include "core/scene/scene_value.h"
-#include "core/scene/scene_values.h"
 
 namespace meniscus {
 namespace {

@@ -2,9 +2,6 @@
 // The table of commands, and the commands of the session itself: undo, redo and quit.
 #include "app/preview/commands.h"
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-
 namespace meniscus {
 namespace {
 

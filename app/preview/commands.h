@@ -86,7 +86,7 @@ Reducer orbit, zoom_to, reset_view, set_camera, show_frame, next_frame, set_key,
 Reducer set_property;  // property_commands.cpp
 /// The next picture of a strip that plays; at its end playing ends.
 Outcome next_of_strip(PreviewState state, const Surroundings& around);
-Reducer keep_scene, forget_scene, time_scene, show_strip;  // strip_commands.cpp
+Reducer keep_scene, forget_scene, time_scene, show_strip;  // camera_commands.cpp
 Reducer go_through_history, end_step, quit;                // commands.cpp
 Reducer look_into, take_away, bring_back;                  // content_commands.cpp
 Service get_contents, locate;                              // content_commands.cpp

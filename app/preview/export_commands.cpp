@@ -2,8 +2,8 @@
 // The commands that write and read files of the output folder: exports, scenes, the command line of a picture.
 
 #include "app/film/film.h"
+#include "app/options/named_files.h"
 #include "app/options/property_options.h"
-#include "app/options/storyboard_file.h"
 #include "app/preview/commands.h"
 #include "app/preview/preview_state.h"
 #include "core/base/error.h"

@@ -4,8 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/camera/camera_json.h"
 
 namespace meniscus {

@@ -127,7 +127,7 @@ Scene rendered_scene(const PreviewFigure& figure, const RenderedView& view);
 /// Returns a request for a look with these numbers. `asked` gives the values that are not numbers.
 LookRequest look_request(LookRequest asked, Look look, bool outlines_patches);
 
-// How commands turn and place a camera: pure functions (camera_motion.cpp).
+// How commands turn and place a camera: pure functions (camera_commands.cpp).
 
 /// Å between the lower and upper edge of the picture, in the plane through the target.
 double height_at_target(const Camera& camera);

@@ -9,7 +9,6 @@
 #include "core/scene/annotations.h"
 #include "core/scene/molecule.h"
 #include "core/scene/scene_json.h"
-#include "core/scene/scene_lengths.h"
 #include "core/scene/scene_value.h"
 #include "core/scene/scene_values.h"
 

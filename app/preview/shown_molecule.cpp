@@ -2,19 +2,9 @@
 // Computes again what another state needs, and keeps the rest; draws the legend around a hole for the molecule.
 #include "app/preview/shown_molecule.h"
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/color/color_key.h"
-#include "core/color/color_schemes.h"
-#include "core/color/named_colors.h"
-#include "core/image/color_space.h"
 #include "core/queries/copies.h"
 #include "core/queries/surface_parts.h"
-#include "core/reduced_surface/cpu/exhaustive.h"
-#include "core/scene/annotations.h"
-#include "core/scene/figure.h"
-#include "core/scene/molecule.h"
-#include "core/scene/surface_objects.h"
+#include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/compute_surface.h"
 
 namespace meniscus {

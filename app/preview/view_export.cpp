@@ -5,24 +5,12 @@
 #include <new>
 
 #include "app/preview/command_json.h"
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/base/text_file.h"
-#include "core/mesh/mesh_objects.h"
 #include "core/queries/copies.h"
-#include "core/queries/surface_object.h"
-#include "core/render/cpu/unevenness.h"
-#include "core/render/image_output.h"
-#include "core/render/legend.h"
 #include "core/render/picture_file.h"
-#include "core/scene/annotations.h"
-#include "core/scene/figure.h"
-#include "core/scene/molecule.h"
-#include "core/scene/surface_computer.h"
 #include "core/surface/compute_surface.h"
 #include "exporters/blender/mns_file.h"
 #include "exporters/blender/surface_file.h"
-#include "exporters/mesh_files/zip_archive.h"
+#include "exporters/mesh_files/writers.h"
 #include "exporters/povray/povray_scene.h"
 
 namespace meniscus {

@@ -5,11 +5,7 @@
 #include <iostream>
 
 #include "app/process/program_main.h"
-#include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/structure/element_tables.h"
-#include "core/structure/residues.h"
-#include "core/surface/primitives.h"
 
 namespace meniscus {
 namespace {

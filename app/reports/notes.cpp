@@ -3,17 +3,10 @@
 #include "app/reports/notes.h"
 
 #include <iostream>
-#include <numbers>
 
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
-
-#include "app/options/scene_options.h"
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/color/ordered_classes.h"
-#include "core/properties/presets.h"
 
 namespace meniscus {
 namespace {

@@ -9,11 +9,9 @@
 #include <tbb/task_arena.h>
 #include <unistd.h>
 
-#include "app/options/scene_options.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/ordered_jobs.h"
-#include "core/base/text.h"
 
 namespace meniscus {
 namespace {

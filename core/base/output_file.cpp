@@ -12,7 +12,6 @@
 #include <thread>
 
 #include "core/base/error.h"
-#include "core/base/scratch_file.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
 

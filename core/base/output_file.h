@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Output files that appear under their final name complete or not at all: a temporary file is written, synced and
-// renamed.
+// renamed; and temporary files that vanish with the program, whatever ends it.
 #pragma once
 
 #include <filesystem>
@@ -105,5 +105,20 @@ struct SharedFile {
 /// Writes these files into a folder, all or none of them. A file that exists with the same text is left alone. Throws
 /// OutputError, with Existing::refuse also for an existing file with another text.
 void write_shared_files(const std::filesystem::path& folder, Existing existing, std::span<const SharedFile> files);
+
+/// A temporary file at a given path. It is deleted with this object, or by remove_unfinished_outputs(). The constructor
+/// makes it empty. Throws OutputError if the path exists already, or if the file cannot be made.
+class ScratchFile {
+ public:
+  explicit ScratchFile(std::filesystem::path path);
+  ~ScratchFile();
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 }  // namespace meniscus

@@ -13,9 +13,7 @@
 #endif
 
 #include "core/base/binary_file.h"
-#include "core/base/error.h"
 #include "core/base/system_file.h"
-#include "core/base/text.h"
 
 namespace meniscus {
 namespace {

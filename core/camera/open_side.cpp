@@ -11,8 +11,6 @@
 #include <tuple>
 #include <utility>
 
-#include "core/math/spiral.h"
-
 namespace meniscus {
 namespace {
 

@@ -2,7 +2,6 @@
 // Finds the axes of pictures, of inertia, symmetry or the file, and places the camera that a request describes.
 #include "core/camera/view_request.h"
 
-#include <numbers>
 #include <tuple>
 
 #include <glm/matrix.hpp>
@@ -13,7 +12,6 @@
 #include "core/camera/camera_json.h"
 #include "core/camera/open_side.h"
 #include "core/math/ball.h"
-#include "core/math/rigid_motion.h"
 
 namespace meniscus {
 namespace {

@@ -9,13 +9,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/base/text_file.h"
-#include "core/color/named_colors.h"
-#include "core/structure/selection/selection.h"
-#include "core/structure/structure.h"
-
 namespace meniscus {
 namespace {
 

@@ -4,13 +4,9 @@
 
 #include <cmath>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/color/named_colors.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/martini.h"
 #include "core/structure/secondary_structure.h"
-#include "core/structure/structure.h"
 #include "core/structure/sugars.h"
 
 namespace meniscus {

@@ -13,7 +13,6 @@
 
 #include "core/base/error.h"
 #include "core/gpu/context_description.h"
-#include "core/gpu/work_proof.h"
 
 namespace meniscus {
 namespace {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens a context by EGL, and keeps the kernels that its driver has compiled in files.
+// Opens a context by EGL, and keeps the kernels that its driver has compiled in files. Builds without epoxy have no
+// contexts.
 #include "core/gpu/egl_context.h"
+
+#include "core/base/error.h"
+
+#ifdef MENISCUS_WITH_GL
 
 #include <algorithm>
 #include <array>
@@ -14,8 +19,6 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 #include <unistd.h>
-
-#include "core/base/error.h"
 
 namespace meniscus {
 namespace {
@@ -292,3 +295,20 @@ void EglContext::make_current() {
 }
 
 }  // namespace meniscus
+
+#else
+
+namespace meniscus {
+
+WorkProof::~WorkProof() = default;
+KernelFiles::~KernelFiles() = default;
+
+EglContext::EglContext(const DeviceChoice&) {
+  throw GpuError(
+      "this build was made without epoxy and has no GL; choose the CPU, or build Meniscus from source, with epoxy");
+}
+EglContext::~EglContext() = default;
+
+}  // namespace meniscus
+
+#endif

@@ -10,7 +10,6 @@
 #include "core/base/error.h"
 #include "core/gpu/context_description.h"
 #include "core/gpu/egl_context.h"
-#include "core/gpu/work_proof.h"
 
 namespace meniscus {
 namespace {

@@ -14,7 +14,6 @@
 #include "core/mesh/mesh_mender.h"
 #include "core/mesh/mesh_nearness.h"
 #include "core/mesh/mesh_on_surface.h"
-#include "core/mesh/remesh_tuning.h"
 
 namespace meniscus {
 

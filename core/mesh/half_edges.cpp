@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/base/constants.h"
 #include "core/base/error.h"
 
 namespace meniscus {

@@ -7,7 +7,6 @@
 #include <tbb/parallel_for.h>
 
 #include "core/math/ball.h"
-#include "core/math/box.h"
 #include "core/mesh/remesh_tuning.h"
 
 namespace meniscus {

@@ -2,13 +2,11 @@
 // Tries all small changes at a bad triangle of a mesh and makes the best one, as long as there is one that helps.
 #include "core/mesh/mesh_mender.h"
 
-#include <numbers>
 #include <unordered_map>
 
 #include <tbb/parallel_for.h>
 
 #include "core/mesh/remesh_tuning.h"
-#include "core/mesh/mesh_change.h"
 
 namespace meniscus {
 

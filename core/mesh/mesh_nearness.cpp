@@ -5,8 +5,6 @@
 #include <tbb/parallel_for.h>
 
 #include "core/mesh/compare_mesh.h"
-#include "core/mesh/mesh_on_surface.h"
-#include "core/mesh/remesh_tuning.h"
 #include "core/mesh/tessellate.h"
 #include "core/surface/walks.h"
 

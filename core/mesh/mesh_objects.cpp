@@ -2,8 +2,6 @@
 // Makes meshes of surfaces, shapes and pockets, and estimates how many triangles a surface gets.
 #include "core/mesh/mesh_objects.h"
 
-#include <numbers>
-
 #include "core/base/error.h"
 #include "core/camera/camera.h"
 #include "core/mesh/border_samples.h"
@@ -11,8 +9,6 @@
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/tessellate.h"
 #include "core/queries/copies.h"
-#include "core/queries/surface_object.h"
-#include "core/shapes/shapes.h"
 
 namespace meniscus {
 

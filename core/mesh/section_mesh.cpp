@@ -6,7 +6,6 @@
 
 #include "core/mesh/tessellate.h"
 #include "core/queries/copies.h"
-#include "core/queries/surface_object.h"
 
 namespace meniscus {
 namespace {

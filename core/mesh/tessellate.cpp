@@ -14,9 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/mesh/border_samples.h"
 #include "core/mesh/compare_mesh.h"
-#include "core/mesh/face_mesh.h"
 #include "core/surface/compute_surface.h"
 
 namespace meniscus {

@@ -10,13 +10,10 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/math/ball.h"
-#include "core/math/spiral.h"
 #include "core/math/union_find.h"
 #include "core/queries/surface_parts.h"
 #include "core/surface/compute_surface.h"
 #include "core/surface/measure.h"
-#include "core/surface/primitives.h"
 
 namespace meniscus {
 namespace {

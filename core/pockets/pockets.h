@@ -133,7 +133,7 @@ class Hull {
 using NearWanted = std::function<bool(const glm::dvec3& point, double reach)>;
 
 /// The largest distances (Å) between places along an arc, and on the sphere of an atom of a given radius. On a sphere
-/// no point is farther from the nearest place than 0.77 of that distance (spiral.h).
+/// no point is farther from the nearest place than 0.77 of that distance (spiral_direction()).
 struct PlaceSteps {
   double on_arcs;
   std::function<double(double atom_radius)> on_sphere;

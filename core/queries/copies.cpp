@@ -10,9 +10,6 @@
 #include <tbb/parallel_reduce.h>
 
 #include "core/base/error.h"
-#include "core/color/coloring.h"
-#include "core/math/ball.h"
-#include "core/math/rigid_motion.h"
 #include "core/queries/surface_object.h"
 
 namespace meniscus {

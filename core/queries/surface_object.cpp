@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares the tables of two surfaces row by row; both are sorted the same way.
 #include "core/queries/surface_object.h"
-#include "core/surface/primitives.h"
 
 #include <fmt/format.h>
 

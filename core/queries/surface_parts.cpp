@@ -6,13 +6,11 @@
 #include <cassert>
 #include <initializer_list>
 #include <iterator>
-#include <numbers>
 
 #include "core/math/double_geometry.h"
 #include "core/math/union_find.h"
 #include "core/surface/compute_surface.h"
 #include "core/surface/measure.h"
-#include "core/surface/primitives.h"
 #include "core/surface/trim.h"
 #include "core/surface/walks.h"
 

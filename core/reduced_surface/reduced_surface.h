@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reduced surface as pure combinatorics: the exposed arcs of circles, the atoms that end them, and whole spheres.
+// The reduced surface as pure combinatorics: the exposed arcs of circles, the atoms that end them, and whole spheres;
+// and its exhaustive enumeration on the CPU.
 #pragma once
 
 #include <array>
@@ -114,5 +115,10 @@ class SwallowedAtoms {
 /// atoms: van der Waals balls in Å; weights, swallowed: decision_weights() and swallowed_atoms() of these.
 void find_whole_spheres(std::span<const Ball> atoms, std::span<const double> weights,
                         const std::vector<bool>& swallowed, ReducedSurface& rs);
+
+/// Enumerates the reduced surface. atoms in Å, probe_radius >= 0 in Å; numbers: for atoms taken out of a larger set.
+/// Runs on all cores that TBB may use; the result does not depend on their number.
+ReducedSurface enumerate_reduced_surface(std::span<const Ball> atoms, double probe_radius, CircleStats* stats = nullptr,
+                                         AtomNumbers numbers = {});
 
 }  // namespace meniscus

@@ -4,14 +4,11 @@
 
 #include <iterator>
 #include <limits>
-#include <numbers>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/camera/camera.h"
-#include "core/image/color_space.h"
 #include "core/render/label_layout.h"
-#include "core/render/lettering.h"
 
 namespace meniscus {
 namespace {

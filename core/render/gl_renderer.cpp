@@ -10,8 +10,6 @@
 #include "core/color/coloring.h"
 #include "core/gpu/context_description.h"
 #include "core/gpu/egl_context.h"
-#include "core/gpu/program.h"
-#include "core/render/picture_block.h"
 
 namespace meniscus {
 

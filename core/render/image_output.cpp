@@ -19,7 +19,6 @@
 #include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
-#include "core/image/color_space.h"
 #include "core/image/image_codec.h"
 #include "core/image/png_file.h"
 

@@ -6,11 +6,6 @@
 #include <cstdlib>
 
 #include "core/base/constants.h"
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/color/named_colors.h"
-#include "core/image/color_space.h"
-#include "core/render/lettering.h"
 
 namespace meniscus {
 namespace {

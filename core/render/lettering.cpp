@@ -15,7 +15,6 @@
 #include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
-#include "core/render/built_in_fonts.h"
 
 namespace meniscus {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Letters, lines and boxes over a picture: their fonts, heights and colours, and text as pixels and as glyphs.
+// Letters, lines and boxes over a picture: their fonts, built in or not, heights and colours, and text as pixels and as
+// glyphs.
 #pragma once
 
 #include <algorithm>
@@ -171,5 +172,17 @@ class FontShelf {
   FontChoice choice_;
   std::map<std::pair<int, Weight>, Font> fonts_;
 };
+
+/// A font file in memory. It counts as installed, and comes before a file of this name in the system.
+struct BuiltInFont {
+  std::string_view name, bytes;
+};
+
+/// Returns the files of Liberation Sans, regular and bold; none if they were missing when the library was built.
+std::span<const BuiltInFont> built_in_fonts();
+
+/// Returns the bytes of a font by FontProgram::file, which is the path of a file, or "built-in:" and the name of a
+/// built-in font. Throws InputError if the file cannot be read.
+std::string font_bytes(const std::string& file);
 
 }  // namespace meniscus

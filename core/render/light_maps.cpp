@@ -3,7 +3,6 @@
 #include "core/render/light_maps.h"
 
 #include <bit>
-#include <numbers>
 #include <tuple>
 
 #include <tbb/parallel_for.h>
@@ -12,7 +11,6 @@
 #include "core/math/rigid_motion.h"
 #include "core/queries/surface_object.h"
 #include "core/shapes/shapes.h"
-#include "core/surface/primitives.h"
 
 namespace meniscus {
 namespace {

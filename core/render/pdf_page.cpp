@@ -7,7 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
-#include "core/render/built_in_fonts.h"
+#include "core/render/lettering.h"
 #include "core/render/vector_page.h"
 
 namespace meniscus {

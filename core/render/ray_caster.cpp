@@ -8,9 +8,6 @@
 #include "core/base/text.h"
 #include "core/color/coloring.h"
 #include "core/gpu/context_description.h"
-#include "core/gpu/kernel_records.h"
-#include "core/gpu/program.h"
-#include "core/gpu/work_proof.h"
 #include "core/image/color_space.h"
 
 namespace meniscus {

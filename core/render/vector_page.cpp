@@ -5,7 +5,6 @@
 #include <cctype>
 
 #include "core/base/system_file.h"
-#include "core/base/text.h"
 #include "core/base/version.h"
 #include "core/image/png_file.h"
 

@@ -5,11 +5,8 @@
 #include <charconv>
 
 #include "core/base/constants.h"
-#include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/queries/copies.h"
 #include "core/scene/representations.h"
-#include "core/structure/selection/selection.h"
 #include "core/trajectory/frame_list.h"
 
 namespace meniscus {

@@ -2,12 +2,7 @@
 // Makes the objects of a picture from a figure, and moves their points.
 #include "core/scene/figure.h"
 
-#include "core/base/constants.h"
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/camera/camera.h"
 #include "core/queries/copies.h"
-#include "core/queries/surface_object.h"
 #include "core/scene/renderers.h"
 
 namespace meniscus {

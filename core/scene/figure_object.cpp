@@ -2,11 +2,7 @@
 // Takes the atoms of each object by their marks, and computes its surface as if they were alone.
 #include "core/scene/figure_object.h"
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/color/color_schemes.h"
 #include "core/queries/copies.h"
-#include "core/scene/surface_computer.h"
 #include "core/scene/surface_objects.h"
 #include "core/structure/bonds.h"
 

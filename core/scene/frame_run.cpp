@@ -6,16 +6,8 @@
 #include <iterator>
 #include <unordered_set>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/scene/molecule.h"
-#include "core/structure/assembly.h"
 #include "core/structure/bonds.h"
-#include "core/structure/formats/read_structure.h"
-#include "core/structure/selection/selection.h"
 #include "core/trajectory/frame_list.h"
-#include "core/trajectory/prepared_frames.h"
-#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {

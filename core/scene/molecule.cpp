@@ -2,21 +2,12 @@
 // Makes molecules from files, measures what volume maps cover, and computes areas that surroundings bury.
 #include "core/scene/molecule.h"
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/color/color_maps.h"
-#include "core/color/color_schemes.h"
 #include "core/color/lipophilicity.h"
 #include "core/color/ordered_classes.h"
-#include "core/math/box.h"
-#include "core/math/spiral.h"
 #include "core/queries/copies.h"
 #include "core/queries/surface_parts.h"
-#include "core/scene/surface_objects.h"
 #include "core/structure/element_tables.h"
-#include "core/structure/residues.h"
 #include "core/trajectory/formats/trajectory_formats.h"
-#include "core/volume/volume_grid.h"
 
 namespace meniscus {
 namespace {

@@ -4,12 +4,7 @@
 
 #include <iterator>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/color/color_schemes.h"
 #include "core/render/vector_page.h"
-#include "core/scene/figure.h"
-#include "core/scene/scene_picture.h"
 
 namespace meniscus {
 namespace {

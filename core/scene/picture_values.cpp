@@ -7,7 +7,6 @@
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/color/named_colors.h"
-#include "core/scene/scene_lengths.h"
 #include "core/scene/scene_value.h"
 #include "core/scene/scene_values.h"
 

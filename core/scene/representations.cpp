@@ -2,11 +2,6 @@
 // Makes shapes of marked atoms, and colours them by the scheme of the surface.
 #include "core/scene/representations.h"
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/color/color_schemes.h"
-#include "core/shapes/cartoon.h"
-
 namespace meniscus {
 namespace {
 

@@ -2,14 +2,7 @@
 // Measures all frames of a run, so that each of them can be made by itself.
 #include "core/scene/run_framing.h"
 
-#include <numbers>
-
-#include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/camera/camera_json.h"
-#include "core/color/color_schemes.h"
-#include "core/color/named_colors.h"
-#include "core/math/box.h"
 #include "core/queries/copies.h"
 #include "core/scene/view_aim.h"
 

@@ -8,10 +8,7 @@
 
 #include <fmt/ranges.h>
 
-#include "core/base/error.h"
 #include "core/base/system_file.h"
-#include "core/base/text.h"
-#include "core/base/text_file.h"
 #include "core/scene/scene_values.h"
 
 namespace meniscus {

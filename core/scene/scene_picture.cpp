@@ -2,17 +2,11 @@
 // Lays out the picture of a scene, and finds atoms that cannot be seen in it.
 #include "core/scene/scene_picture.h"
 
-#include <numbers>
 #include <unordered_set>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/camera/open_side.h"
-#include "core/color/color_schemes.h"
 #include "core/render/cpu/unevenness.h"
-#include "core/scene/figure.h"
-#include "core/scene/frame_run.h"
-#include "core/scene/scene_lengths.h"
+#include "core/scene/scene_value.h"
 #include "core/scene/scene_values.h"
 
 namespace meniscus {

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds values by their keys, parses lengths, and completes values that depend on each other.
-#include "core/scene/scene_lengths.h"
 #include "core/scene/scene_values.h"
 
 #include <cctype>
 
 #include <fmt/ranges.h>
 
-#include "core/base/text.h"
-#include "core/base/text_file.h"
-#include "core/color/named_colors.h"
 #include "core/scene/scene_value.h"
 
 namespace meniscus::scene_values {

@@ -3,12 +3,7 @@
 #include "core/scene/transition.h"
 
 #include <cassert>
-#include <numbers>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/image/color_space.h"
-#include "core/scene/molecule.h"
 #include "core/scene/scene_values.h"
 
 namespace meniscus {

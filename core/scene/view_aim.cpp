@@ -2,16 +2,10 @@
 // Chooses the balls that a camera is aimed at.
 #include "core/scene/view_aim.h"
 
-#include <numbers>
 #include <tuple>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/camera/open_side.h"
 #include "core/queries/copies.h"
-#include "core/render/annotation.h"
-#include "core/scene/representations.h"
-#include "core/scene/surface_objects.h"
 #include "core/structure/superposition.h"
 
 namespace meniscus {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sweeps ellipses along splines through the backbone, and joins the filled rings of bases to them.
-#include "core/shapes/cartoon.h"
+#include "core/shapes/shapes.h"
 
 #include <algorithm>
 #include <cmath>

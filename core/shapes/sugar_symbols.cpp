@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Makes solids of plates, cylinders and spheres around the rings of sugars, and links them.
-#include "core/shapes/cartoon.h"
+#include "core/shapes/shapes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -166,9 +166,9 @@ class SymbolDrawer {
     std::vector<std::pair<glm::dvec2, glm::dvec2>>
         outline;  // points and normals from the apex to the middle of the base
     const auto arc = [&](const glm::dvec2& center, double from, double to) {
-      constexpr int kSteps = 6;
-      for (int n = 0; n <= kSteps; ++n) {
-        const double angle = from + (to - from) * n / kSteps;
+      constexpr int kArcSteps = 6;
+      for (int n = 0; n <= kArcSteps; ++n) {
+        const double angle = from + (to - from) * n / kArcSteps;
         const glm::dvec2 normal(std::cos(angle), std::sin(angle));
         outline.emplace_back(center + edge * normal, normal);
       }

@@ -9,9 +9,6 @@
 #include <fmt/ranges.h>
 #include <glm/matrix.hpp>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/base/text_file.h"
 #include "core/math/rigid_motion.h"
 #include "core/structure/structure.h"
 

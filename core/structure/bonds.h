@@ -1,12 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bonds of a molecule: listed by its file, from templates of standard residues, or guessed by distance; and hydrogen
-// bonds between two sets of atoms.
+// Bonds of a molecule: listed by its file, from templates of standard residues, or guessed by distance; hydrogen bonds
+// between two sets of atoms; and the periodic box, across which bonds may lead.
 #pragma once
 
-#include "core/structure/periodic_cell.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
+
+/// The periodic box of a simulation, of any shape.
+class PeriodicCell {
+ public:
+  /// Makes the box of vectors a, b, c in the columns, in Å. Returns nothing for a box without volume, which files have
+  /// where there is no box, and for edges that are not 1e-6 to 1e9 Å long.
+  static std::optional<PeriodicCell> of(const glm::dmat3& vectors);
+
+  /// Returns the shortest of all vectors d + n_a a + n_b b + n_c c with integers n. It is exact for every shape of box.
+  glm::dvec3 shortest(glm::dvec3 d) const;
+
+ private:
+  explicit PeriodicCell(const glm::dmat3& reduced);
+
+  glm::dmat3 vectors_, inverse_;  ///< Minkowski-reduced, and the inverse
+  /// Square of half the shortest lattice vector; a vector of this length has no shorter image.
+  double half_shortest_squared_;
+};
 
 /// Returns the bonds of amino acids, nucleotides and water by the names of their heavy atoms. A hydrogen, or a site
 /// without element, is bonded to the nearest heavy atom of its residue within 1.6 Å. Residues of a chain are bonded by

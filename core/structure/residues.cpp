@@ -12,7 +12,6 @@
 #include "core/structure/bonds.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/residue_names.h"
-#include "core/structure/structure.h"
 #include "core/structure/sugars.h"
 
 namespace meniscus {

@@ -8,7 +8,6 @@
 
 #include "core/base/error.h"
 #include "core/base/progress.h"
-#include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/boundary.h"
 #include "core/surface/certificate.h"

@@ -11,7 +11,7 @@
 #include "core/base/progress.h"
 #include "core/math/box.h"
 #include "core/math/union_find.h"
-#include "core/reduced_surface/cpu/exhaustive.h"
+#include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/certificate.h"
 #include "core/surface/compute_surface.h"
 #include "core/surface/convex_planes.h"

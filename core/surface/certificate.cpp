@@ -6,7 +6,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "core/math/spiral.h"
+#include "core/math/ball.h"
 #include "core/surface/convex_planes.h"
 #include "core/surface/measure.h"
 #include "core/surface/walks.h"

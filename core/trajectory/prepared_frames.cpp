@@ -14,9 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/math/rigid_motion.h"
 #include "core/structure/bonds.h"
-#include "core/structure/periodic_cell.h"
 #include "core/structure/superposition.h"
 
 namespace meniscus {

@@ -5,8 +5,6 @@
 #include <cassert>
 
 #include "core/base/error.h"
-#include "core/gpu/program.h"
-#include "core/gpu/kernel_records.h"
 #include "core/surface/compute_surface.h"
 
 namespace meniscus {

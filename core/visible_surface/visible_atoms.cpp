@@ -6,7 +6,6 @@
 
 #include <tbb/parallel_reduce.h>
 
-#include "core/gpu/kernel_records.h"
 #include "core/queries/surface_parts.h"
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
 #include "core/reduced_surface/reduced_surface.h"

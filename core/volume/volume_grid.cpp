@@ -6,8 +6,6 @@
 
 #include <glm/matrix.hpp>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/math/double_geometry.h"
 
 namespace meniscus {

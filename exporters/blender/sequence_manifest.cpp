@@ -9,7 +9,7 @@
 
 #include "core/base/output_file.h"
 #include "core/base/version.h"
-#include "core/color/color_key_json.h"
+#include "core/color/color_key.h"
 #include "exporters/blender/mns_file.h"
 
 namespace meniscus::blender {

@@ -3,14 +3,13 @@
 #include "exporters/blender/surface_file.h"
 
 #include <cassert>
-#include <numbers>
 
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
-#include "core/color/color_key_json.h"
+#include "core/color/color_key.h"
 #include "core/color/color_maps.h"
 #include "core/mesh/mesh_colors.h"
 #include "core/queries/surface_parts.h"

@@ -4,20 +4,14 @@
 //
 // The winding number of the triangles confirms the point; if it is not inside them, a point below one of the triangles
 // is taken.
-#include "exporters/mesh_files/mesh_file_maker.h"
+#include "exporters/mesh_files/mesh_formats.h"
 
-#include <numbers>
-
-#include "core/base/constants.h"
 #include "core/base/error.h"
 #include "core/base/version.h"
 #include "core/color/named_colors.h"
 #include "core/mesh/mesh_colors.h"
-#include "core/mesh/triangle_mesh.h"
 #include "core/mesh/velocity.h"
 #include "core/queries/copies.h"
-#include "core/queries/distance.h"
-#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

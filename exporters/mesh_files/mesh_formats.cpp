@@ -5,14 +5,10 @@
 
 #include "core/base/error.h"
 #include "core/base/system_file.h"
-#include "core/base/text.h"
 #include "core/mesh/mesh_colors.h"
-#include "core/mesh/triangle_mesh.h"
 #include "core/queries/surface_parts.h"
 #include "core/structure/element_tables.h"
-#include "core/structure/structure.h"
 #include "core/surface/measure.h"
-#include "exporters/mesh_files/writers.h"
 
 namespace meniscus {
 namespace {

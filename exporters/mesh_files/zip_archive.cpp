@@ -5,21 +5,10 @@
 
 #ifdef MENISCUS_WITH_DEFLATE
 
-#include "exporters/mesh_files/zip_archive.h"
-
-#include <algorithm>
-#include <cstdint>
 #include <limits>
-#include <memory>
 #include <new>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include <fmt/compile.h>
-#include <fmt/format.h>
 #include <libdeflate.h>
 
 #include "core/base/version.h"

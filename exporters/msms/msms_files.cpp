@@ -5,9 +5,7 @@
 #include <fmt/compile.h>
 #include <tbb/blocked_range.h>
 
-#include "core/base/constants.h"
 #include "core/base/version.h"
-#include "core/math/ball.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/mesh/weld.h"
 #include "exporters/mesh_files/writers.h"

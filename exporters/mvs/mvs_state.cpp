@@ -2,15 +2,11 @@
 // Writes scenes as trees of MolViewSpec's nodes, and puts them into an archive.
 #include "exporters/mvs/mvs_state.h"
 
-#include <numbers>
-
 #include <fmt/chrono.h>
-#include <fmt/format.h>
 
 #include "core/image/color_space.h"
 #include "core/image/image_codec.h"
-#include "core/math/rigid_motion.h"
-#include "exporters/mesh_files/zip_archive.h"
+#include "exporters/mesh_files/writers.h"
 
 namespace meniscus::mvs {
 namespace {

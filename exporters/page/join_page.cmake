@@ -24,7 +24,7 @@ endfunction()
 # The script is kept in two files, because C++ compilers need not take a text of more than 65,536 letters.
 set(script "// SPDX-License-Identifier: BSD-3-Clause\n\"use strict\";")
 set(first data camera light caster)
-set(second layers views frames png messages viewer controls)
+set(second layers frames png messages viewer controls)
 foreach(half first second)
   set(joined "")
   foreach(part IN LISTS ${half})

@@ -3,17 +3,11 @@
 #include "exporters/page/page_file.h"
 
 #include <cstring>
-#include <numbers>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/base/version.h"
-#include "core/color/named_colors.h"
 #include "core/gpu/shader_source.h"
-#include "core/image/color_space.h"
 #include "core/render/light_maps.h"
 #include "core/render/picture_block.h"
-#include "exporters/page/page_data.h"
 #include "exporters/page/page_tables.h"
 #include "exporters/page/page_templates.h"
 

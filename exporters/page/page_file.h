@@ -8,7 +8,6 @@
 
 #include "core/base/text.h"
 #include "exporters/page/page_data.h"
-#include "exporters/page/page_figure.h"
 
 namespace meniscus::page {
 

@@ -2,19 +2,10 @@
 // Says in words and colours what a page shows beside the patches, and draws its still picture.
 #include "exporters/page/scene_page.h"
 
-#include "core/base/error.h"
 #include "core/base/system_file.h"
-#include "core/base/text.h"
-#include "core/color/color_key.h"
-#include "core/color/color_schemes.h"
-#include "core/image/color_space.h"
 #include "core/image/png_file.h"
 #include "core/queries/copies.h"
 #include "core/render/cpu/cpu_renderer.h"
-#include "core/scene/annotations.h"
-#include "core/scene/cut.h"
-#include "core/scene/figure.h"
-#include "core/scene/representations.h"
 #include "core/scene/scene_json.h"
 #include "core/scene/scene_picture.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes settings, camera, style, buffers and .ini of a scene, and the include that declares the surface in a user's
 // own scene.
-#include "exporters/povray/povray_files.h"
+#include "exporters/povray/povray_scene.h"
 
 #include <set>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cuts the objects of a scene by planes, and writes caps and shapes grouped by colour.
-#include "exporters/povray/scene_shapes.h"
+#include "exporters/povray/surface_pieces.h"
 
 #include "core/base/text.h"
 #include "core/mesh/mesh_objects.h"

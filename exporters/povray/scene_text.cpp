@@ -5,9 +5,6 @@
 
 #include <iterator>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-
 namespace meniscus::povray {
 namespace {
 

@@ -3,16 +3,9 @@
 // their copies, and composes notes for the report of a scene.
 #include "exporters/povray/surface_pieces.h"
 
-#include <numbers>
-
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/color/color_key_json.h"
-#include "core/color/color_maps.h"
 #include "core/surface/walks.h"
-#include "exporters/povray/scene_text.h"
 
 namespace meniscus::povray {
 namespace {

@@ -21,7 +21,7 @@ SOUND = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "menisc
 
 def as_compiled():
     """The command that compiles the file, from the name of the compiler on. A file that only other builds compile, such as
-    core/gpu/gpu_without_gl.cpp, is compiled as its neighbours are: clang-tidy does the same."""
+    core/surface/gpu_engine_without_gl.cpp, is compiled as its neighbours are: clang-tidy does the same."""
     entries = {os.path.relpath(entry["file"], ROOT): entry
                for entry in json.loads(Path(BUILD, "compile_commands.json").read_text())}
     entry = entries.get(FILE) or next(

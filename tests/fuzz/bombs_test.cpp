@@ -13,7 +13,7 @@
 #include "core/camera/camera_json.h"
 #include "core/structure/assembly.h"
 #include "core/structure/formats/structure_formats.h"
-#include "core/structure/radii/radii_set.h"
+#include "core/structure/radii/assign_radii.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/frame_list.h"
 #include "core/trajectory/trajectory.h"

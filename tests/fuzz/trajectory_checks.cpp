@@ -10,7 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text_file.h"
-#include "core/structure/periodic_cell.h"
+#include "core/structure/bonds.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus::fuzz {

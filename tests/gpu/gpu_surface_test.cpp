@@ -8,7 +8,7 @@
 #include "core/base/progress.h"
 #include "core/gpu/egl_context.h"
 #include "core/queries/surface_object.h"
-#include "core/reduced_surface/cpu/exhaustive.h"
+#include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 

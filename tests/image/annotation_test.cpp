@@ -12,7 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/camera/camera.h"
-#include "core/render/built_in_fonts.h"
+#include "core/render/lettering.h"
 
 namespace meniscus {
 namespace {

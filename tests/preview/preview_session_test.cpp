@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/reduced_surface/cpu/exhaustive.h"
+#include "core/reduced_surface/reduced_surface.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/surface/compute_surface.h"
 #include "core/surface/measure.h"

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/reduced_surface/cpu/exhaustive.h"
 #include "app/bench/rolling_probe.h"
+#include "core/reduced_surface/reduced_surface.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus::testing {

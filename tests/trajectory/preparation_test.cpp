@@ -14,7 +14,6 @@
 #include "core/base/error.h"
 #include "core/structure/bonds.h"
 #include "core/structure/formats/read_structure.h"
-#include "core/structure/periodic_cell.h"
 #include "core/structure/superposition.h"
 #include "core/trajectory/prepared_frames.h"
 #include "tests/support/sample_files.h"

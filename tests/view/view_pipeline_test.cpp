@@ -11,13 +11,13 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/color/coloring.h"
 #include "core/gpu/egl_context.h"
-#include "core/reduced_surface/cpu/exhaustive.h"
+#include "core/reduced_surface/reduced_surface.h"
 #include "core/render/gl_renderer.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "tests/view/view_cameras.h"
-#include "core/color/coloring.h"
 
 namespace meniscus {
 namespace {

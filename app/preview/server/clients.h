@@ -11,7 +11,6 @@
 
 #include "app/preview/command_json.h"
 #include "core/base/output_file.h"
-#include "core/base/scratch_file.h"
 
 namespace meniscus {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Samples a sphere at the vertices of a subdivided icosahedron, and tests sums of angles by products of cosines, in
 // whole numbers.
-#include "core/reduced_surface/contour/sphere_cover.h"
+#include "core/reduced_surface/contour/blockers.h"
 
 #include <cassert>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Enumerates all RS edges, atom by atom in parallel (contour build-up: Totrov & Abagyan 1996).
-#include "core/reduced_surface/cpu/exhaustive.h"
 
 #include <numeric>
 #include <utility>
@@ -8,8 +7,8 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "core/reduced_surface/contour/blockers.h"
 #include "core/reduced_surface/contour/contour.h"
-#include "core/reduced_surface/contour/sphere_cover.h"
 #include "core/reduced_surface/cpu/neighbor_search.h"
 #include "core/reduced_surface/reduced_surface.h"
 
@@ -27,10 +26,9 @@ constexpr std::uint32_t kCrowd = 192;
 struct Group {
   std::vector<std::uint32_t>
       neighbors;  // neighbours of atom after atom, neighbours with open circles first; none for buried atoms
-  std::vector<std::uint32_t> first;  // per atom, into neighbors; one past the last closes the list
-  std::vector<std::uint32_t> open;   // per atom: the number of its open circles
-  std::vector<std::uint8_t>
-      uncovered;  // atom after atom: directions near which the atom may be exposed (sphere_cover.h)
+  std::vector<std::uint32_t> first;     // per atom, into neighbors; one past the last closes the list
+  std::vector<std::uint32_t> open;      // per atom: the number of its open circles
+  std::vector<std::uint8_t> uncovered;  // atom after atom: directions near which the atom may be exposed (blockers.h)
   std::vector<std::uint32_t> first_uncovered;  // per atom; one past the last closes the list
   std::vector<RsArc> arcs;                     // arcs of atom after atom, sorted within each
   std::size_t pairs = 0;

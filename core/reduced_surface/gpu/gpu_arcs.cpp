@@ -2,10 +2,7 @@
 // Runs the kernels that find exposed arcs, batch by batch of atoms, and decides doubtful circles on the host.
 #include "core/reduced_surface/gpu/gpu_arcs.h"
 
-#include "core/gpu/program.h"
-#include "core/gpu/kernel_records.h"
 #include "core/reduced_surface/contour/contour.h"
-#include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
 

@@ -7,7 +7,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/gpu/context_description.h"
-#include "core/math/ball.h"
 
 namespace meniscus {
 namespace {}  // namespace

@@ -5,10 +5,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/base/text_file.h"
-
 namespace meniscus {
 namespace {
 

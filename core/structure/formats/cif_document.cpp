@@ -8,9 +8,6 @@
 
 #include <gemmi/cif.hpp>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-
 namespace meniscus {
 namespace {
 

@@ -6,16 +6,11 @@
 #include <charconv>
 #include <unordered_map>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/base/text_file.h"
 #include "core/math/ball.h"
-#include "core/math/rigid_motion.h"
 #include "core/structure/assembly.h"
 #include "core/structure/atom_classes.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/residue_names.h"
-#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

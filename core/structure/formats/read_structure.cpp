@@ -6,15 +6,11 @@
 #include <cmath>
 #include <set>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/structure/bonds.h"
 #include "core/structure/formats/added_files.h"
 #include "core/structure/martini.h"
 #include "core/structure/plausibility.h"
-#include "core/structure/residues.h"
 #include "core/structure/secondary_structure.h"
-#include "core/structure/selection/selection.h"
 
 namespace meniscus {
 namespace {

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/structure/formats/cif_document.h"
 
 namespace meniscus {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads files of radii in any known layout, and finds the radius of an atom in the table made of them.
-#include "core/structure/radii/radii_set.h"
+#include "core/structure/radii/assign_radii.h"
 
 #include <algorithm>
 #include <cctype>

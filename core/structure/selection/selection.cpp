@@ -10,9 +10,7 @@
 
 #include "core/base/text.h"
 #include "core/structure/element_tables.h"
-#include "core/structure/point_tree.h"
 #include "core/structure/selection/selection_steps.h"
-#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

@@ -5,9 +5,7 @@
 #include "core/mesh/tessellate.h"
 #include "core/scene/surface_computer.h"
 #include "core/surface/compute_surface.h"
-#include "exporters/bindings/c/c_atoms.h"
 #include "exporters/bindings/c/c_calls.h"
-#include "exporters/bindings/c/c_devices.h"
 #include "exporters/bindings/c/c_surface.h"
 
 namespace meniscus::c_api {

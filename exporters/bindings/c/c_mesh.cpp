@@ -9,11 +9,8 @@
 #include "core/scene/outputs.h"
 #include "core/scene/surface_computer.h"
 #include "core/structure/structure.h"
-#include "exporters/bindings/c/c_atoms.h"
 #include "exporters/bindings/c/c_calls.h"
-#include "exporters/bindings/c/c_devices.h"
 #include "exporters/bindings/c/c_surface.h"
-#include "exporters/mesh_files/mesh_file_maker.h"
 #include "exporters/mesh_files/mesh_formats.h"
 
 /// The object behind the handle of a mesh.

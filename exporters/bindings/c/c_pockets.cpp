@@ -4,7 +4,6 @@
 #include "core/pockets/pockets.h"
 #include "core/surface/compute_surface.h"
 #include "exporters/bindings/c/c_calls.h"
-#include "exporters/bindings/c/c_devices.h"
 #include "exporters/bindings/c/c_surface.h"
 
 /// The object behind the handle of pockets: the tables, with the rows of one pocket after the other.

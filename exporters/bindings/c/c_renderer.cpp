@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws pictures of computed surfaces, on the CPU or on a GL thread, and returns the text of pages.
+// Draws pictures of computed surfaces, on the CPU or on a GL thread, and makes web pages of scenes and surfaces. Builds
+// without the libraries for pages refuse to make them.
 #include "exporters/bindings/c/c_renderer.h"
 
-#include "core/camera/camera.h"
 #include "core/properties/properties.h"
-#include "core/render/cpu/unevenness.h"
-#include "core/render/look.h"
-#include "core/scene/scene_lengths.h"
-#include "exporters/bindings/c/c_atoms.h"
+#include "core/scene/scene_value.h"
 #include "exporters/bindings/c/c_scene.h"
 #include "exporters/bindings/c/c_surface.h"
+
+#ifdef MENISCUS_WITH_PAGES
+#include "exporters/bindings/c/c_structure.h"
+#include "exporters/page/scene_page.h"
+#endif
 
 namespace meniscus::c_api {
 namespace {
@@ -160,3 +162,59 @@ meniscus_status meniscus_page_html(const meniscus_page* page, const char** html,
     if (size) *size = page->html.size();
   });
 }
+
+#ifdef MENISCUS_WITH_PAGES
+
+meniscus_status meniscus_scene_page(const meniscus_scene* scene, meniscus_page** page) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(scene, "scene");
+    require(page, "page");
+    const meniscus::Scene complete = drawable(*scene);
+    std::string html;
+    run_on_threads(complete.molecule.surface.threads, [&] { html = meniscus::page::scene_page(complete); });
+    *page = new meniscus_page(std::move(html));
+  });
+}
+
+meniscus_status meniscus_surface_page(const meniscus_surface* surface, const meniscus_structure* structure,
+                                      const meniscus_scene* scene, const meniscus_camera* camera,
+                                      const float* atom_colors, meniscus_page** page) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(page, "page");
+    const SurfacePicture picture = surface_picture(surface, scene, camera, atom_colors);
+    const FinishedSurface& finished = *surface->finished;
+    const meniscus::Structure* const names = structure ? &structure_of(structure) : nullptr;
+    if (names && names->atoms.size() != finished.surface.atoms.size())
+      refuse(MENISCUS_USAGE, "structure has {} atoms, and the surface is of {}", names->atoms.size(),
+             finished.surface.atoms.size());
+    std::string html;
+    const meniscus::Surface& whole = finished.whole();
+    run_on_threads(finished.threads, [&] {
+      html = meniscus::page::surface_page(whole, picture.coloring, names, picture.scene, picture.camera,
+                                          meniscus::page::png_still);
+    });
+    *page = new meniscus_page(std::move(html));
+  });
+}
+
+#else
+
+namespace {
+
+meniscus_status refused() {
+  using namespace meniscus::c_api;
+  return guarded(
+      [] { refuse(MENISCUS_USAGE, "this build makes no pages: it was made without scenes, zlib or libdeflate"); });
+}
+
+}  // namespace
+
+meniscus_status meniscus_scene_page(const meniscus_scene*, meniscus_page**) { return refused(); }
+meniscus_status meniscus_surface_page(const meniscus_surface*, const meniscus_structure*, const meniscus_scene*,
+                                      const meniscus_camera*, const float*, meniscus_page**) {
+  return refused();
+}
+
+#endif

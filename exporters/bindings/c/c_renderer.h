@@ -10,7 +10,6 @@
 #include "core/scene/renderers.h"
 #include "core/scene/scene.h"
 #include "exporters/bindings/c/c_calls.h"
-#include "exporters/bindings/c/c_devices.h"
 
 namespace meniscus::c_api {
 

@@ -2,10 +2,6 @@
 // Sets and returns the values of scenes by the names and keys of properties.
 #include "exporters/bindings/c/c_scene.h"
 
-#include "core/base/text.h"
-#include "core/properties/properties.h"
-#include "exporters/bindings/c/c_calls.h"
-
 namespace meniscus::c_api {
 namespace {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes of molecules: reads and writes them as JSON, draws them as `meniscus render` does, and colours atoms by
-// schemes.
+// schemes. Builds without the libraries for scene files refuse every call.
+#ifdef MENISCUS_WITH_SCENES
+
 #include "core/scene/scene_picture.h"
 
 #include "core/base/text.h"
@@ -112,3 +114,32 @@ meniscus_status meniscus_render_scene(meniscus_renderer* renderer, const meniscu
     write_pixels(drawn, complete, rgba);
   });
 }
+
+#else
+
+#include "exporters/bindings/c/c_calls.h"
+#include "exporters/bindings/c/c_structure.h"
+
+namespace {
+
+meniscus_status refused(const char* what) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    refuse(MENISCUS_USAGE, "this build {} no scenes: it was made without gemmi, nlohmann_json or FreeType", what);
+  });
+}
+
+}  // namespace
+
+std::vector<glm::vec3> meniscus::c_api::structure_colors(const Structure&, std::string_view) {
+  refuse(MENISCUS_USAGE, "this build has no colour schemes: it was made without nlohmann_json or FreeType");
+}
+
+meniscus_status meniscus_scene_read(const char*, meniscus_scene**) { return refused("reads"); }
+meniscus_status meniscus_scene_parse(const char*, meniscus_scene**) { return refused("parses"); }
+meniscus_status meniscus_scene_json(const meniscus_scene*, const char*, const char**) { return refused("writes"); }
+meniscus_status meniscus_render_scene(meniscus_renderer*, const meniscus_scene*, std::uint8_t*, std::size_t) {
+  return refused("draws");
+}
+
+#endif

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Molecules from files: their atoms as tables without a copy.
+// Molecules from files, read with the options of a caller: their atoms as tables without a copy. Builds without gemmi,
+// which all readers need, refuse to read.
 
+#include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/structure/element_tables.h"
-#include "core/structure/structure.h"
 #include "exporters/bindings/c/c_calls.h"
 #include "exporters/bindings/c/c_structure.h"
+
+#ifdef MENISCUS_WITH_GEMMI
+#include "core/structure/formats/read_structure.h"
+#include "core/structure/selection/selection.h"
+#endif
 
 namespace meniscus::c_api {
 namespace {
@@ -124,6 +131,120 @@ meniscus_read_report report_of(const meniscus_structure& of) {
   return {sizeof(meniscus_read_report), structure.file.c_str(), structure.format.c_str(), structure.radii_set.c_str(),
           of.sentence.c_str(),          structure.report.read,  structure.atoms.size(),   structure.report.models};
 }
+
+/// The defaults of meniscus_read_options, in the order of its members: size, select, assembly, altloc, radii,
+/// radii_files, radius, radii_file_count, radius_count, model, hydrogens, unknown_element, keep_water, keep_ions,
+/// reserved.
+const meniscus_read_options kReadDefaults{sizeof(meniscus_read_options),
+                                          nullptr,
+                                          nullptr,
+                                          "best",
+                                          nullptr,
+                                          nullptr,
+                                          nullptr,
+                                          0,
+                                          0,
+                                          1,
+                                          MENISCUS_HYDROGENS_AUTO,
+                                          MENISCUS_UNKNOWN_HALT,
+                                          0,
+                                          0,
+                                          0};
+
+#ifdef MENISCUS_WITH_GEMMI
+
+constexpr std::size_t kMostTexts = 10'000;
+
+/// Returns the result of a function that parses a selection. Refuses an invalid selection; the message shows its place.
+template <typename Understand>
+auto understood(const char* option, const Understand& understand) {
+  try {
+    return understand();
+  } catch (const SelectionError& error) {
+    refuse(MENISCUS_USAGE, "{}: {}\n{}", option, error.sentence(), error.picture());
+  }
+}
+
+/// Returns a copy of a caller's list of texts. Refuses NULL texts.
+std::vector<std::string> texts_of(const char* const* texts, std::size_t count, const char* name) {
+  if (count > kMostTexts)
+    refuse(MENISCUS_CAPACITY, "{}: {} are more than the {} that are read", name, count, kMostTexts);
+  require_rows(texts, {count, 1, sizeof(const char*)}, name);
+  std::vector<std::string> result;
+  for (std::size_t n = 0; n < count; ++n) {
+    if (!texts[n]) refuse(MENISCUS_USAGE, "{}[{}] is NULL", name, n);
+    result.emplace_back(texts[n]);
+  }
+  return result;
+}
+
+AltlocChoice altloc_of(const char* text) {
+  const std::optional<AltlocChoice> choice = parse_altloc_choice(text ? text : kReadDefaults.altloc);
+  if (!choice) refuse(MENISCUS_USAGE, "altloc is {}; it must be best, first, all or one letter", in_quotes(text));
+  return *choice;
+}
+
+Hydrogens hydrogens_of(std::int32_t word) {
+  switch (word) {
+    case MENISCUS_HYDROGENS_AUTO:
+      return Hydrogens::automatic;
+    case MENISCUS_HYDROGENS_KEEP:
+      return Hydrogens::keep;
+    case MENISCUS_HYDROGENS_DROP:
+      return Hydrogens::drop;
+    default:
+      refuse(MENISCUS_USAGE, "hydrogens is {}, none of MENISCUS_HYDROGENS_AUTO, _KEEP, _DROP", word);
+  }
+}
+
+UnknownElement unknown_element_of(std::int32_t word) {
+  switch (word) {
+    case MENISCUS_UNKNOWN_HALT:
+      return UnknownElement::halt;
+    case MENISCUS_UNKNOWN_GUESS:
+      return UnknownElement::guess;
+    case MENISCUS_UNKNOWN_SKIP:
+      return UnknownElement::skip;
+    default:
+      refuse(MENISCUS_USAGE, "unknown_element is {}, none of MENISCUS_UNKNOWN_HALT, _GUESS, _SKIP", word);
+  }
+}
+
+ReadOptions reading_of(const meniscus_read_options& given) {
+  require_zero(given.reserved, "meniscus_read_options.reserved");
+  if (given.model < 0) refuse(MENISCUS_USAGE, "model is {}; it must be a number from 1, or 0 for all", given.model);
+  ReadOptions reading;
+  reading.model = {given.model == 0 ? 1 : given.model, given.model == 0};
+  reading.altloc = altloc_of(given.altloc);
+  reading.hydrogens = hydrogens_of(given.hydrogens);
+  reading.unknown_element = unknown_element_of(given.unknown_element);
+  reading.keep_water = given.keep_water != 0;
+  reading.keep_ions = given.keep_ions != 0;
+  if (given.assembly) reading.assembly = given.assembly;
+  if (given.select) reading.selection = understood("select", [&] { return parse_selection(given.select); });
+  if (given.radii) reading.radii.set = given.radii;
+  reading.radii.files = texts_of(given.radii_files, given.radii_file_count, "radii_files");
+  for (const std::string& text : texts_of(given.radius, given.radius_count, "radius"))
+    reading.radii.overrides.push_back(understood("radius", [&] { return parse_radius_override(text); }));
+  return reading;
+}
+
+/// Reads a molecule with the options of a caller, or the defaults for NULL. `path` must not be NULL. Refuses impossible
+/// options; throws the exceptions of read_structure(). Builds without gemmi refuse every call.
+Structure read_file(const char* path, const meniscus_read_options* options) {
+  const ReadOptions reading = reading_of(read_options(options, kReadDefaults, "meniscus_read_options"));
+  // The library does not read the standard input, which "-" means in the program.
+  return read_structure(std::string_view(path) == "-" ? "./-" : path, reading);
+}
+
+#else
+
+Structure read_file(const char* path, const meniscus_read_options*) {
+  refuse(MENISCUS_USAGE, "{}: this build reads no molecule files: it was made without gemmi; give positions and radii",
+         path);
+}
+
+#endif
 
 }  // namespace
 

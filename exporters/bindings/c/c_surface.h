@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The object behind the handle of a surface.
+// The object behind the handle of a surface, and the positions, radii and colours of atoms that callers pass.
 #pragma once
 
+#include "core/color/coloring.h"
 #include "core/queries/distance.h"
 #include "core/scene/surface_computer.h"
 #include "core/surface/measure.h"
@@ -29,6 +30,17 @@ struct FinishedSurface {
   mutable std::optional<AtomAreas> areas_;
   mutable std::optional<SurfaceDistance> distance_;
 };
+
+/// Returns the atoms of a caller. Refuses numbers that meniscus.h does not allow; the message has the atom and the
+/// value.
+std::vector<Ball> read_atoms(const meniscus_atoms* atoms);
+
+/// The sRGB colour of surfaces and meshes for which the caller gives no colour.
+inline constexpr glm::vec3 kPlainColor(0.75f, 0.82f, 0.9f);
+
+/// Returns the colours of atoms: of_atoms has three channels per atom; if it is NULL, all atoms have `color`. Refuses
+/// channels outside of [0, 1] with MENISCUS_INPUT.
+Coloring coloring_of(const glm::vec3& color, const float* of_atoms, std::size_t atoms);
 
 }  // namespace meniscus::c_api
 

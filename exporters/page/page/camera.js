@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The camera and how it moves: as core/camera and app/preview/camera_motion.cpp have it.
+// The camera and how it moves: as core/camera and app/preview/camera_commands.cpp have it.
 
 const plus = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];

@@ -58,7 +58,7 @@ function restored(name, words) {
   return words;
 }
 
-/// Restores the rows of patches from the differences that row_differences() made (exporters/page/page_rows.h). surfaces: the
+/// Restores the rows of patches from the differences that row_differences() made (exporters/page/page_tables.h). surfaces: the
 /// list of this name in the description's light_maps.
 function restored_rows({ primitives, rows: sorted, balls, shown }, surfaces, probe) {
   const count = primitives.length / 12, groups = Array.from({ length: 25 }, () => []);

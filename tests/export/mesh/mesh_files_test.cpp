@@ -18,7 +18,6 @@
 #include "core/queries/surface_parts.h"
 #include "core/structure/structure.h"
 #include "core/surface/compute_surface.h"
-#include "exporters/mesh_files/mesh_file_maker.h"
 #include "exporters/mesh_files/mesh_formats.h"
 #include "tests/support/molecules.h"
 #include "tests/support/run_program.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/structure/radii/radii_set.h"
+#include "core/structure/radii/assign_radii.h"
 #include "tests/fuzz/reader_checks.h"
 
 namespace meniscus::fuzz {

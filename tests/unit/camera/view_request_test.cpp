@@ -13,7 +13,6 @@
 #include "core/camera/view_request.h"
 #include "core/math/ball.h"
 #include "core/math/rigid_motion.h"
-#include "core/math/spiral.h"
 
 namespace meniscus {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Directions that cover the sphere evenly.
-#include "core/math/spiral.h"
+#include "core/math/ball.h"
 
 #include <algorithm>
 #include <cmath>

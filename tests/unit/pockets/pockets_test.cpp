@@ -13,7 +13,7 @@
 #include <tbb/global_control.h>
 
 #include "core/base/error.h"
-#include "core/math/spiral.h"
+#include "core/math/ball.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/queries/surface_parts.h"

@@ -15,7 +15,6 @@
 
 #include "core/math/ball.h"
 #include "core/math/double_geometry.h"
-#include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {

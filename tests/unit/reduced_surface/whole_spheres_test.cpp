@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 

@@ -16,7 +16,6 @@
 #include "core/base/error.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/queries/surface_object.h"
-#include "core/shapes/cartoon.h"
 #include "core/structure/bonds.h"
 #include "core/structure/formats/read_structure.h"
 #include "tests/support/pdb_line.h"

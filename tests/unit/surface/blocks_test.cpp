@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/progress.h"
-#include "core/math/spiral.h"
+#include "core/math/ball.h"
 #include "core/surface/compute_surface.h"
 #include "core/surface/measure.h"
 #include "tests/support/molecules.h"

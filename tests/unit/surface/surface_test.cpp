@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/reduced_surface/cpu/exhaustive.h"
+#include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/patch_samples.h"

@@ -11,7 +11,7 @@ import bpy
 import mathutils
 import numpy as np
 
-from . import attributes, compat, frames, joined, libraries, looks, materials, mns_reader
+from . import attributes, compat, joined, libraries, looks, materials, mns_reader, sequence_reader
 from .mesh_arrays import NAMES, OURS, names_of, of_surface
 
 #: Two molecules with equal numbers of atoms are taken for the same if they have at least this many.
@@ -86,7 +86,7 @@ def import_file(path, context=None, **options):
     file = mns_reader.read(path)
     options = Options(**options)
     source, atoms = source_of(file.header), sum(len(surface["atom.center"]) for surface in file.objects)
-    origin = scene_origin(context.scene, lambda: middle_of(frames.points_of(file)), source,
+    origin = scene_origin(context.scene, lambda: middle_of(sequence_reader.points_of(file)), source,
                           atoms) if options.center else np.zeros(3)
     stem = os.path.splitext(os.path.basename(path))[0]
     made = Import()
@@ -105,7 +105,7 @@ def import_file(path, context=None, **options):
             camera = bpy.data.cameras.new(stem + ".camera")
             made.camera = bpy.data.objects.new(camera.name, camera)
             place_camera(made.camera, shot, options.scale, origin)
-            reach_all(made.camera, frames.points_of(file), options.scale, origin)
+            reach_all(made.camera, sequence_reader.points_of(file), options.scale, origin)
             made.collection.objects.link(made.camera)
         context.scene.collection.children.link(made.collection)
     if made.camera is not None and options.use_camera:

@@ -7,7 +7,7 @@ import os
 import bpy
 from bpy.app.handlers import persistent
 
-from . import attributes, build, compat, frame_picker, frames, libraries, mesh_arrays, mns_reader, sequence_reader
+from . import attributes, build, compat, frame_picker, libraries, mesh_arrays, mns_reader, sequence_reader
 from .computing import process
 
 
@@ -35,7 +35,7 @@ class Placement:
         self.new_materials = []
 
     def refill(self, mesh, scene_frame, kept=()):
-        """Puts a frame into a mesh, with the kept attributes of the user, and returns its frames.Prepared. scene_frame:
+        """Puts a frame into a mesh, with the kept attributes of the user, and returns its Prepared. scene_frame:
         its place in the run, from 1. After an error the mesh has no geometry, because another frame would be wrong."""
         try:
             build.clear_geometry(mesh)
@@ -56,7 +56,7 @@ class Placement:
         return prepared
 
     def prepared(self, scene_frame):
-        return frames.prepare(self.sequence, scene_frame, self.origin, self.scale, self.crisp_colors)
+        return sequence_reader.prepare(self.sequence, scene_frame, self.origin, self.scale, self.crisp_colors)
 
 
 class Ahead:
@@ -76,13 +76,13 @@ class Ahead:
                 mns_reader.stamp(path) if os.path.exists(path) else None)
 
     def take(self, placement, scene_frame):
-        """Returns the frames.Prepared of a frame. If the other process failed, the frame is read here, which reports
+        """Returns the Prepared of a frame. If the other process failed, the frame is read here, which reports
         the reason. Raises MnsError or OSError."""
         job = self.waiting.pop(self.key(placement, scene_frame), None)
         if job is not None:
             self.process.wait(job)
             if job.error is None:
-                return frames.unpacked(job.result)
+                return sequence_reader.unpacked(job.result)
         return placement.prepared(scene_frame)
 
     def request(self, placement, scene_frame):
@@ -260,7 +260,7 @@ def stream(path, context=None, **options):
     return item
 
 
-_manifests = frames.Manifests()
+_manifests = sequence_reader.Manifests()
 
 
 def placement_of(item, scene):

@@ -9,7 +9,7 @@ import os
 import bpy
 import numpy as np
 
-from . import build, camera_rig, compat, frames, mesh_arrays, mns_reader, sequence_reader
+from . import build, camera_rig, compat, mesh_arrays, mns_reader, sequence_reader
 from .mesh_arrays import names_of
 
 #: The keys of a surface's header that affect its look.
@@ -42,8 +42,8 @@ def import_file(path, context=None, scale=None, center=False, import_camera=True
         made.items = story.add_scenes(made.collection)
         if import_camera:
             made.camera = camera_rig.add(made.collection, board, story.name, options.scale, story.origin)
-            camera_rig.reach_all(made.camera, board, [frames.points_of(files[scene.path]) for scene in board.scenes],
-                                 options.scale)
+            points = [sequence_reader.points_of(files[scene.path]) for scene in board.scenes]
+            camera_rig.reach_all(made.camera, board, points, options.scale)
         context.scene.collection.children.link(made.collection)
     if set_time:
         set_up_time(context.scene, board)

@@ -11,8 +11,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/reduced_surface/contour/blockers.h"
 #include "core/reduced_surface/contour/contour.h"
-#include "core/reduced_surface/contour/sphere_cover.h"
 
 namespace meniscus {
 namespace {

@@ -8,7 +8,6 @@
 #include "core/base/error.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/structure/radii/assign_radii.h"
-#include "core/structure/radii/radii_set.h"
 #include "core/structure/residue_names.h"
 #include "tests/support/run_program.h"
 #include "tests/support/sample_files.h"

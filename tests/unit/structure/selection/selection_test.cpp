@@ -10,7 +10,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/structure/point_tree.h"
 #include "core/structure/selection/selection.h"
 #include "core/structure/selection/selection_steps.h"
 #include "core/structure/selection/selection_words.h"

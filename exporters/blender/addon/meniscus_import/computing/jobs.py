@@ -7,7 +7,7 @@ import threading
 
 import numpy as np
 
-from .. import attributes, frames, mesh_arrays
+from .. import attributes, mesh_arrays, sequence_reader
 from . import engines
 from .atoms import Atoms
 from .request import Request
@@ -113,7 +113,7 @@ class Tools:
         """package, program: arguments of engines.find_tools(). folder: a folder for temporary files, or None."""
         self._named, self.folder = (package, program), folder
         self._found, self._finding = None, threading.Lock()
-        self._manifests = frames.Manifests()
+        self._manifests = sequence_reader.Manifests()
 
     @property
     def tools(self):
@@ -150,8 +150,8 @@ class Tools:
         return {"header": found.header, "middle": middle, "base": base, "atoms": len(centers), "arrays": vars(arrays)}
 
     def frame(self, _task, path, **about):
-        """Returns a packed frame of the sequence with the manifest `path`. about: arguments of frames.prepare()."""
-        return frames.packed(frames.prepare(self._manifests.get(path), **about))
+        """Returns a packed frame of the sequence with the manifest `path`. about: arguments of prepare()."""
+        return sequence_reader.packed(sequence_reader.prepare(self._manifests.get(path), **about))
 
     def count(self, task, request):
         """Returns the number of frames in the run of a request."""
