@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "core/math/ball.h"
-#include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
 namespace {

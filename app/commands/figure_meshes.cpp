@@ -5,13 +5,11 @@
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/mesh/mesh_colors.h"
-#include "core/mesh/mesh_objects.h"
 #include "core/mesh/section_mesh.h"
 #include "core/mesh/velocity.h"
 #include "core/queries/copies.h"
 #include "core/scene/figure.h"
 #include "exporters/mesh_files/mesh_formats.h"
-#include "exporters/path_tracers/path_tracer_scene.h"
 
 namespace meniscus {
 namespace {

@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 
 #include "app/commands/storyboard.h"
-#include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"

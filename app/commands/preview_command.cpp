@@ -5,6 +5,8 @@
 #include <charconv>
 #include <sstream>
 
+#include <CLI/CLI.hpp>
+
 #include "app/options/property_options.h"
 #include "app/process/child_process.h"
 #include "app/process/program_main.h"
@@ -14,7 +16,6 @@
 #include "core/queries/surface_object.h"
 #include "core/render/legend.h"
 #include "core/scene/figure.h"
-#include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
 #include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"

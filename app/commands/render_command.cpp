@@ -3,6 +3,8 @@
 // scene parses.
 #include "app/commands/render_command.h"
 
+#include <CLI/CLI.hpp>
+
 #include "app/process/program_main.h"
 #include "core/base/text.h"
 #include "core/scene/scene_json.h"

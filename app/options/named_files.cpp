@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <CLI/CLI.hpp>
+
 #include "app/options/command_tree.h"
 #include "app/process/program_main.h"
 #include "core/base/error.h"

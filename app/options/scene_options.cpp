@@ -8,12 +8,12 @@
 #include <fstream>
 #include <iostream>
 
+#include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
 
 #include "app/film/film.h"
 #include "app/options/command_tree.h"
 #include "app/options/named_files.h"
-#include "app/options/property_options.h"
 #include "app/options/storyboard_file.h"
 #include "app/process/program_main.h"
 #include "core/base/binary_file.h"
@@ -24,7 +24,6 @@
 #include "core/color/color_maps.h"
 #include "core/image/png_file.h"
 #include "core/mesh/tessellate.h"
-#include "core/scene/scene_json.h"
 #include "core/scene/scene_values.h"
 #include "core/structure/formats/structure_formats.h"
 #include "exporters/mesh_files/mesh_formats.h"

@@ -8,7 +8,6 @@
 #include <iterator>
 #include <ostream>
 
-#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 

@@ -4,7 +4,6 @@
 
 #include <new>
 
-#include "app/preview/command_json.h"
 #include "app/preview/commands.h"
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -12,7 +12,6 @@
 #include "core/queries/surface_parts.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/scene/annotations.h"
-#include "core/scene/figure.h"
 #include "core/scene/molecule.h"
 #include "core/scene/surface_objects.h"
 #include "core/surface/compute_surface.h"

@@ -16,7 +16,6 @@
 #include "core/render/legend.h"
 #include "core/render/picture_file.h"
 #include "core/scene/annotations.h"
-#include "core/scene/figure.h"
 #include "core/scene/molecule.h"
 #include "core/scene/surface_computer.h"
 #include "core/surface/compute_surface.h"

@@ -5,11 +5,11 @@
 #include <iostream>
 #include <numbers>
 
+#include <CLI/Error.hpp>
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
 
-#include "app/options/scene_options.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/ordered_classes.h"

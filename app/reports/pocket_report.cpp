@@ -9,11 +9,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "app/reports/csv_tables.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/named_colors.h"
-#include "core/pockets/pockets.h"
 
 namespace meniscus {
 namespace {

@@ -9,7 +9,6 @@
 #include <tbb/task_arena.h>
 #include <unistd.h>
 
-#include "app/options/scene_options.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"
 #include "core/base/ordered_jobs.h"

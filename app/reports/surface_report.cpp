@@ -4,7 +4,6 @@
 
 #include <iterator>
 
-#include "app/reports/csv_tables.h"
 #include "core/base/text.h"
 #include "core/scene/surface_objects.h"
 
