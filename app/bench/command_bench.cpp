@@ -8,7 +8,6 @@
 #include "app/bench/paper_bench.h"
 #include "app/bench/rolling_probe.h"
 #include "app/commands/command_table.h"
-#include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"

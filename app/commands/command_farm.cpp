@@ -16,7 +16,6 @@
 #include "app/farm/make_bundle.h"
 #include "app/farm/worker.h"
 #include "app/options/command_tree.h"
-#include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/child_process.h"
 #include "app/process/program_main.h"

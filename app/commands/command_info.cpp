@@ -7,7 +7,6 @@
 #include <fmt/ostream.h>
 
 #include "app/commands/command_table.h"
-#include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"

@@ -2,7 +2,6 @@
 // `meniscus morph`: makes a path from one structure to another, as models of a PDB file.
 
 #include "app/commands/command_table.h"
-#include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"

@@ -7,7 +7,6 @@
 #include "app/commands/picture_sink.h"
 #include "app/film/film.h"
 #include "app/options/named_files.h"
-#include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"

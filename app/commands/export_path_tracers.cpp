@@ -6,7 +6,6 @@
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
 #include "app/commands/figure_meshes.h"
-#include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"

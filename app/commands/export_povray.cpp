@@ -5,7 +5,6 @@
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"
 #include "app/commands/povray_figures.h"
-#include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_main.h"
 #include "app/reports/notes.h"

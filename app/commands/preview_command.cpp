@@ -5,6 +5,7 @@
 #include <charconv>
 #include <sstream>
 
+#include <CLI/CLI.hpp>
 #include "app/process/child_process.h"
 #include "app/process/program_main.h"
 #include "core/base/system_file.h"

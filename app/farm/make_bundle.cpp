@@ -14,7 +14,6 @@
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
-#include "core/base/text.h"
 #include "core/camera/camera_json.h"
 #include "core/render/image_output.h"
 #include "core/scene/annotations.h"

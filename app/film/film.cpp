@@ -12,7 +12,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "app/process/program_main.h"
 #include "app/process/system_process.h"
 #include "core/base/binary_file.h"
 #include "core/base/error.h"

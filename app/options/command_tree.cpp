@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include <CLI/CLI.hpp>
+
 #include "core/base/text.h"
 #include "core/properties/properties.h"
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
+#include <CLI/CLI.hpp>
 
 #include "app/options/command_tree.h"
 #include "app/process/program_main.h"

@@ -3,6 +3,7 @@
 // keys as text and as a schema.
 #include "app/options/property_options.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
 
 #include "app/film/film.h"
@@ -124,6 +125,25 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
 }
 
 std::string group_of(const Property& property) { return std::string(property.has(rare) ? "" : property.heading); }
+
+template <typename Target>
+CLI::Option* PropertyOptions::add(std::string_view key, Target& target) {
+  const Property& property = property_of(key);
+  if constexpr (std::same_as<Target, bool>)
+    return finish(property, command_.add_flag(std::string(property.option), target));
+  else
+    return finish(property, command_.add_option(std::string(property.option), target));
+}
+template CLI::Option* PropertyOptions::add(std::string_view key, bool& target);
+template CLI::Option* PropertyOptions::add(std::string_view key, int& target);
+template CLI::Option* PropertyOptions::add(std::string_view key, double& target);
+template CLI::Option* PropertyOptions::add(std::string_view key, unsigned& target);
+template CLI::Option* PropertyOptions::add(std::string_view key, std::size_t& target);
+template CLI::Option* PropertyOptions::add(std::string_view key, std::optional<int>& target);
+template CLI::Option* PropertyOptions::add(std::string_view key, std::optional<std::size_t>& target);
+template CLI::Option* PropertyOptions::add(std::string_view key, std::string& target);
+template CLI::Option* PropertyOptions::add(std::string_view key, std::filesystem::path& target);
+template CLI::Option* PropertyOptions::add(std::string_view key, std::vector<std::string>& target);
 
 CLI::Option* PropertyOptions::add_parsed(std::string_view key, const std::function<void(const std::string&)>& parse) {
   const Property& property = property_of(key);

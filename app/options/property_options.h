@@ -5,12 +5,16 @@
 
 #include <set>
 
-#include <CLI/CLI.hpp>
-
 #include "core/properties/properties.h"
 #include "core/scene/scene.h"
 #include "core/scene/scene_values.h"
 #include "core/structure/selection/selection.h"
+
+namespace CLI {
+class App;
+class Option;
+class Validator;
+}  // namespace CLI
 
 namespace meniscus {
 
@@ -73,15 +77,10 @@ class PropertyOptions {
  public:
   explicit PropertyOptions(CLI::App& command) : command_(command) {}
 
-  /// Adds a flag, a number within its range, a text or path, or several of them, which are stored unchanged.
+  /// Adds a flag, a number within its range, a text or path, or several of them, which are stored unchanged. The types
+  /// of targets are listed behind the definition.
   template <typename Target>
-  CLI::Option* add(std::string_view key, Target& target) {
-    const Property& property = property_of(key);
-    if constexpr (std::same_as<Target, bool>)
-      return finish(property, command_.add_flag(std::string(property.option), target));
-    else
-      return finish(property, command_.add_option(std::string(property.option), target));
-  }
+  CLI::Option* add(std::string_view key, Target& target);
 
   /// Adds an option whose value is one of the property's words; `meanings` are in the order of the words.
   template <typename Target, typename Meaning>

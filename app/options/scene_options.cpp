@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 
+#include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
 
 #include "app/film/film.h"

@@ -10,7 +10,6 @@
 #include <system_error>
 
 #include "app/process/system_process.h"
-#include "core/base/error.h"
 #include "core/base/output_file.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"

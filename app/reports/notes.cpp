@@ -4,6 +4,7 @@
 
 #include <iostream>
 
+#include <CLI/Error.hpp>
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
 #include <unistd.h>

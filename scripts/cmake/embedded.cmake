@@ -22,5 +22,6 @@ function(meniscus_embed variable)
             -DPATTERN=${embed_ONLY} -P ${MENISCUS_EMBED_SCRIPT}
     DEPENDS ${sources} ${MENISCUS_EMBED_SCRIPT}
     COMMENT "Embedding ${embed_FOLDER}" VERBATIM)
+  add_custom_target(${embed_FUNCTION}_file DEPENDS ${written})  # else it waits for all that its user links
   set(${variable} ${written} PARENT_SCOPE)
 endfunction()

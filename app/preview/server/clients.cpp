@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "app/preview/command_json.h"
 #include "core/base/error.h"
 
 namespace meniscus {

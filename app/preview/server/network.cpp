@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "app/preview/command_json.h"
-#include "app/preview/server/clients.h"
 #include "app/preview/server/connection.h"
 #include "core/base/error.h"
 

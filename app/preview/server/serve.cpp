@@ -7,8 +7,6 @@
 #include <turbojpeg.h>
 
 #include "app/preview/server/clients.h"
-#include "app/preview/server/network.h"
-#include "app/preview/session.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/png_file.h"

@@ -123,7 +123,7 @@ const RadiiSet kMartini3Set{"martini3", "beads of Martini 3, the same", kMartini
 
 namespace {
 
-bool is_hydrogen(const Atom& atom) { return atom.element == 1; }
+bool is_explicit_hydrogen(const Atom& atom) { return atom.element == 1; }
 
 const char* atoms_word(std::size_t count) { return count == 1 ? "atom" : "atoms"; }
 
@@ -251,7 +251,7 @@ void RadiiChoice::warn(Structure& structure, const std::vector<Given>& given) co
   for (std::size_t n = 0; n < given.size(); ++n) {
     const Atom& atom = structure.atoms[n];
     if (!given[n].is_covered) uncovered.push_back(label_of(atom));
-    if (is_hydrogen(atom)) ++hydrogens;
+    if (is_explicit_hydrogen(atom)) ++hydrogens;
     const bool by_element = !given[n].is_covered || set_ == &kBondiSet;
     if (by_element && given[n].found.source == source_name(RadiusSource::none)) ++without_source[atom.element];
   }
@@ -285,7 +285,7 @@ std::string RadiiChoice::name() const {
 }
 
 std::vector<std::string> RadiiChoice::assign(Structure& structure) const {
-  const bool hydrogens_used = std::any_of(structure.atoms.begin(), structure.atoms.end(), is_hydrogen);
+  const bool hydrogens_used = std::any_of(structure.atoms.begin(), structure.atoms.end(), is_explicit_hydrogen);
   std::vector<Given> given = radii_for(structure, hydrogens_used);
   for (std::size_t n = 0; n < given.size(); ++n) structure.atoms[n].radius = given[n].found.radius;
   override_radii(structure, given);
