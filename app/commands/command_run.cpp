@@ -2,9 +2,8 @@
 // Reads molecules and runs, and hands their structures or figures to a command.
 #include "app/commands/command_run.h"
 
-#include <unistd.h>
-
 #include "app/process/program_main.h"
+#include "app/process/system_process.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
 #include "core/camera/camera_json.h"
@@ -58,7 +57,7 @@ void NumberRun::make_frames(std::vector<FrameWorker> workers, const std::functio
   SceneCommand command = command_;
   // On a terminal the rows show the progress; a bar would collide with them.
   ProgressStyle& progress = command.reporting.progress;
-  if (progress == ProgressStyle::automatic && ::isatty(STDOUT_FILENO)) progress = ProgressStyle::none;
+  if (progress == ProgressStyle::automatic && system_process::is_terminal(stdout)) progress = ProgressStyle::none;
   try {
     run_frames(*frames_, command, std::move(workers));
   } catch (const RunError&) {

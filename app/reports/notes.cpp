@@ -7,9 +7,9 @@
 
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include "app/options/scene_options.h"
+#include "app/process/system_process.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/ordered_classes.h"
@@ -63,7 +63,7 @@ void warn_beyond_map(const SceneCommand& command, double share, std::string_view
 
 ProgressSink progress_on_stderr(const SceneCommand& command) {
   if (command.reporting.quiet) return {};
-  auto text = std::make_shared<ProgressText>(::isatty(STDERR_FILENO) == 1,
+  auto text = std::make_shared<ProgressText>(system_process::is_terminal(stderr),
                                              [](std::string_view part) { std::cerr << part << std::flush; });
   return [text](const ProgressReport& report) { text->report(report); };
 }
