@@ -11,10 +11,6 @@
 #include <glm/detail/setup.hpp>
 #include <libdeflate.h>
 #include <nlohmann/detail/abi_macros.hpp>
-#include <sys/utsname.h>
-#if defined(__GLIBC__)
-#include <gnu/libc-version.h>
-#endif
 #include <tbb/version.h>
 #include <zlib.h>
 
@@ -22,6 +18,7 @@
 #include "app/options/command_tree.h"
 #include "app/options/named_files.h"
 #include "app/process/program_main.h"
+#include "app/process/system_process.h"
 #include "core/base/binary_file.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
@@ -50,16 +47,6 @@ std::string answer_of(Ask ask) {
   }
 }
 
-std::string system_line() {
-  utsname system{};
-  ::uname(&system);
-  std::string line = fmt::format("{} {} {}", system.sysname, system.release, system.machine);
-#if defined(__GLIBC__)
-  line += fmt::format(", glibc {}", ::gnu_get_libc_version());
-#endif
-  return line;
-}
-
 std::string libraries_line() {
   return fmt::format(
       "oneTBB {}, fmt {}.{}.{}, zlib {}, libdeflate {}, GLM {}.{}.{}, CLI11 {}, JSON for Modern C++ "
@@ -83,9 +70,9 @@ std::string version_line() { return std::string("meniscus ") + build_version(); 
 /// would choose. Anything that cannot be found is reported in its line. Reads CUDA_VISIBLE_DEVICES like --device.
 std::string version_report() {
   return version_line() + row("sources", build_date()) +
-         row("compiler", fmt::format("{}, {}", kCompiler, MENISCUS_BUILD_TYPE)) + row("system", system_line()) +
-         row("libraries", libraries_line()) + row("pictures", answer_of([] { return image_codec().library(); })) +
-         row("GL", answer_of(gl_line));
+         row("compiler", fmt::format("{}, {}", kCompiler, MENISCUS_BUILD_TYPE)) +
+         row("system", system_process::system_name()) + row("libraries", libraries_line()) +
+         row("pictures", answer_of([] { return image_codec().library(); })) + row("GL", answer_of(gl_line));
 }
 
 /// Returns what to cite: the program as BibTeX, and the paper of its method, as in CITATION.cff.
@@ -259,14 +246,14 @@ bool is_command(std::string_view word) {
 
 /// Returns the words as typed, with shortcuts expanded: `meniscus my.pdb` means `meniscus render my.pdb`, also with -
 /// for standard input, and `meniscus my.json` means `meniscus render --scene my.json`.
-std::vector<const char*> words_of(int argc, char** argv) {
-  std::vector<const char*> words(argv, argv + argc);
-  const std::string_view first = argc < 2 ? "" : argv[1];
+std::vector<const char*> words_of(std::span<const char* const> typed) {
+  std::vector<const char*> words(typed.begin(), typed.end());
+  const std::string_view first = words.size() < 2 ? "" : words[1];
   const bool standard_input = first == "-";
   if (!standard_input && (first.empty() || first[0] == '-' || is_command(first))) return words;
   std::error_code unreadable;
-  if (!standard_input && !std::filesystem::is_regular_file(argv[1], unreadable)) refuse_unknown_command(first);
-  if (std::filesystem::path(argv[1]).extension() == ".json") words.insert(words.begin() + 1, "--scene");
+  if (!standard_input && !std::filesystem::is_regular_file(first, unreadable)) refuse_unknown_command(first);
+  if (std::filesystem::path(first).extension() == ".json") words.insert(words.begin() + 1, "--scene");
   words.insert(words.begin() + 1, "render");
   return words;
 }
@@ -277,8 +264,8 @@ bool shows_options(std::span<const char* const> words) {
   return words.size() > 1 && std::ranges::find(kAsking, std::string_view(words[1])) != kAsking.end();
 }
 
-void run(int argc, char** argv) {
-  const std::vector<const char*> words = words_of(argc, argv);
+void run(std::span<const char* const> typed) {
+  const std::vector<const char*> words = words_of(typed);
   remember_command_line(words);
   CLI::App program("Meniscus computes the exact, complete solvent-excluded surface of a molecule.", "meniscus");
   program.formatter(std::make_shared<ManualFormatter>());
@@ -320,7 +307,7 @@ void run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace meniscus;
   return program_main("meniscus", [=] {
-    run(argc, argv);
+    run(system_process::words(argc, argv));
     return kExitOk;
   });
 }

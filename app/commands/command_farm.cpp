@@ -19,6 +19,7 @@
 #include "app/options/scene_options.h"
 #include "app/process/child_process.h"
 #include "app/process/program_main.h"
+#include "app/process/system_process.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/properties/properties.h"
@@ -276,7 +277,7 @@ std::vector<std::uint64_t> frames_of_chunk(const farm::Bundle& bundle, const std
       !parse_whole_number(text.substr(slash + 1), n) || k < 1 || k > n)
     throw UsageError("--chunk is {}; it must be K/N with K from 1 to N, such as 3/10", in_quotes(text));
   // Workers of neighbouring shares on a machine of several GPUs take one each.
-  ::setenv(kWorkerVariable, std::to_string(k - 1).c_str(), 0);
+  system_process::set_variable(kWorkerVariable, std::to_string(k - 1));
   return farm::chunk_of(bundle, static_cast<std::uint64_t>(k), static_cast<std::uint64_t>(n));
 }
 
@@ -307,7 +308,7 @@ void run(WorkCommand command) {
   if (!command.device.empty()) order.device = {"--device", command.device};
   if (command.require_gpu) order.device.emplace_back("--require-gpu");
   // Software GL takes as many threads as the machine has cores unless this is set.
-  if (order.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(order.threads).c_str(), 0);
+  if (order.threads > 0) system_process::set_variable("LP_NUM_THREADS", std::to_string(order.threads));
   const StopHandler handler([] { stop_children(); }, kExitStopped);
   farm::work(bundle, order, command.progress);
 }

@@ -7,19 +7,17 @@
 
 #ifdef MENISCUS_PREVIEW
 
-#include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <iterator>
 #include <system_error>
-
-#include <unistd.h>
 
 #include "app/commands/preview_command.h"
 #include "app/preview/command_json.h"
 #include "app/preview/server/clients.h"
 #include "app/preview/session.h"
 #include "app/process/child_process.h"
+#include "app/process/system_process.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
@@ -39,8 +37,8 @@ namespace {
 
 /// Returns the name by which ssh may know this machine.
 std::string host_name() {
-  char name[256] = {};
-  return ::gethostname(name, sizeof name - 1) == 0 && name[0] ? escaped(name) : "HOST";
+  const std::string name = escaped(system_process::host());
+  return name.empty() ? "HOST" : name;
 }
 
 /// A molecule with its trajectory, if there is one, and its first view.
@@ -311,7 +309,7 @@ void require_output_folder(const PreviewCommand& command) {
 
 void serve(DeclaredPreview& declared) {
   PreviewCommand& command = declared.state;
-  std::signal(SIGPIPE, SIG_IGN);  // a client that stops reading must not end the server
+  system_process::outlive_readers();
   require_output_folder(command);
   const std::vector<WrittenCommand> commands = written_commands(command);
   ServeOptions options;

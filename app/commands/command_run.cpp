@@ -3,9 +3,8 @@
 // into settings of its pictures, and those that scenes share into words that each scene parses.
 #include "app/commands/command_run.h"
 
-#include <unistd.h>
-
 #include "app/process/program_main.h"
+#include "app/process/system_process.h"
 #include "app/reports/notes.h"
 #include "core/camera/camera_json.h"
 #include "core/queries/copies.h"
@@ -50,7 +49,7 @@ void NumberRun::make_frames(std::vector<FrameWorker> workers, const std::functio
   SceneCommand command = command_;
   // On a terminal the rows show the progress; a bar would collide with them.
   ProgressStyle& progress = command.reporting.progress;
-  if (progress == ProgressStyle::automatic && ::isatty(STDOUT_FILENO)) progress = ProgressStyle::none;
+  if (progress == ProgressStyle::automatic && system_process::is_terminal(stdout)) progress = ProgressStyle::none;
   try {
     run_frames(*frames_, command, std::move(workers));
   } catch (const RunError&) {

@@ -4,8 +4,6 @@
 
 #include <fstream>
 
-#include <sys/resource.h>
-
 #include "app/farm/bundle_folder.h"
 #include "app/farm/worker.h"
 #include "app/film/film.h"
@@ -192,9 +190,7 @@ void make_trial(const Bundle& bundle, const fs::path& folder, Chunking& measured
   }
   const StopBarrier barrier;
   for (const char* made : {"images", "scene"}) fs::remove_all(folder / made);
-  rusage children{};
-  ::getrusage(RUSAGE_CHILDREN, &children);
-  measured.peak_memory = static_cast<std::uint64_t>(children.ru_maxrss) / 1024 + 1;  // MiB of the largest process
+  measured.peak_memory = (memory_of_largest_child() >> 20) + 1;  // in MiB
 }
 
 /// Takes the measurements of an equal bundle that is there, and returns true. Returns false if nothing is there, or

@@ -2,17 +2,9 @@
 // Chooses the arguments of ffmpeg, feeds it pictures, and reads the film to see whether all frames are there.
 #include "app/film/film.h"
 
-#include <cerrno>
-
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include "app/process/system_process.h"
 #include "core/base/binary_file.h"
 #include "core/base/error.h"
 
@@ -160,11 +152,6 @@ std::vector<std::string> film_codec_names() {
   return names;
 }
 
-}  // namespace meniscus
-
-extern char** environ;
-
-namespace meniscus {
 namespace {
 
 using Size = std::uint64_t;
@@ -328,13 +315,6 @@ std::string in_one_line(std::string_view text) {
   return line;
 }
 
-/// Waits until the process has ended. Its number is not given to another process yet.
-void await_end(pid_t process) {
-  siginfo_t ended{};
-  while (::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
-  }
-}
-
 }  // namespace
 
 std::string film_fault(const std::filesystem::path& path, std::uint64_t pictures) {
@@ -365,91 +345,34 @@ FilmWriter::FilmWriter(const std::string& path, Existing existing, glm::ivec2 si
   const FilmEncoder encoder = film_encoder(path, format);
   pixels_ = encoder.pixels;
   check_film_size(encoder, size);
-  std::array<int, 2> ends{-1, -1};
-  // This is a socket rather than a pipe, so that writing to an encoder that died is an error, not a signal.
-  if (!system_process::make_connection(ends))
-    throw OutputError(path, std::string("cannot connect to ffmpeg: ") + std::strerror(errno));
-  pictures_ = ends[0];
-  complaints_ = system_process::make_nameless_file();
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, complaints_, STDERR_FILENO);
-  std::vector<std::string> words = arguments(encoder, file_.temporary_path().string(), size, frames_per_second);
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  int error = 0;
-  {
-    const auto held = hold_stops();
-    error = ::posix_spawnp(&encoder_, "ffmpeg", &actions, nullptr, argv.data(), environ);
-    if (error != 0) encoder_ = -1;
+  try {
+    encoder_.emplace(arguments(encoder, file_.temporary_path().string(), size, frames_per_second));
+  } catch (const Error& error) {
+    throw OutputError(path, "films need the program ffmpeg, which {}; install it, or write pictures: frame_#####.png",
+                      error.what());
   }
-  posix_spawn_file_actions_destroy(&actions);
-  ::close(ends[1]);
-  if (error == 0) return;
-  ::close(pictures_);
-  ::close(complaints_);
-  throw OutputError(path,
-                    "films need the program ffmpeg, which cannot be started: {}; install it, or "
-                    "write pictures: frame_#####.png",
-                    std::strerror(error));
-}
-
-FilmWriter::~FilmWriter() {
-  kill_encoder();  // of a film that was given up
-  end_pictures();
-  ::close(complaints_);
-}
-
-void FilmWriter::kill_encoder() const {
-  if (encoder_ < 0) return;
-  ::kill(encoder_, SIGKILL);
-  await_end(encoder_);
-}
-
-void FilmWriter::wait() {
-  if (encoder_ < 0) return;
-  await_end(encoder_);
-  // The number is given back under the lock, so that a stop cannot kill another process that got it meanwhile.
-  const auto held = hold_stops();
-  ::waitpid(encoder_, &status_, 0);
-  encoder_ = -1;
-}
-
-void FilmWriter::end_pictures() {
-  if (pictures_ >= 0) ::close(std::exchange(pictures_, -1));  // an encoder that still reads comes to its end
-  wait();
 }
 
 /// On a full disk ffmpeg may end with 0, and reports the fault on standard error only.
-std::string FilmWriter::fault() const {
-  std::array<char, 2000> text{};
-  const ssize_t length = ::pread(complaints_, text.data(), text.size(), 0);
-  const std::string said = in_one_line(std::string_view(text.data(), length > 0 ? length : 0));
+std::string FilmWriter::fault() {
+  const int code = encoder_->finish();
+  const std::string said = in_one_line(encoder_->complaints());
   if (!said.empty()) return "ffmpeg failed: " + said;
-  if (WIFSIGNALED(status_)) return fmt::format("ffmpeg was ended by signal {}", WTERMSIG(status_));
-  if (WEXITSTATUS(status_) != 0) return fmt::format("ffmpeg failed with exit code {}", WEXITSTATUS(status_));
+  if (code > kSignalCode) return fmt::format("ffmpeg was ended by signal {}", code - kSignalCode);
+  if (code != 0) return fmt::format("ffmpeg failed with exit code {}", code);
   const std::string broken = film_fault(file_.temporary_path(), added_);
   return broken.empty() ? "" : fmt::format("ffmpeg reported no error, but its file {}", broken);
 }
 
 void FilmWriter::add(std::span<const std::uint8_t> picture) {
-  while (!picture.empty()) {
-    const std::ptrdiff_t sent = system_process::send(pictures_, picture);
-    if (sent <= 0) {
-      end_pictures();
-      const std::string why = fault();
-      throw OutputError(file_.target().string(), why.empty() ? "ffmpeg stopped reading pictures" : why);
-    }
-    picture = picture.subspan(static_cast<std::size_t>(sent));
+  if (!encoder_->feed(picture)) {
+    const std::string why = fault();
+    throw OutputError(file_.target().string(), why.empty() ? "ffmpeg stopped reading pictures" : why);
   }
   ++added_;
 }
 
 void FilmWriter::finish() {
-  end_pictures();
   if (const std::string why = fault(); !why.empty()) throw OutputError(file_.target().string(), why);
   file_.commit();
 }

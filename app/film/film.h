@@ -2,9 +2,7 @@
 // Films that ffmpeg encodes from pictures: their formats, and whether such a file is complete.
 #pragma once
 
-#include <sys/types.h>
-
-#include "app/process/program_main.h"
+#include "app/process/child_process.h"
 #include "core/base/output_file.h"
 #include "core/scene/outputs.h"
 
@@ -50,9 +48,6 @@ class FilmWriter {
   /// Throws UsageError for values that the format cannot have.
   FilmWriter(const std::string& path, Existing existing, glm::ivec2 size, double frames_per_second,
              const FilmFormat& format = {});
-  ~FilmWriter();
-  FilmWriter(const FilmWriter&) = delete;
-  FilmWriter& operator=(const FilmWriter&) = delete;
 
   /// Returns the kind of pixels that add() takes.
   const FilmPixels& pixels() const { return pixels_; }
@@ -61,21 +56,13 @@ class FilmWriter {
   void finish();
 
  private:
-  /// Kills the encoder, so that its file does not appear again once it is removed.
-  void kill_encoder() const;
-  void wait();
-  void end_pictures();
-  /// Says why the encoder's file is not a film; the text is empty if it is one.
-  std::string fault() const;
+  /// Waits for the encoder's end and says why its file is not a film; the text is empty if it is one.
+  std::string fault();
 
   OutputFile file_;
   FilmPixels pixels_;
-  pid_t encoder_ = -1;
-  int pictures_ = -1;    ///< socket to the encoder's standard input
-  int complaints_ = -1;  ///< file with the encoder's standard error
-  int status_ = 0;
   std::uint64_t added_ = 0;  ///< number of pictures
-  StopHandler stop_{[this] { kill_encoder(); }, std::nullopt};
+  std::optional<FedProcess> encoder_;
 };
 
 }  // namespace meniscus

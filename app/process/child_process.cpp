@@ -1,146 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Starts child processes, with care for signals, descriptors and orphans, and opens addresses in the user's browser.
+// What children of every system have in common: lines, bytes and the words for their ends.
 #include "app/process/child_process.h"
 
-#include <algorithm>
-#include <atomic>
-#include <cerrno>
-#include <csignal>
-#include <cstdlib>
-#include <cstring>
-#include <thread>
+#include <array>
+#include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include "app/process/program_main.h"
 #include "app/process/system_process.h"
-
-extern char** environ;
+#include "core/base/system_file.h"
 
 namespace meniscus {
 namespace {
 
 constexpr std::size_t kLongestLine = 1 << 16;
-
-/// The processes that were started and not yet waited for.
-struct Registry {
-  std::mutex mutex;
-  std::vector<pid_t> running;
-  bool closed = false;
-};
-
-Registry& registry() {
-  static Registry instance;
-  return instance;
-}
-
-/// Never returns once the program is about to end: a child that was stopped has not failed, and its work is not to be
-/// judged. The caller holds the lock.
-void stay_if_stopping() {
-  while (registry().closed) std::this_thread::sleep_for(std::chrono::hours(1));
-}
-
-/// Runs between fork and exec. All its calls are safe there, since other threads may hold any lock.
-[[noreturn]] void become(const char* program, char* const* argv, char* const* environment, const char* folder,
-                         int output, int report, pid_t parent) {
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  std::signal(SIGXFSZ, SIG_DFL);  // a write beyond the limit is an error in this program; other programs may not check
-  system_process::end_with_parent();
-  const int nothing = ::open("/dev/null", O_RDONLY);
-  // The parent may have died before the request above.
-  if (::getppid() == parent && nothing >= 0 && ::dup2(nothing, STDIN_FILENO) >= 0 &&
-      ::dup2(output, STDOUT_FILENO) >= 0 && ::dup2(output, STDERR_FILENO) >= 0 && ::chdir(folder) == 0)
-    ::execve(program, argv, environment);
-  const int error = errno;
-  [[maybe_unused]] const ssize_t written = ::write(report, &error, sizeof error);
-  ::_exit(127);
-}
-
-/// Returns the program's path. Only absolute folders of PATH count, because anybody may have made the folder that a
-/// child runs in.
-std::string program_path(const std::string& name) {
-  if (name.find('/') != std::string::npos) return name;
-  const char* const path = std::getenv("PATH");
-  for (std::string_view rest = path ? path : ""; !rest.empty();) {
-    const std::string_view folder = rest.substr(0, rest.find(':'));
-    rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
-    const std::string candidate = fmt::format("{}/{}", folder, name);
-    if (folder.starts_with('/') && ::access(candidate.c_str(), X_OK) == 0) return candidate;
-  }
-  return fmt::format("/{}", name);  // starting it reports that it is not there
-}
-
-/// Returns the words for an exec function, which do not change them.
-std::vector<char*> pointers_to(const std::vector<std::string>& arguments) {
-  std::vector<char*> argv;
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  return argv;
-}
-
-int exit_code(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : kSignalCode + WTERMSIG(status); }
-
-struct Pipe {
-  Pipe() {
-    if (!system_process::make_pipe(ends)) throw CapacityError("no pipe to a child: {}", std::strerror(errno));
-  }
-  ~Pipe() {
-    for (const int end : ends)
-      if (end >= 0) ::close(end);
-  }
-  void close_writing() { ::close(std::exchange(ends[1], -1)); }
-  std::array<int, 2> ends{-1, -1};
-};
+constexpr int kKilled = kSignalCode + 9;  // by SIGKILL
 
 }  // namespace
-
-ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
-  const std::vector<char*> argv = pointers_to(arguments);
-  // Some programs, such as Blender, take their folder from PWD rather than from the system.
-  std::string working_folder = "PWD=" + std::filesystem::absolute(folder).lexically_normal().string();
-  std::vector<char*> environment{working_folder.data()};
-  for (char** variable = environ; *variable; ++variable)
-    if (!std::string_view(*variable).starts_with("PWD=")) environment.push_back(*variable);
-  environment.push_back(nullptr);
-  const std::string program = program_path(arguments[0]);
-  Pipe output, report;
-  {
-    // A stop waits for the start to be whole, so that no child escapes it; afterwards there is none.
-    const std::lock_guard lock(registry().mutex);
-    stay_if_stopping();
-    registry().running.reserve(registry().running.size() +
-                               1);  // nothing may fail between the start and its registration
-    const pid_t parent = ::getpid();
-    pid_ = ::fork();
-    if (pid_ == 0)
-      become(program.c_str(), argv.data(), environment.data(), folder.c_str(), output.ends[1], report.ends[1], parent);
-    if (pid_ < 0) throw CapacityError("{} cannot be started: {}", arguments[0], std::strerror(errno));
-    registry().running.push_back(pid_);
-  }
-  output.close_writing();
-  report.close_writing();
-  int error = 0;
-  if (::read(report.ends[0], &error, sizeof error) == sizeof error) {
-    wait();
-    throw InputError(arguments[0], 0, "cannot be started: {}; is it installed, and in PATH?", std::strerror(error));
-  }
-  output_ = std::exchange(output.ends[0], -1);
-}
-
-ChildProcess::~ChildProcess() {
-  if (pid_ > 0) {
-    ::kill(pid_, SIGKILL);
-    wait();
-  }
-  if (output_ >= 0) ::close(output_);
-}
 
 std::optional<std::string> ChildProcess::next_line() {
   while (true) {
@@ -151,136 +27,36 @@ std::optional<std::string> ChildProcess::next_line() {
       return line;
     }
     if (pending_.size() >= kLongestLine) return std::exchange(pending_, {});
-    char part[4096];
-    const ssize_t count = ::read(output_, part, sizeof part);
-    if (count < 0 && errno == EINTR) continue;
+    std::array<char, 4096> part{};
+    const std::ptrdiff_t count = system_file::read(output_, reinterpret_cast<std::byte*>(part.data()), part.size());
     if (count <= 0) break;
-    pending_.append(part, static_cast<std::size_t>(count));
+    pending_.append(part.data(), static_cast<std::size_t>(count));
   }
   if (pending_.empty()) return {};
   return std::exchange(pending_, {});
 }
 
-bool ChildProcess::has_news(std::chrono::milliseconds patience) const {
-  if (pending_.find('\n') != std::string::npos) return true;
-  pollfd reading{output_, POLLIN, 0};
-  return ::poll(&reading, 1, static_cast<int>(patience.count())) > 0;
+bool FedProcess::feed(std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const std::ptrdiff_t sent = system_process::send(input_, bytes);
+    if (sent <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(sent));
+  }
+  return true;
 }
 
-void ChildProcess::stop() const {
-  if (pid_ > 0) ::kill(pid_, SIGTERM);
-}
-
-int ChildProcess::wait() {
-  siginfo_t ended{};
-  while (::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
-  }
-  int status = 0;
-  {
-    // Its number is given back under the lock, lest a stop kills another process that got it meanwhile.
-    const std::lock_guard lock(registry().mutex);
-    ::waitpid(pid_, &status, 0);
-    std::erase(registry().running, std::exchange(pid_, -1));
-    stay_if_stopping();
-  }
-  return exit_code(status);
-}
-
-int run_apart(const std::vector<std::string>& arguments) {
-  posix_spawn_file_actions_t files;
-  ::posix_spawn_file_actions_init(&files);
-  ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  ::posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  ::posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
-  posix_spawnattr_t attributes;
-  ::posix_spawnattr_init(&attributes);
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  sigset_t none, changed;  // the signals that are blocked for it, and those that this program ignores
-  sigemptyset(&none);
-  sigemptyset(&changed);
-  sigaddset(&changed, SIGPIPE);
-  sigaddset(&changed, SIGXFSZ);
-  ::posix_spawnattr_setsigmask(&attributes, &none);
-  ::posix_spawnattr_setsigdefault(&attributes, &changed);
-  pid_t pid = -1;
-  const int error = ::posix_spawn(&pid, program_path(arguments[0]).c_str(), &files, &attributes,
-                                  pointers_to(arguments).data(), environ);
-  ::posix_spawnattr_destroy(&attributes);
-  ::posix_spawn_file_actions_destroy(&files);
-  int status = 0;
-  while (error == 0 && ::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
-  }
-  return error == 0 ? exit_code(status) : kNotStarted;
+std::string FedProcess::complaints() const {
+  std::array<char, 2000> text{};
+  const std::ptrdiff_t length =
+      system_file::read_at(complaints_, reinterpret_cast<std::byte*>(text.data()), text.size(), 0);
+  return {text.data(), length > 0 ? static_cast<std::size_t>(length) : 0};
 }
 
 std::string signal_text(int code) {
-  return code == kSignalCode + SIGKILL
-             ? std::string("the process that made it was killed, as when memory runs out")
-             : fmt::format("the process that made it was ended by signal {}", code - kSignalCode);
+  return code == kKilled ? std::string("the process that made it was killed, as when memory runs out")
+                         : fmt::format("the process that made it was ended by signal {}", code - kSignalCode);
 }
 
-int signal_exit_code(int code) { return code == kSignalCode + SIGKILL ? kExitCapacity : kExitInternal; }
-
-void stop_children() {
-  // A second call would wait for the lock, which the thread that waits for a child may hold until the program ends.
-  static std::atomic<bool> is_begun = false;
-  if (is_begun.exchange(true)) return;
-  std::vector<pid_t> children;
-  {
-    const std::lock_guard lock(registry().mutex);
-    registry().closed = true;
-    for (const pid_t child : registry().running) ::kill(child, SIGTERM);
-    children = registry().running;
-  }
-  const auto alive = [](pid_t child) {
-    siginfo_t ended{};
-    return ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0;
-  };
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(2);
-  for (const pid_t child : children) {
-    while (alive(child) && std::chrono::steady_clock::now() < deadline)
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    if (alive(child)) ::kill(child, SIGKILL);
-  }
-}
-
-StopBarrier::StopBarrier() {
-  registry().mutex.lock();
-  stay_if_stopping();
-}
-
-StopBarrier::~StopBarrier() { registry().mutex.unlock(); }
-
-namespace {
-
-std::string variable(const char* name) {
-  const char* const value = std::getenv(name);
-  return value ? value : "";
-}
-
-#if defined(__APPLE__)
-constexpr const char* kOpener = "open";
-bool has_display() { return true; }
-#else
-constexpr const char* kOpener = "xdg-open";
-bool has_display() { return !variable("DISPLAY").empty() || !variable("WAYLAND_DISPLAY").empty(); }
-#endif
-
-}  // namespace
-
-void open_in_browser(const std::string& address, std::function<void(const std::string& reason)> failed) {
-  // Editors on another machine name a program that needs no display here. A list of names, and names with arguments,
-  // are for xdg-open.
-  std::string opener = variable("BROWSER");
-  if (opener.empty() || opener.find_first_of(" :%") != std::string::npos) {
-    if (!has_display()) return failed("there is no display");
-    opener = kOpener;
-  }
-  std::thread([opener, address, failed = std::move(failed)] {
-    const int code = run_apart({opener, address});
-    if (code == kNotStarted) return failed(opener + " cannot be started");
-    if (code != 0) failed(fmt::format("{} ended with code {}", opener, code));
-  }).detach();
-}
+int signal_exit_code(int code) { return code == kKilled ? kExitCapacity : kExitInternal; }
 
 }  // namespace meniscus

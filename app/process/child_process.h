@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A child process: started without a shell, read line by line, and ended when this program ends; and the browser, which
-// goes on.
+// Child processes, which are started without a shell and end with this program: one is read line by line, one is fed;
+// and the browser, which goes on. child_process_posix.cpp (Linux, macOS) and child_process_windows.cpp start and end
+// them.
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include <sys/types.h>
+#include "app/process/program_main.h"
 
 namespace meniscus {
 
 /// A child process. One thread makes and uses it and outlives it, since Linux ends a child when the *thread* that
-/// started it ends; even kill -9 of this process leaves no child behind there.
+/// started it ends; even kill -9 of this process leaves no child behind there, nor on Windows.
 class ChildProcess {
  public:
   /// arguments[0] is the program, looked for in the absolute folders of PATH unless it has a slash; it runs in
@@ -32,7 +35,7 @@ class ChildProcess {
   /// True if the child wrote something, or ended, within this time.
   bool has_news(std::chrono::milliseconds patience) const;
 
-  /// Sends SIGTERM to the child.
+  /// Sends SIGTERM to the child; on Windows it ends at once.
   void stop() const;
 
   /// Waits for the end of the child and returns its exit code, or 128 + the signal that ended it. Call it once.
@@ -40,8 +43,37 @@ class ChildProcess {
 
  private:
   int output_ = -1;
-  pid_t pid_ = -1;
+  std::intptr_t pid_ = -1;  ///< the number of the process; its handle on Windows
   std::string pending_;
+};
+
+/// A child process that this program feeds with bytes, such as ffmpeg with pictures.
+class FedProcess {
+ public:
+  /// words[0] is the program, looked for in PATH; its standard output is discarded. Throws Error, "cannot be started:
+  /// No such file or directory", without the program's name.
+  explicit FedProcess(std::vector<std::string> words);
+  ~FedProcess();
+  FedProcess(const FedProcess&) = delete;
+  FedProcess& operator=(const FedProcess&) = delete;
+
+  /// Writes bytes to the child's standard input. Returns false if the child no longer reads.
+  bool feed(std::span<const std::uint8_t> bytes);
+  /// Closes the child's standard input and waits for its end. Returns its exit code as ChildProcess::wait() does; more
+  /// calls return the same.
+  int finish();
+  /// Returns the first 2,000 bytes that the child wrote to its standard error.
+  std::string complaints() const;
+
+ private:
+  /// Kills the child, and returns when it has ended: it writes nothing from then on.
+  void kill() const;
+
+  std::intptr_t pid_ = -1;
+  int input_ = -1;       ///< a connection, so that writing to a child that died is an error, not a signal
+  int complaints_ = -1;  ///< a file with the child's standard error
+  int code_ = 0;
+  StopHandler stop_{[this] { kill(); }, std::nullopt};
 };
 
 /// Runs a program that may outlive this one, such as a browser, and waits for its end. It has a session of its own,
@@ -53,12 +85,16 @@ constexpr int kNotStarted = 127;
 /// If a code of wait() is above this one, a signal ended the child.
 constexpr int kSignalCode = 128;
 
+/// Returns the most memory, in bytes, that one of the children which have ended used; 0 where that is unknown.
+std::uint64_t memory_of_largest_child();
+
 /// Returns the words for such a code, "the process that made it was killed, as when memory runs out", and this
 /// program's own exit code for it: kExitCapacity for SIGKILL, else kExitInternal.
 std::string signal_text(int code);
 int signal_exit_code(int code);
 
 /// Ends all children, at once with SIGTERM and after two seconds with SIGKILL, and lets none be started from then on.
+/// On Windows they end at once.
 /// The thread that ends the program calls it; the main thread may be anywhere.
 void stop_children();
 
@@ -73,9 +109,9 @@ class StopBarrier {
   StopBarrier& operator=(const StopBarrier&) = delete;
 };
 
-/// Has the address opened by the program that BROWSER names, or else by the one that the desktop has for it, without a
-/// shell. The browser goes on when this program ends. If none can be opened, `failed` is called with the reason, such
-/// as "there is no display": on this thread or, later, on another one.
+/// Has the address opened by the program that BROWSER names (not on Windows), or else by the one that the desktop has
+/// for it, without a shell. The browser goes on when this program ends. If none can be opened, `failed` is called with
+/// the reason, such as "there is no display": on this thread or, later, on another one.
 void open_in_browser(const std::string& address, std::function<void(const std::string& reason)> failed);
 
 }  // namespace meniscus

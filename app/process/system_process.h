@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,8 @@ std::span<const char* const> words(int argc, char** argv);
 /// file that is opened would take its number, and messages would be written into it. Printed text gets the same bytes
 /// on every system.
 void hold_standard_streams();
+/// True if what is printed to this stream appears on a terminal.
+bool is_terminal(std::FILE* stream);
 /// Writes a line on standard error. It needs no memory, so that a signal handler may call it.
 void write_error(std::string_view line) noexcept;
 /// Ends the program without its destructors. A signal handler may call it, too.
@@ -35,6 +38,9 @@ std::uint64_t physical_memory();
 /// are started. Throws CapacityError.
 void await_stop(void (*stopped)(int signal));
 
+/// From this call on, a write to a pipe or a connection without a reader is an error, not a signal.
+void outlive_readers();
+
 /// The seconds of processors that the program has used.
 struct ProcessorTime {
   double user = 0, system = 0;
@@ -43,9 +49,16 @@ ProcessorTime processor_time();
 
 /// Returns the name of this machine; empty where it has none.
 std::string host();
+/// Returns the system, its version and its processor, such as "Linux 6.1.0 x86_64, glibc 2.36".
+std::string system_name();
 
-// The functions below connect a child process, on Linux and macOS only. No other child inherits their descriptors;
-// where one fails, `errno` says why.
+/// Sets a variable for this program and its children unless it has a value already.
+void set_variable(const char* name, const std::string& value);
+/// Closes a connection of this process in children, which would keep its port.
+void keep_from_children(std::intptr_t connection);
+
+// The functions below connect a child process. No other child inherits their descriptors; where one fails, `errno` says
+// why.
 
 /// Makes a pipe: its reading and its writing end.
 bool make_pipe(std::array<int, 2>& ends);
@@ -55,7 +68,8 @@ bool make_connection(std::array<int, 2>& ends);
 std::ptrdiff_t send(int end, std::span<const std::uint8_t> bytes);
 /// Returns a file without a name, to write and read; -1 if that fails.
 int make_nameless_file();
-/// A child calls it so that the system kills the child when the thread that started it ends. It does nothing on macOS.
+/// A child calls it so that the system kills the child when the thread that started it ends. It does nothing on macOS,
+/// and Windows has other means.
 void end_with_parent() noexcept;
 
 }  // namespace meniscus::system_process

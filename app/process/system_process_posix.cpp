@@ -8,7 +8,11 @@
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/utsname.h>
 #include <unistd.h>
+#if defined(__GLIBC__)
+#include <gnu/libc-version.h>
+#endif
 #if !defined(__APPLE__)
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -30,6 +34,8 @@ void hold_standard_streams() {
     [[maybe_unused]] const int taken = ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }
 }
+
+bool is_terminal(std::FILE* stream) { return ::isatty(::fileno(stream)) == 1; }
 
 void write_error(std::string_view line) noexcept {
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
@@ -127,6 +133,8 @@ void await_stop(void (*stopped)(int signal)) {
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
+void outlive_readers() { std::signal(SIGPIPE, SIG_IGN); }
+
 ProcessorTime processor_time() {
   const auto seconds = [](const timeval& time) {
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
@@ -140,6 +148,20 @@ std::string host() {
   std::array<char, 256> name{};
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
+
+std::string system_name() {
+  utsname system{};
+  ::uname(&system);
+  std::string name = std::string(system.sysname) + " " + system.release + " " + system.machine;
+#if defined(__GLIBC__)
+  name += std::string(", glibc ") + ::gnu_get_libc_version();
+#endif
+  return name;
+}
+
+void set_variable(const char* name, const std::string& value) { ::setenv(name, value.c_str(), 0); }
+
+void keep_from_children(std::intptr_t connection) { ::fcntl(static_cast<int>(connection), F_SETFD, FD_CLOEXEC); }
 
 #if defined(__APPLE__)
 namespace {

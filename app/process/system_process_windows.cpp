@@ -9,12 +9,14 @@
 
 #include <fcntl.h>
 #include <io.h>
+#include <sys/stat.h>
 #include <windows.h>
 
 #include <shellapi.h>
 
 #include "app/process/system_process.h"
 #include "core/base/error.h"
+#include "core/base/system_file.h"
 
 namespace meniscus::system_process {
 namespace {
@@ -56,6 +58,13 @@ void hold_standard_streams() {
   for (std::FILE* stream : {stdout, stderr}) ::_setmode(::_fileno(stream), _O_BINARY);
 }
 
+bool is_terminal(std::FILE* stream) {
+  DWORD mode = 0;
+  const auto terminal = reinterpret_cast<HANDLE>(::_get_osfhandle(::_fileno(stream)));
+  // Terminals take the signs of a progress bar once this mode is set.
+  return ::GetConsoleMode(terminal, &mode) && ::SetConsoleMode(terminal, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
+}
+
 void write_error(std::string_view line) noexcept {
   DWORD written = 0;
   ::WriteFile(::GetStdHandle(STD_ERROR_HANDLE), line.data(), static_cast<DWORD>(line.size()), &written, nullptr);
@@ -94,6 +103,8 @@ void await_stop(void (*stopped)(int signal)) {
     throw CapacityError("the system cannot report Ctrl-C: error " + std::to_string(::GetLastError()));
 }
 
+void outlive_readers() {}  // there is no such signal
+
 ProcessorTime processor_time() {
   const auto seconds = [](const FILETIME& time) {
     constexpr double kPerSecond = 1e7;
@@ -108,6 +119,49 @@ std::string host() {
   std::array<wchar_t, MAX_COMPUTERNAME_LENGTH + 1> name{};
   auto size = static_cast<DWORD>(name.size());
   return ::GetComputerNameW(name.data(), &size) ? in_utf8(name.data()) : "";
+}
+
+std::string system_name() {
+  OSVERSIONINFOW version{};
+  version.dwOSVersionInfoSize = sizeof version;
+  // GetVersionEx() tells programs of an older version.
+  using Ask = LONG(WINAPI*)(OSVERSIONINFOW*);
+  const auto address = reinterpret_cast<void*>(::GetProcAddress(::GetModuleHandleW(L"ntdll"), "RtlGetVersion"));
+  if (address) reinterpret_cast<Ask>(address)(&version);
+  return "Windows " + std::to_string(version.dwMajorVersion) + "." + std::to_string(version.dwMinorVersion) + "." +
+         std::to_string(version.dwBuildNumber);
+}
+
+void set_variable(const char* name, const std::string& value) {
+  if (!std::getenv(name)) ::_putenv_s(name, value.c_str());
+}
+
+bool make_pipe(std::array<int, 2>& ends) {
+  constexpr unsigned kSize = 1 << 16;
+  return ::_pipe(ends.data(), kSize, _O_BINARY | _O_NOINHERIT) == 0;
+}
+
+// This is a pipe: a write without a reader is an error here, not a signal.
+bool make_connection(std::array<int, 2>& ends) {
+  if (!make_pipe(ends)) return false;
+  std::swap(ends[0], ends[1]);
+  return true;
+}
+
+std::ptrdiff_t send(int end, std::span<const std::uint8_t> bytes) {
+  const auto parts = std::as_bytes(bytes);
+  return system_file::write(end, parts.data(), parts.size());
+}
+
+int make_nameless_file() {
+  std::array<wchar_t, MAX_PATH + 1> folder{}, name{};
+  ::GetTempPathW(static_cast<DWORD>(folder.size()), folder.data());
+  ::GetTempFileNameW(folder.data(), L"men", 0, name.data());
+  return ::_wopen(name.data(), _O_RDWR | _O_CREAT | _O_BINARY | _O_NOINHERIT | _O_TEMPORARY, _S_IREAD | _S_IWRITE);
+}
+
+void keep_from_children(std::intptr_t connection) {
+  ::SetHandleInformation(reinterpret_cast<HANDLE>(connection), HANDLE_FLAG_INHERIT, 0);
 }
 
 }  // namespace meniscus::system_process

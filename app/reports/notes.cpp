@@ -7,8 +7,8 @@
 #include <CLI/Error.hpp>
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
+#include "app/process/system_process.h"
 namespace meniscus {
 namespace {
 
@@ -57,7 +57,7 @@ void warn_beyond_map(const SceneCommand& command, double share, std::string_view
 
 ProgressSink progress_on_stderr(const SceneCommand& command) {
   if (command.reporting.quiet) return {};
-  auto text = std::make_shared<ProgressText>(::isatty(STDERR_FILENO) == 1,
+  auto text = std::make_shared<ProgressText>(system_process::is_terminal(stderr),
                                              [](std::string_view part) { std::cerr << part << std::flush; });
   return [text](const ProgressReport& report) { text->report(report); };
 }

@@ -7,9 +7,9 @@
 #include <fmt/ostream.h>
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
-#include <unistd.h>
 
 #include "app/process/program_main.h"
+#include "app/process/system_process.h"
 #include "app/reports/notes.h"
 #include "core/base/ordered_jobs.h"
 
@@ -34,7 +34,9 @@ std::string duration(double seconds) {
 RunProgress::RunProgress(ProgressStyle style, bool quiet, std::uint64_t frames, std::size_t at_once, const char* word)
     : style_(style), word_(word), total_(frames), begin_(std::chrono::steady_clock::now()) {
   if (style_ == ProgressStyle::automatic)
-    style_ = quiet ? ProgressStyle::none : ::isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::plain;
+    style_ = quiet                                 ? ProgressStyle::none
+             : system_process::is_terminal(stderr) ? ProgressStyle::bar
+                                                   : ProgressStyle::plain;
   if (style_ == ProgressStyle::json) write_line({{"event", "start"}, {word_ + "s", total_}, {"at_once", at_once}});
 }
 

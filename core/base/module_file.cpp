@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds modules next to the program, in its installation or by the loader, and loads them. The library alone has none.
+// Finds modules next to the program, in its installation or by the loader, and loads them. The library alone has none,
+// nor have programs that are built without them.
 #include "core/base/module_file.h"
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 
-#ifdef MENISCUS_APP
+#ifdef MENISCUS_WITH_MODULES
 
 #include <filesystem>
 #include <string>
@@ -59,7 +60,10 @@ void* load_from_module(const ModuleFile& module, const char* function) {
 namespace meniscus {
 
 void* load_from_module(const ModuleFile& module, const char*) {
-  throw Error("{} are for the program meniscus: the library alone does not have {}", module.purpose, module.name);
+  throw RequestError(
+      "{} need {}, which is not part of this build; the packages for Debian and builds from source have it (meniscus "
+      "help install)",
+      module.purpose, module.name);
 }
 
 #endif

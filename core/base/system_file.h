@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -47,6 +48,8 @@ std::optional<State> state_of(int file);
 
 /// Opens a file for reading and returns its descriptor, or -1. No child process inherits it.
 int open_to_read(const std::filesystem::path& path);
+/// Opens a file for reading as a stream of bytes. Returns null for a link, a folder and all that is no plain file.
+std::FILE* open_plain(const std::filesystem::path& path);
 /// Creates a file for writing and returns its descriptor, or -1. Fails if there is a file or link of this name already.
 int create(const std::filesystem::path& path);
 /// Closes a file. False if the system reports that some bytes were not written.
@@ -64,6 +67,9 @@ std::ptrdiff_t write_at(int file, const std::byte* bytes, std::size_t count, std
 bool sync(const std::filesystem::path& path);
 /// Makes a rename in this folder durable, as far as the file system can.
 void sync_folder(const std::filesystem::path& folder);
+
+/// Returns the most bytes that the system lets a file of this process have.
+std::uint64_t largest_file();
 
 /// Renames a file. False if `to` exists, even if another process creates it at this moment.
 bool rename_to_free(const std::filesystem::path& from, const std::filesystem::path& to);

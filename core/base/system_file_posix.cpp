@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Implements system_file.h for Linux and macOS.
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #if defined(__APPLE__)
@@ -8,7 +9,6 @@
 #endif
 
 #include <array>
-#include <cstdio>
 #include <ctime>
 
 #include "core/base/system_file.h"
@@ -73,6 +73,14 @@ int open_to_read(const fs::path& path) {
   return uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC); });
 }
 
+std::FILE* open_plain(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  const std::optional<State> state = file < 0 ? std::nullopt : state_of(file);
+  if (state && state->kind == State::Kind::file) return ::fdopen(file, "rb");
+  if (file >= 0) ::close(file);
+  return nullptr;
+}
+
 int create(const fs::path& path) {
   return uninterrupted(
       [&] { return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666); });
@@ -111,6 +119,11 @@ void sync_folder(const fs::path& folder) {
   if (file < 0) return;
   uninterrupted([&] { return ::fsync(file); });
   ::close(file);
+}
+
+std::uint64_t largest_file() {
+  rlimit limit{};
+  return ::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? limit.rlim_cur : UINT64_MAX;
 }
 
 bool rename_to_free(const fs::path& from, const fs::path& to) {

@@ -109,6 +109,11 @@ std::optional<State> state_of(int file) { return state_from(handle_of(file)); }
 
 int open_to_read(const fs::path& path) { return ::_wopen(path.c_str(), _O_RDONLY | kNotInherited); }
 
+std::FILE* open_plain(const fs::path& path) {
+  const std::optional<State> state = state_of_entry(path);
+  return state && state->kind == State::Kind::file ? ::_wfopen(path.c_str(), L"rbN") : nullptr;
+}
+
 int create(const fs::path& path) {
   return ::_wopen(path.c_str(), _O_WRONLY | _O_CREAT | _O_EXCL | kNotInherited, _S_IREAD | _S_IWRITE);
 }
@@ -154,6 +159,8 @@ bool sync(const fs::path& path) {
 
 // Renames are written through to the disk already.
 void sync_folder(const fs::path&) {}
+
+std::uint64_t largest_file() { return UINT64_MAX; }
 
 bool rename_to_free(const fs::path& from, const fs::path& to) {
   return succeeded(::MoveFileExW(from.c_str(), to.c_str(), MOVEFILE_WRITE_THROUGH));

@@ -7,8 +7,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <ctime>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -23,7 +25,6 @@ enum class SampleType : std::uint8_t { uint8, uint16, float32 };
 /// adjacent.
 struct ImageToEncode {
   std::string format;  ///< "png", "jpeg", "webp", "tiff" or "exr"
-  std::string file;    ///< TIFF: the file's path, because OpenImageIO 2.4 cannot write TIFF to memory
   int width = 0;
   int height = 0;
   std::vector<std::string> channels;
@@ -66,8 +67,8 @@ class RowEncoder {
   virtual ~RowEncoder() = default;
   /// Adds the next rows, any whole number of them: floats in [0, 1] (EXR: any).
   virtual void add(std::span<const float> rows) = 0;
-  /// Must be called after the last row. Returns the bytes of the file; none for TIFF, which is in ImageToEncode::file.
-  virtual std::vector<std::uint8_t> finish() = 0;
+  /// Must be called after the last row. Hands the bytes of the file on to `take`, piece by piece.
+  virtual void finish(const std::function<void(std::span<const std::byte>)>& take) = 0;
 };
 
 /// The functions of the module. Reading and writing throw std::runtime_error with OpenImageIO's message.

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The module that wraps OpenImageIO: it exports one function.
-#include <cstddef>
+#include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include "core/base/system_file.h"
 #include "core/base/version.h"
 #include "core/image/image_codec.h"
 
@@ -51,16 +56,49 @@ OIIO::ImageSpec spec_of(const ImageToEncode& image) {
   return spec;
 }
 
-/// Writes rows to the file that the picture names, or to memory.
+/// An anonymous file in memory, which exists as long as this object. A limit on the size of files (RLIMIT_FSIZE)
+/// applies to it, too.
+class MemoryFile {
+ public:
+  MemoryFile() : descriptor_(::memfd_create("meniscus", MFD_CLOEXEC)) {
+    if (descriptor_ < 0)
+      throw std::runtime_error(std::string("no file in memory can be made: ") + std::strerror(errno));
+  }
+  ~MemoryFile() { ::close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::string name() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+  /// Reads everything that was written, piece by piece, by calls of take(span of bytes).
+  void read(const auto& take) const {
+    constexpr std::size_t kPiece = 1 << 20;
+    struct stat status {};
+    ::fstat(descriptor_, &status);
+    std::vector<std::byte> piece(kPiece);
+    for (off_t taken = 0; taken < status.st_size;) {
+      const ssize_t count = uninterrupted([&] { return ::pread(descriptor_, piece.data(), piece.size(), taken); });
+      if (count <= 0) throw std::runtime_error(std::string("a file in memory cannot be read: ") + std::strerror(errno));
+      take(std::span<const std::byte>(piece).first(static_cast<std::size_t>(count)));
+      taken += count;
+    }
+  }
+
+ private:
+  int descriptor_;
+};
+
+/// Writes rows to memory: TIFF to a file there, because OpenImageIO 2.4 cannot read back through a proxy what it wrote,
+/// and the file would lack its last directory.
 class OpenImageIORows final : public RowEncoder {
  public:
   explicit OpenImageIORows(const ImageToEncode& image)
-      : name_(image.file.empty() ? "picture." + image.format : image.file),
-        row_size_(static_cast<std::size_t>(image.width) * image.channels.size()),
-        output_(image.file.empty() ? OIIO::ImageOutput::create(name_, &sink_)
-                                   : OIIO::ImageOutput::create(image.format)) {
+      : row_size_(static_cast<std::size_t>(image.width) * image.channels.size()) {
+    if (image.format == "tiff") named_.emplace();
+    const std::string name = named_ ? named_->name() : "picture." + image.format;
+    output_ = named_ ? OIIO::ImageOutput::create(image.format) : OIIO::ImageOutput::create(name, &sink_);
     if (!output_) throw std::runtime_error(OIIO::geterror());
-    check(output_->open(name_, spec_of(image)));
+    check(output_->open(name, spec_of(image)));
   }
 
   void add(std::span<const float> rows) override {
@@ -69,9 +107,9 @@ class OpenImageIORows final : public RowEncoder {
     next_row_ = end;
   }
 
-  std::vector<std::uint8_t> finish() override {
+  void finish(const std::function<void(std::span<const std::byte>)>& take) override {
     check(output_->close());
-    return std::move(bytes_);
+    named_ ? named_->read(take) : take(std::as_bytes(std::span(bytes_)));
   }
 
  private:
@@ -79,8 +117,8 @@ class OpenImageIORows final : public RowEncoder {
     if (!done) throw std::runtime_error(output_->geterror());
   }
 
-  std::string name_;
   std::size_t row_size_;
+  std::optional<MemoryFile> named_;
   std::vector<std::uint8_t> bytes_;
   OIIO::Filesystem::IOVecOutput sink_{bytes_};
   std::unique_ptr<OIIO::ImageOutput> output_;

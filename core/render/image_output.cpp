@@ -3,16 +3,13 @@
 #include "core/render/image_output.h"
 
 #include <cctype>
+#include <chrono>
 #include <cstring>
 #include <initializer_list>
 
 #include <glm/mat3x3.hpp>
-#include <sys/mman.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <unistd.h>
 
 #include "core/base/constants.h"
 #include "core/base/error.h"
@@ -117,37 +114,6 @@ void ExrChannels::describe(ImageToEncode& image) const {
 
 namespace {
 
-/// An anonymous file in memory, which exists as long as this object. A limit on the size of files (RLIMIT_FSIZE)
-/// applies to it, too. Throws CapacityError if the system cannot create it.
-class MemoryFile {
- public:
-  MemoryFile() : descriptor_(::memfd_create("meniscus", MFD_CLOEXEC)) {
-    if (descriptor_ < 0) throw CapacityError(std::string("cannot make a file in memory: ") + std::strerror(errno));
-  }
-  ~MemoryFile() { ::close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  std::string name() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-
-  /// Reads everything that was written, piece by piece, by calls of take(span of bytes).
-  void read(const auto& take) const {
-    constexpr std::size_t kPiece = 1 << 20;
-    struct stat status {};
-    ::fstat(descriptor_, &status);
-    std::vector<std::byte> piece(kPiece);
-    for (off_t taken = 0; taken < status.st_size;) {
-      const ssize_t count = uninterrupted([&] { return ::pread(descriptor_, piece.data(), piece.size(), taken); });
-      if (count <= 0) throw CapacityError(std::string("a file in memory cannot be read: ") + std::strerror(errno));
-      take(std::span<const std::byte>(piece).first(static_cast<std::size_t>(count)));
-      taken += count;
-    }
-  }
-
- private:
-  int descriptor_;
-};
-
 std::string extension_of(const std::filesystem::path& path) {
   std::string extension = text_of_path(path.extension());
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -156,13 +122,15 @@ std::string extension_of(const std::filesystem::path& path) {
 
 /// Returns the date of SOURCE_DATE_EPOCH in UTC; empty if it is not set.
 std::string date_of_pictures() {
-  const std::time_t time = source_date();
-  if (time == 0) return {};
-  std::tm parts{};
-  std::array<char, 32> date{};
-  if (!::gmtime_r(&time, &parts) || std::strftime(date.data(), date.size(), "%Y:%m:%d %H:%M:%S", &parts) != 19)
-    return {};
-  return date.data();
+  using namespace std::chrono;
+  constexpr sys_days kFirst = year(1000) / 1 / 1, kBehind = year(10000) / 1 / 1;  // years of four digits
+  const sys_seconds time{seconds(source_date())};
+  if (time == sys_seconds() || time < kFirst || time >= kBehind) return {};
+  const auto day = floor<days>(time);
+  const year_month_day date(day);
+  const hh_mm_ss clock(time - day);
+  return fmt::format("{}:{:02}:{:02} {:02}:{:02}:{:02}", int{date.year()}, unsigned{date.month()}, unsigned{date.day()},
+                     clock.hours().count(), clock.minutes().count(), clock.seconds().count());
 }
 
 bool is_jpeg(const std::string& extension) { return extension == ".jpg" || extension == ".jpeg"; }
@@ -258,13 +226,13 @@ ImageToEncode described(glm::ivec2 size, const std::vector<std::string>& channel
 /// Throws if the limit on the size of files is below the size of the uncompressed pixels. libtiff writes an important
 /// part of the file last, and does not report if it fails there because of the limit.
 void refuse_limited_size(const std::filesystem::path& path, const ImageToEncode& image) {
-  constexpr rlim_t kDirectories = 1 << 16, kOfALine = 32;
-  const rlim_t pixels = pixel_bytes(image), lines = static_cast<rlim_t>(image.height);
-  const rlim_t largest = pixels + pixels / 1000 + kOfALine * lines + kDirectories;
-  rlimit limit{};
-  if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= largest) return;
-  throw OutputError(text_of_path(path), "may have up to {} bytes, but the system limits files to {} (ulimit -f)",
-                    with_thousands(largest), with_thousands(limit.rlim_cur));
+  constexpr std::uint64_t kDirectories = 1 << 16, kOfALine = 32;
+  const std::uint64_t pixels = pixel_bytes(image), lines = static_cast<std::uint64_t>(image.height);
+  const std::uint64_t largest = pixels + pixels / 1000 + kOfALine * lines + kDirectories;
+  const std::uint64_t limit = system_file::largest_file();
+  if (limit < largest)
+    throw OutputError(text_of_path(path), "may have up to {} bytes, but the system limits files to {} (ulimit -f)",
+                      with_thousands(largest), with_thousands(limit));
 }
 
 }  // namespace
@@ -289,12 +257,7 @@ class ImageWriter::File {
       png_.emplace(image, [this](std::span<const std::uint8_t> bytes) { output_.write(std::as_bytes(bytes)); });
       return;
     }
-    // TIFF files are opened by name. Through a proxy OpenImageIO 2.4 cannot read back what it wrote, and the file would
-    // lack its last directory.
-    if (image.format == "tiff") {
-      refuse_limited_size(path, image);
-      image.file = named_.emplace().name();
-    }
+    if (image.format == "tiff") refuse_limited_size(path, image);
     encoding([&] { rows_ = image_codec().begin(image); });
   }
 
@@ -308,11 +271,7 @@ class ImageWriter::File {
     if (png_) {
       png_->finish();
     } else {
-      encoding([&] {
-        const std::vector<std::uint8_t> bytes = rows_->finish();
-        output_.write(std::as_bytes(std::span(bytes)));
-      });
-      if (named_) named_->read([&](std::span<const std::byte> bytes) { output_.write(bytes); });
+      encoding([&] { rows_->finish([&](std::span<const std::byte> bytes) { output_.write(bytes); }); });
     }
     output_.commit();
   }
@@ -345,7 +304,6 @@ class ImageWriter::File {
   ImageSettings settings_;
   ExrChannels exr_;
   OutputFile output_;
-  std::optional<MemoryFile> named_;
   std::optional<PngEncoder> png_;
   std::unique_ptr<RowEncoder> rows_;
 };

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds libmeniscus and the drop-in programs for Linux, Windows and macOS, and for Linux the program meniscus, without GL and
-# with PNG as its only format of pictures; runs them where this machine can, and compares the results of all.
+# Builds libmeniscus and the programs for Linux, Windows and macOS, meniscus without GL and with PNG as its only format of
+# pictures; runs them where this machine can, and compares the results of all.
 #
 #   scripts/package/targets.sh [--build-only] [TARGET...]
 #
@@ -63,6 +63,8 @@ fi
 # Their functions are for this library, and leave it under no system.
 sed -i 's/define _EXPORT .*/define _EXPORT/' "$sources"/onetbb-*/include/oneapi/tbb/detail/_export.h
 sed -i 's/__attribute__(( visibility( "default" ) ))/ /' "$sources"/freetype-*/include/freetype/config/public-macros.h
+# It takes a header of libc++ that is installed nowhere; text that is printed is UTF-8 already.
+sed -i 's/defined(_WIN32) && defined(_LIBCPP_VERSION)/0/' "$sources"/fmtlib-*/include/fmt/ostream.h
 source_of() { compgen -G "$sources/$1-*/" | head -n 1; }
 
 # ---- What the library is built of ----------------------------------------------------------------------------------------
@@ -133,11 +135,9 @@ build_dependencies() {
 }
 
 build_library() {
-  local parts=(-DMENISCUS_APP=OFF -DMENISCUS_DROP_INS=ON)
-  [[ $target != *linux ]] || parts=(-DMENISCUS_APP=ON -DMENISCUS_{PREVIEW,IMAGES,HDF5}=OFF)
   cmake -S "$root" -B "$target_folder/library" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_TOOLCHAIN_FILE="$root/scripts/cmake/zig.cmake" -DMENISCUS_ZIG="$zig" -DMENISCUS_ZIG_TARGET="$triple" \
-    -DCMAKE_FIND_ROOT_PATH="$prefix" -DCMAKE_PREFIX_PATH="$prefix" "${parts[@]}" -DMENISCUS_{TESTS,GL}=OFF \
+    -DCMAKE_FIND_ROOT_PATH="$prefix" -DCMAKE_PREFIX_PATH="$prefix" -DMENISCUS_{TESTS,GL,IMAGES,HDF5,PREVIEW}=OFF \
     -DMENISCUS_LIBM="$prefix/lib/libmeniscus_libm.a" \
     -DMENISCUS_{GEMMI,ZLIB,JSON,DEFLATE,SCENES}=ON
   # ccache sees a wrapper: this is what it compiles with, and for what.
@@ -187,14 +187,13 @@ run_programs() {
   printf 'XYZR_FileName = Å.xyzr\nRoot_FileName = Å.\n' > Å.prm
   "${on_target[@]}" "../meniscus-nanoshaper$suffix" Å.prm >> said.txt
   sed -i '/started on\|Total Time/d' said.txt
-  [[ -f ../meniscus ]] || { cd "$root"; return; }
   rm -rf ../drawn
   mkdir ../drawn
   cd ../drawn
   cp "${molecules[0]}" Å.pdb
-  "${on_target[@]}" ../meniscus render Å.pdb -o Å.png --size 320x240 -q
-  "${on_target[@]}" ../meniscus surface Å.pdb --csv atoms.csv --csv-residues residues.csv -q > /dev/null
-  "${on_target[@]}" ../meniscus export povray Å.pdb -o povray -q > /dev/null
+  "${on_target[@]}" "../meniscus$suffix" render Å.pdb -o Å.png --size 320x240 -q
+  "${on_target[@]}" "../meniscus$suffix" surface Å.pdb --csv atoms.csv --csv-residues residues.csv -q > /dev/null
+  "${on_target[@]}" "../meniscus$suffix" export povray Å.pdb -o povray -q > /dev/null
   cd "$root"
 }
 
@@ -211,8 +210,7 @@ for target in "${chosen[@]}"; do
   triple=${triples[$target]}
   target_folder=$work/$target
   suffix=
-  programs=(meniscus-msms meniscus-nanoshaper meniscus-pdb_to_xyzr)
-  [[ $target != *linux ]] || programs+=(meniscus)
+  programs=(meniscus meniscus-msms meniscus-nanoshaper meniscus-pdb_to_xyzr)
   case $target in
     x86_64-linux) on_target=(env LD_LIBRARY_PATH=.) ;;
     aarch64-linux) on_target=(qemu-aarch64-static -L /usr/aarch64-linux-gnu -E LD_LIBRARY_PATH=.) ;;

@@ -35,7 +35,7 @@ TARGETS = {"x86_64-linux": ("manylinux_2_28_x86_64", "libmeniscus.so"),
            "aarch64-macos": ("macosx_13_0_arm64", "libmeniscus.dylib"),
            "x86_64-macos": ("macosx_13_0_x86_64", "libmeniscus.dylib")}
 #: In all of them, and from which file; a wheel has no links, so two names are two copies.
-DROP_INS = {"meniscus-msms": "meniscus-msms", "meniscus-nanoshaper": "meniscus-nanoshaper",
+PROGRAMS = {"meniscus": "meniscus", "meniscus-msms": "meniscus-msms", "meniscus-nanoshaper": "meniscus-nanoshaper",
             "meniscus-pdb_to_xyzr": "meniscus-pdb_to_xyzr", "meniscus-pdb_to_xyzrn": "meniscus-pdb_to_xyzr"}
 #: What is linked or compiled into the library and the programs: its name, licence, and where its text is, below build/targets/sources or in
 #: the system. The first file that is there counts.
@@ -45,9 +45,8 @@ PARTS = [("oneTBB", "Apache-2.0", "onetbb-*/LICENSE.txt"), ("FreeType", "FTL", "
          ("PEGTL", "MIT", "/usr/share/doc/tao-pegtl-dev/copyright"), ("GLM", "MIT", "/usr/share/doc/libglm-dev/copyright"),
          ("Liberation Sans", "OFL-1.1", "/usr/share/doc/fonts-liberation2/copyright"),
          ("nlohmann-json", "MIT", "/usr/share/doc/nlohmann-json3-dev/copyright"),
+         ("CLI11", "BSD-3-Clause", "/usr/share/doc/libcli11-dev/copyright"),
          ("LLVM libc++", "Apache-2.0 WITH LLVM-exception", "../tools/lib/python3*/site-packages/ziglang-*.dist-info/licenses/ziglang/lib/libcxx/LICENSE.TXT")]
-#: Further ones, of the program meniscus.
-PARTS_OF_MENISCUS = [("CLI11", "BSD-3-Clause", "/usr/share/doc/libcli11-dev/copyright")]
 
 
 def version():
@@ -79,25 +78,17 @@ def origin_of(pattern):
     return number, f"pkg:pypi/{package}@{number}"
 
 
-def has_meniscus(target):
-    return target.endswith("linux")
-
-
-def parts(target):
-    return PARTS + (PARTS_OF_MENISCUS if has_meniscus(target) else [])
-
-
-def third_party(target):
+def third_party():
     begin = "What is linked or compiled into the library and the programs of this package, in addition to Meniscus itself.\n"
-    for name, licence, pattern in parts(target):
+    for name, licence, pattern in PARTS:
         number, source = origin_of(pattern)
         begin += f"\n{'=' * 80}\n{name} {number} ({licence}), from {source}\n{'=' * 80}\n\n{text_of(name, pattern)}"
     return begin
 
 
-def materials(target):
+def materials():
     components = []
-    for name, licence, pattern in parts(target):
+    for name, licence, pattern in PARTS:
         number, source = origin_of(pattern)
         components.append({"type": "library", "name": name, "version": number, "purl": source, "licenses": [{"expression": licence}]})
     return json.dumps({"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1,
@@ -113,12 +104,12 @@ def address():
     return os.environ.get("MENISCUS_URL", on_github)
 
 
-def metadata(target):
+def metadata():
     with open(os.path.join(ROOT, "pyproject.toml"), "rb") as file:
         project = tomllib.load(file)["project"]
     with open(os.path.join(ROOT, project["readme"]), encoding="utf-8") as file:
         description = file.read()
-    licences = [project["license"], *sorted({licence for _, licence, _ in parts(target)} - {project["license"]})]
+    licences = [project["license"], *sorted({licence for _, licence, _ in PARTS} - {project["license"]})]
     rows = [("Metadata-Version", "2.4"), ("Name", DISTRIBUTION), ("Version", version()), ("Summary", project["description"]),
             ("Author", project["authors"][0]["name"]), ("License-Expression", " AND ".join(licences)), ("License-File", "LICENSE"),
             ("License-File", "THIRD_PARTY.txt"), ("Keywords", ",".join(project["keywords"])),
@@ -138,9 +129,8 @@ def read(path):
 def programs(target):
     """Names in the wheel -> paths. Installers make them executable and put them where commands are found."""
     suffix = ".exe" if "windows" in target else ""
-    names = {**DROP_INS, **({"meniscus": "meniscus"} if has_meniscus(target) else {})}
     return {f"{WHEEL}-{version()}.data/scripts/{name}{suffix}": os.path.join(BUILT, target, file + suffix)
-            for name, file in names.items()}
+            for name, file in PROGRAMS.items()}
 
 
 def contents(target):
@@ -151,12 +141,12 @@ def contents(target):
              if name.endswith(".py") or name == "py.typed"}
     files[f"meniscus/{library}"] = read(os.path.join(BUILT, target, library))
     files.update({name: read(path) for name, path in programs(target).items()})
-    files[f"{info}/METADATA"] = metadata(target).encode()
+    files[f"{info}/METADATA"] = metadata().encode()
     files[f"{info}/WHEEL"] = ("Wheel-Version: 1.0\nGenerator: meniscus scripts/package/wheels.py\nRoot-Is-Purelib: false\n"
                               f"Tag: py3-none-{tag}\n").encode()
     files[f"{info}/licenses/LICENSE"] = read(os.path.join(ROOT, "LICENSE"))
-    files[f"{info}/licenses/THIRD_PARTY.txt"] = third_party(target).encode()
-    files[f"{info}/sboms/meniscus.cdx.json"] = materials(target).encode()
+    files[f"{info}/licenses/THIRD_PARTY.txt"] = third_party().encode()
+    files[f"{info}/sboms/meniscus.cdx.json"] = materials().encode()
     record = "".join(f"{name},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},"
                      f"{len(data)}\n" for name, data in sorted(files.items()))
     files[f"{info}/RECORD"] = (record + f"{info}/RECORD,,\n").encode()

@@ -40,12 +40,14 @@ assert picture.png().startswith(b'\x89PNG') and picture.pixels.any()
 print(f'area {surface.area:.15g}, volume {surface.volume:.15g}')"
 spheres() { program pdb_to_xyzr "$molecule" > "$work/$1.xyzr" && program pdb_to_xyzrn "$molecule" > "$work/$1.xyzrn" && wc -l "$work/$1.xyzrn"; }
 msms() { cd "$work" && program msms -if Å.xyzr -of Å -af Å -density 3 && ls Å.vert Å.face Å.area; }
+picture() { cd "$work" && cp "$molecule" Å.pdb && wine "$work/prefix/Scripts/meniscus.exe" render Å.pdb -o Å.png --size 160x120 && ls Å.png; }
 nanoshaper() { cd "$work" && printf 'XYZR_FileName = Å.xyzr\nRoot_FileName = Å.\n' > Å.prm && program nanoshaper Å.prm; }
 
 python3 -m pip download -q --disable-pip-version-check --no-deps --only-binary=:all: --platform win_amd64 --python-version 3.11 -d "$work" "numpy==1.26.*"
 check "installed by pip, to the first area" first_area
 check "the area again" inside -c "$compute"
 check "spheres, with and without names" spheres Å
+check "meniscus render" picture
 check "meniscus-msms" msms
 check "meniscus-nanoshaper" nanoshaper
 echo "cases $cases failures $failures"

@@ -16,12 +16,11 @@ FEW = sys.argv[3:] == ["--few"]
 TARGETS = ("aarch64-linux-gnu.2.28", "x86_64-windows-gnu", "aarch64-macos.13.0") if FEW else (
     "x86_64-linux-gnu.2.28", "aarch64-linux-gnu.2.28", "x86_64-windows-gnu", "aarch64-macos.13.0", "x86_64-macos.13.0")
 FILES = ["core/surface/fixed_probes.cpp"] if FEW else [
-    "app/process/program_main.cpp", "core/base/output_file.cpp", "core/reduced_surface/contour/contour.cpp",
+    "app/film/film.cpp", "app/process/program_main.cpp", "core/base/output_file.cpp", "core/reduced_surface/contour/contour.cpp",
     "core/surface/fixed_probes.cpp", "core/render/cpu/lanes_16.cpp"]
 #: One file for Windows, and one for the others.
-BY_SYSTEM = ["app/msms/local_socket_{}.cpp", "app/process/system_process_{}.cpp", "core/base/system_file_{}.cpp"]
-#: Of the program, as Linux and macOS have it.
-NOT_ON_WINDOWS = [] if FEW else ["app/process/child_process.cpp", "app/film/film.cpp", "core/base/module_file.cpp"]
+BY_SYSTEM = ["app/msms/local_socket_{}.cpp", "app/process/child_process_{}.cpp", "app/process/system_process_{}.cpp",
+             "core/base/system_file_{}.cpp"]
 #: Headers that are the same on every system.
 HEADERS = ["fmt", "glm", "oneapi", "tbb"]
 
@@ -58,9 +57,8 @@ class Compile(unittest.TestCase):
     def test_every_target(self):
         for target in TARGETS:
             system = "windows" if "windows" in target else "posix"
-            others = [] if system == "windows" else NOT_ON_WINDOWS
             with self.subTest(target=target):
-                self.compile(target, *FILES, *others, *(name.format(system) for name in BY_SYSTEM))
+                self.compile(target, *FILES, *(name.format(system) for name in BY_SYSTEM))
 
 
 if __name__ == "__main__":

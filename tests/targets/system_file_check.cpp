@@ -35,10 +35,11 @@ void write(const std::filesystem::path& path, const std::string& text) {
 #define EXPECT(what) \
   if (!(what)) return __LINE__
 
-int main() {
+int main(int argc, char**) {
   const std::string name = "Größe Å 分子 🧬.txt";
   const std::filesystem::path path = path_of_text(name), other = path_of_text("прежний.txt");
   EXPECT(text_of_path(path) == name && path != other);
+  EXPECT(argc == 1 || std::filesystem::path(name) == path);  // with an argument: texts are UTF-8 for the system, too
   EXPECT(text_of_path(path_of_text("Ordner/ü") / path_of_text("é")).ends_with("é"));
 
   for (const auto& old : {path, other}) system_file::remove(old);
@@ -49,6 +50,8 @@ int main() {
   EXPECT(bytes_of(path) == "second\n");
   const auto state = system_file::state_of(path);
   EXPECT(state && state->kind == system_file::State::Kind::file && state->size == 7);
+  std::FILE* const stream = system_file::open_plain(path);
+  EXPECT(stream && std::fgetc(stream) == 's' && std::fclose(stream) == 0 && !system_file::open_plain("."));
 
   write(other, "third");
   EXPECT(!system_file::rename_to_free(other, path) && errno == EEXIST);

@@ -29,7 +29,6 @@ def wheels_of(folder):
     spec.loader.exec_module(wheels)
     wheels.BUILT = folder
     wheels.PARTS = [("oneTBB", "Apache-2.0", "onetbb-*/LICENSE.txt")]
-    wheels.PARTS_OF_MENISCUS = []
     licence = os.path.join(folder, "sources", "onetbb-2021.8.0", "LICENSE.txt")
     os.makedirs(os.path.dirname(licence))
     with open(licence, "w", encoding="utf-8") as file:
@@ -82,7 +81,7 @@ class Wheels(unittest.TestCase):
         scripts = f"{self.wheels.WHEEL}-{self.wheels.version()}.data/scripts/"
         names = [name for name in info if name.startswith(scripts)]
         self.assertEqual([name.removeprefix(scripts) for name in sorted(names)],
-                         ["meniscus-msms.exe", "meniscus-nanoshaper.exe", "meniscus-pdb_to_xyzr.exe", "meniscus-pdb_to_xyzrn.exe"])
+                         ["meniscus-msms.exe", "meniscus-nanoshaper.exe", "meniscus-pdb_to_xyzr.exe", "meniscus-pdb_to_xyzrn.exe", "meniscus.exe"])
         for name in names:
             self.assertEqual(info[name].external_attr >> 16, 0o100755, name)
 

@@ -3,10 +3,8 @@
 #include "app/preview/server/clients.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-
-#include <sys/random.h>
+#include <random>
 
 #include <fmt/format.h>
 
@@ -104,13 +102,10 @@ bool equal_in_constant_time(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string random_token() {
-  std::array<unsigned char, 16> bytes{};
-  ssize_t got = -1;
-  do {
-    got = ::getrandom(bytes.data(), bytes.size(), 0);
-  } while (got < 0 && errno == EINTR);
-  if (got != static_cast<ssize_t>(bytes.size())) throw Error("the system has no random numbers");
-  return fmt::format("{:02x}", fmt::join(bytes, ""));
+  std::random_device system;  // asks the system for each number
+  std::array<std::uint32_t, 4> numbers{};
+  for (std::uint32_t& number : numbers) number = system();
+  return fmt::format("{:08x}", fmt::join(numbers, ""));
 }
 
 std::string token_fault(std::string_view token) {

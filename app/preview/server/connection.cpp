@@ -6,10 +6,6 @@
 #include <deque>
 #include <limits>
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <boost/asio/buffer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
@@ -17,6 +13,7 @@
 
 #include "app/preview/command_json.h"
 #include "app/preview/server/page_files.h"
+#include "core/base/system_file.h"
 #include "core/base/text_file.h"
 
 namespace meniscus {
@@ -26,6 +23,7 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 namespace websocket = beast::websocket;
 using Json = nlohmann::json;
+using StreamBody = http::basic_file_body<beast::file_stdio>;
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -269,7 +267,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
       received_ = std::make_shared<const ReceivedFile>(name);
       upload_.emplace(std::move(parser_));
       upload_->body_limit(kLargestFile);
-      upload_->get().body().open(received_->path().c_str(), beast::file_mode::write, error);
+      upload_->get().body().open(text_of_path(received_->path()).c_str(), beast::file_mode::write, error);
     } catch (const std::exception&) {
       error = beast::errc::make_error_code(beast::errc::no_space_on_device);
     }
@@ -305,12 +303,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void send_file(std::string_view name) {
     const auto file = clients_->files.find(name);
     if (file == clients_->files.end()) return refuse(http::status::not_found, "this preview has written no such file");
-    const int descriptor = ::open(file->second.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    struct ::stat status {};
-    if (descriptor >= 0 && (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode))) ::close(descriptor);
-    if (descriptor < 0 || !S_ISREG(status.st_mode)) return refuse(http::status::gone, "that file is gone");
-    beast::file_posix opened;
-    opened.native_handle(descriptor);
+    std::FILE* const stream = system_file::open_plain(file->second);
+    if (!stream) return refuse(http::status::gone, "that file is gone");
+    beast::file_stdio opened;
+    opened.native_handle(stream);
     beast::error_code error;
     download_.body().reset(std::move(opened), error);
     if (error) return refuse(http::status::gone, "that file cannot be read");
@@ -357,8 +353,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::shared_ptr<const ReceivedFile> received_;  // the file that is being received
   bool receives_ = false;                         // true while a file is being received
   http::response<http::string_body> response_;
-  http::response<http::file_body> download_;
-  std::optional<http::response_serializer<http::file_body>> serializer_;
+  http::response<StreamBody> download_;
+  std::optional<http::response_serializer<StreamBody>> serializer_;
   std::shared_ptr<Clients> clients_;
   std::uint64_t stranger_ = 0;  // number in Clients::strangers
 };

@@ -4,8 +4,6 @@
 
 #include <thread>
 
-#include <fcntl.h>
-
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -13,6 +11,7 @@
 
 #include "app/preview/command_json.h"
 #include "app/preview/server/connection.h"
+#include "app/process/system_process.h"
 #include "core/base/error.h"
 
 namespace meniscus {
@@ -27,7 +26,8 @@ struct Network::State {
     try {
       const asio::ip::tcp::endpoint here(asio::ip::make_address(options.address), options.port);
       acceptor.open(here.protocol());
-      ::fcntl(acceptor.native_handle(), F_SETFD, FD_CLOEXEC);  // a browser that is opened must not keep the port
+      // A browser that is opened must not keep the port.
+      system_process::keep_from_children(static_cast<std::intptr_t>(acceptor.native_handle()));
       acceptor.set_option(asio::socket_base::reuse_address(true));
       acceptor.bind(here);
       acceptor.listen();
