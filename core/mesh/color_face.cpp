@@ -29,6 +29,7 @@ class ColorCutter {
     for (int pass = 0; pass < kMostPasses; ++pass) {
       const auto old = std::move(mesh_.triangles);
       mesh_.triangles.clear();
+      mesh_.triangles.reserve(old.size());
       crossings_.clear();
       for (const auto& t : old) cut(t);
       if (mesh_.triangles.size() == old.size()) return;
@@ -168,6 +169,7 @@ void color_concave(const Surface& surface, const ConcavePatch& patch, FaceMesh& 
       for (std::size_t c = 0; c < contacts.size(); ++c) scores.push_back(score(p.position, c));
     ColorCutter(mesh, contacts.size(), std::move(scores)).run();
   }
+  mesh.atom.reserve(mesh.triangles.size());
   for (const auto& t : mesh.triangles) {
     const glm::dvec3 middle =
         (mesh.points[t[0]].position + mesh.points[t[1]].position + mesh.points[t[2]].position) / 3.0;
@@ -187,6 +189,7 @@ void color_torus(const Surface& surface, const ToroidalPatch& patch, FaceMesh& m
     for (const FacePoint& p : mesh.points) scores.insert(scores.end(), {middle - p.angles.y, p.angles.y - middle});
     ColorCutter(mesh, 2, std::move(scores)).run();
   }
+  mesh.atom.reserve(mesh.triangles.size());
   for (const auto& t : mesh.triangles) {
     const double tube = (mesh.points[t[0]].angles.y + mesh.points[t[1]].angles.y + mesh.points[t[2]].angles.y) / 3.0;
     mesh.atom.push_back(patch.atom[tube < middle ? 0 : 1]);

@@ -167,7 +167,10 @@ class FaceFiller {
     mesh.rim = std::move(outline_.names);
     mesh.rim_edges = std::move(outline_.edges);
     std::vector<std::uint32_t> index(outline_.points.size() + inner_.size(), kNone);
+    mesh.points.reserve(index.size());
     mesh.points = outline_.points;
+    mesh.triangles.reserve(
+        static_cast<std::size_t>(std::ranges::count(plane_.triangles(), true, &PlanarTriangulation::Triangle::inside)));
     for (int i = 0; i < rim_count(); ++i) index[i] = i;
     auto numbered = [&](int vertex) {
       std::uint32_t& i = index[vertex - kBoxCorners];
@@ -389,7 +392,7 @@ double TorusDomain::deviation(const FacePoint& a, const FacePoint& b, const Face
     const glm::dvec3 x = w[0] * a.position + w[1] * b.position + w[2] * c.position - patch_.center;
     const double height = glm::dot(x, patch_.axis);
     const double out = glm::length(x - height * patch_.axis) - patch_.radius;
-    worst = std::max(worst, std::abs(std::hypot(out, height) - tube_radius_));
+    worst = std::max(worst, std::abs(std::sqrt(out * out + height * height) - tube_radius_));
   }
   return worst;
 }

@@ -22,8 +22,9 @@ std::int64_t orientation(GridPoint a, GridPoint b, GridPoint c) {
 
 bool inside_circle(GridPoint a, GridPoint b, GridPoint c, GridPoint d) {
   const std::int64_t ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x, cy = c.y - d.y;
-  const Wide lift_a = ax * ax + ay * ay, lift_b = bx * bx + by * by, lift_c = cx * cx + cy * cy;
-  return lift_a * (bx * cy - by * cx) + lift_b * (cx * ay - cy * ax) + lift_c * (ax * by - ay * bx) > 0;
+  const std::int64_t lift_a = ax * ax + ay * ay, lift_b = bx * bx + by * by, lift_c = cx * cx + cy * cy;
+  return Wide(lift_a) * (bx * cy - by * cx) + Wide(lift_b) * (cx * ay - cy * ax) + Wide(lift_c) * (ax * by - ay * bx) >
+         0;
 }
 
 void PlanarTriangulation::refuse() {
@@ -181,13 +182,20 @@ std::optional<PlanarTriangulation::Edge> PlanarTriangulation::find_edge(int a, i
   return std::nullopt;
 }
 
-void PlanarTriangulation::legalize(std::vector<std::array<int, 2>>& edges) {
+std::optional<PlanarTriangulation::Edge> PlanarTriangulation::find_edge(const Suspect& edge) const {
+  const auto& v = triangles_[edge.triangle].vertex;
+  for (int i = 0; i < 3; ++i)
+    if (v[i] == edge.from && v[next(i)] == edge.to) return Edge{edge.triangle, previous(i)};
+  return find_edge(edge.from, edge.to);
+}
+
+void PlanarTriangulation::legalize(std::vector<Suspect>& edges) {
   // Each flip makes the triangulation more Delaunay, so flips end; refuse() throws if they ever do not.
   const std::size_t most_flips = 64 + 16 * triangles_.size();
   for (std::size_t flips = 0; !edges.empty();) {
-    const auto [a, b] = edges.back();
+    const auto edge = find_edge(edges.back());
+    const int a = edges.back().from, b = edges.back().to;
     edges.pop_back();
-    const auto edge = find_edge(a, b);
     if (!edge) continue;
     const Triangle& t = triangles_[edge->triangle];
     const int u = t.neighbor[edge->side];
@@ -198,7 +206,8 @@ void PlanarTriangulation::legalize(std::vector<std::array<int, 2>>& edges) {
     if (!inside_circle(points_[t.vertex[0]], points_[t.vertex[1]], points_[t.vertex[2]], points_[s])) continue;
     flip(*edge);
     if (++flips > most_flips) refuse();
-    for (auto e : {std::array{p, a}, std::array{a, s}, std::array{s, b}, std::array{b, p}}) edges.push_back(e);
+    const int left = edge->triangle;
+    edges.insert(edges.end(), {{p, a, left}, {a, s, left}, {s, b, u}, {b, p, u}});
   }
 }
 
@@ -216,8 +225,9 @@ std::optional<int> PlanarTriangulation::insert(GridPoint point) {
   const int vertex = int(points_.size());
   points_.push_back(point);
   triangle_of_.push_back(-1);
-  std::vector<std::array<int, 2>>& edges = edges_;
+  std::vector<Suspect>& edges = edges_;
   edges.clear();
+  const int added = int(triangles_.size());
   if (on >= 0) {
     const int u = triangle.neighbor[on];
     if (u >= 0) {
@@ -228,7 +238,8 @@ std::optional<int> PlanarTriangulation::insert(GridPoint point) {
   } else {
     split_triangle(t, vertex);
   }
-  for (int k = 0; k < 3; ++k) edges.push_back({triangle.vertex[k], triangle.vertex[next(k)]});
+  const std::array<int, 3> with_edge{added + 1, t, added};
+  for (int k = 0; k < 3; ++k) edges.push_back({triangle.vertex[k], triangle.vertex[next(k)], with_edge[k]});
   legalize(edges);
   return vertex;
 }
@@ -283,7 +294,8 @@ std::optional<PlanarTriangulation::Conflict> PlanarTriangulation::constrain(int 
     const int present = triangles_[edge->triangle].segment[edge->side];
     if (present >= 0) return Conflict{present, -1};
   } else {
-    std::vector<std::array<int, 2>> crossing, fresh;
+    std::vector<std::array<int, 2>> crossing;
+    std::vector<Suspect> fresh;
     if (const auto conflict = crossed_edges(a, b, crossing)) return conflict;
     std::deque<std::array<int, 2>> queue(crossing.begin(), crossing.end());
     const std::size_t most_turns = 1024 + 16 * crossing.size() * crossing.size();

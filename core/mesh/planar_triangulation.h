@@ -62,9 +62,15 @@ class PlanarTriangulation {
     int triangle;
     int side;
   };
+  /// An edge that may have to be flipped, and the triangle that had it on its rim when it was listed.
+  struct Suspect {
+    int from, to;
+    int triangle = 0;
+  };
   [[noreturn]] static void refuse();
   int locate(GridPoint point) const;
   std::optional<Edge> find_edge(int a, int b) const;
+  std::optional<Edge> find_edge(const Suspect& edge) const;
   std::vector<int> star(int vertex) const;
   void set(int triangle, std::array<int, 3> vertex, std::array<int, 3> neighbor, std::array<int, 3> segment,
            bool inside);
@@ -73,14 +79,14 @@ class PlanarTriangulation {
   void split_triangle(int triangle, int vertex);
   void split_edge(Edge edge, int vertex);
   void flip(Edge edge);
-  void legalize(std::vector<std::array<int, 2>>& edges);
+  void legalize(std::vector<Suspect>& edges);
   std::optional<Conflict> crossed_edges(int a, int b, std::vector<std::array<int, 2>>& edges) const;
 
   std::vector<GridPoint> points_;
   std::vector<int> triangle_of_;  ///< a triangle at each vertex
   std::vector<Triangle> triangles_;
-  std::vector<std::array<int, 2>> edges_;  ///< scratch of insert()
-  mutable int last_ = 0;                   ///< the triangle where the last search ended
+  std::vector<Suspect> edges_;  ///< scratch of insert()
+  mutable int last_ = 0;        ///< the triangle where the last search ended
 };
 
 }  // namespace meniscus

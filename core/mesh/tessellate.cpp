@@ -2,6 +2,7 @@
 // Triangulates faces in rounds, joins them to a closed mesh in five steps, and checks areas and volumes by such meshes.
 #include "core/mesh/tessellate.h"
 
+#include <bit>
 #include <set>
 #include <tuple>
 #include <unordered_map>
@@ -48,9 +49,7 @@ FaceMesh FaceFilling::filled(std::uint32_t f) const {
   if (face.loop_count == 0) return whole_sphere(surface_, face, lattices_.at(frequency(face)));
   FaceOutline rim = outline(f);
   if (rim.edges.size() < 3) return {};  // shrunk to a point or to one line
-  FaceMesh mesh = fill_outline(std::move(rim), tolerance_of(rule_, surface_, face));
-  shrink_lists(mesh);
-  return mesh;
+  return fill_outline(std::move(rim), tolerance_of(rule_, surface_, face));
 }
 
 void FaceFilling::fan(std::uint32_t f, FaceMesh& mesh) const {
@@ -82,13 +81,6 @@ void FaceFilling::fill(std::vector<std::uint32_t> todo, std::vector<FaceMesh>& m
   tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t f) {
     if (is_requested_[f]) fan(static_cast<std::uint32_t>(f), meshes[f]);
   });
-}
-
-void shrink_lists(FaceMesh& mesh) {
-  mesh.points.shrink_to_fit();
-  mesh.triangles.shrink_to_fit();
-  mesh.atom.shrink_to_fit();
-  mesh.bridges.shrink_to_fit();
 }
 
 namespace {
@@ -128,7 +120,8 @@ class Tessellation {
       color_face(surface_, surface_.faces[f], faces_[f], options_.split_colors);
       faces_[f].rim_edges = {};
       faces_[f].bridges = {};
-      shrink_lists(faces_[f]);
+      faces_[f].points.shrink_to_fit();
+      faces_[f].triangles.shrink_to_fit();
     });
     number_vertices();
     add_sharp_edges();
@@ -156,32 +149,26 @@ class Tessellation {
   bool is_on_seam(const FaceMesh& mesh, const std::array<int, 2>& edge) const {
     return mesh.rim[edge[0]].border == kSeam || mesh.rim[edge[1]].border == kSeam;
   }
-  std::size_t bridge_count() const {
-    std::size_t count = 0;
-    for (const FaceMesh& mesh : faces_) {
-      count += mesh.bridges.size();
-      for (const auto& edge : mesh.rim_edges) count += is_on_seam(mesh, edge);
+  /// An edge between two rim points: the inner edge `index` of a face, or with face kNone an edge of a rim.
+  struct Bridge {
+    BorderPoint a, b;
+    std::uint32_t face;
+    std::uint32_t index;
+    auto key() const { return std::tie(a, b); }
+    std::size_t hash() const {
+      std::uint64_t sum = 0;
+      for (const std::uint32_t part : {a.border, a.index, b.border, b.index}) sum = (sum ^ part) * 0x9e3779b97f4a7c15u;
+      return sum >> 32;
     }
-    for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) count += samples_->segment_count(b);
-    return count;
-  }
-
-  /// Splits inner edges that two faces draw between the same two rim points, so that each gets a vertex of its own.
-  void split_shared_edges() {
-    struct Bridge {
-      BorderPoint a, b;
-      std::uint32_t face;
-      std::uint32_t index;
-      auto key() const { return std::tie(a, b); }
-    };
-    std::vector<Bridge> bridges;
-    bridges.reserve(bridge_count());
+  };
+  template <typename Visit>
+  void for_each_bridge(const Visit& visit) const {
     auto add = [&](std::uint32_t f, int u, int w, std::uint32_t face, std::uint32_t index) {
       BorderPoint a = faces_[f].rim[u], b = faces_[f].rim[w];
       for (BorderPoint* p : {&a, &b}) {
         if (p->border == kSeam) p->index += kSeamNames * f;  // names on seams are unique only within a face
       }
-      bridges.push_back({std::min(a, b), std::max(a, b), face, index});
+      visit(Bridge{std::min(a, b), std::max(a, b), face, index});
     };
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
       for (std::uint32_t i = 0; i < faces_[f].bridges.size(); ++i) {
@@ -195,9 +182,24 @@ class Tessellation {
     for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {
       for (std::uint32_t k = 0; k < samples_->segment_count(b); ++k) {
         const auto p = samples_->point(b, k), q = samples_->point(b, k + 1);
-        bridges.push_back({std::min(p, q), std::max(p, q), kNone, 0});
+        visit(Bridge{std::min(p, q), std::max(p, q), kNone, 0});
       }
     }
+  }
+
+  /// Splits inner edges that two faces draw between the same two rim points, so that each gets a vertex of its own.
+  /// They are few, so only bridges that share a place in a table by their names are sorted.
+  void split_shared_edges() {
+    std::vector<std::uint8_t> count(std::bit_ceil(16 * faces_.size() + 64), 0);
+    const auto place = [&](const Bridge& bridge) { return bridge.hash() & (count.size() - 1); };
+    for_each_bridge([&](const Bridge& bridge) {
+      std::uint8_t& here = count[place(bridge)];
+      if (here < 2) ++here;
+    });
+    std::vector<Bridge> bridges;
+    for_each_bridge([&](const Bridge& bridge) {
+      if (count[place(bridge)] > 1) bridges.push_back(bridge);
+    });
     std::sort(bridges.begin(), bridges.end(), [](const Bridge& x, const Bridge& y) {
       return std::tie(x.a, x.b, x.face, x.index) < std::tie(y.a, y.b, y.face, y.index);
     });
@@ -286,13 +288,19 @@ class Tessellation {
   }
 
   /// Calls note(vertex, normal) for the corners at shared vertices for which wanted(vertex) is true, face after face.
+  /// With once_a_face, a face has one call for a sample inside a border, where all its corners have the same normal.
   template <typename Wanted, typename Note>
-  void for_each_shared_normal(const Wanted& wanted, const Note& note) const {
+  void for_each_shared_normal(bool once_a_face, const Wanted& wanted, const Note& note) const {
     for_each_chunk([&](std::uint32_t first, std::uint32_t last) {
       std::vector<std::vector<std::pair<std::uint32_t, glm::dvec3>>> normals(last - first);
       tbb::parallel_for(first, last, [&](std::uint32_t f) {
-        for_each_shared_corner(faces_[f], [&](std::size_t t, int k, std::uint32_t vertex) {
-          if (wanted(vertex)) normals[f - first].emplace_back(vertex, corner_normal(faces_[f], t, k));
+        const FaceMesh& part = faces_[f];
+        std::vector<char> noted(part.rim.size(), 0);
+        for_each_shared_corner(part, [&](std::size_t t, int k, std::uint32_t vertex) {
+          const std::uint32_t v = part.triangles[t][k];
+          if (noted[v] || !wanted(vertex)) return;
+          noted[v] = once_a_face && part.rim[v].border != kNone;
+          normals[f - first].emplace_back(vertex, corner_normal(part, t, k));
         });
       });
       for (const auto& of_face : normals)
@@ -306,14 +314,15 @@ class Tessellation {
     std::vector<glm::dvec3>& normals = mesh_.normals;
     normals.resize(mesh_.positions.size(), glm::dvec3(0.0));
     sharp_.resize(normals.size(), false);
-    for_each_shared_normal([](std::uint32_t) { return true; },
-                           [&](std::uint32_t vertex, const glm::dvec3& n) {
-                             if (normals[vertex] == glm::dvec3(0.0)) normals[vertex] = n;
-                             if (glm::distance(normals[vertex], n) > kSharpAngle) sharp_[vertex] = true;
-                           });
+    for_each_shared_normal(
+        true, [](std::uint32_t) { return true; },
+        [&](std::uint32_t vertex, const glm::dvec3& n) {
+          if (normals[vertex] == glm::dvec3(0.0)) normals[vertex] = n;
+          if (glm::distance(normals[vertex], n) > kSharpAngle) sharp_[vertex] = true;
+        });
     std::unordered_map<std::uint32_t, glm::dvec3> sums;
     for_each_shared_normal(
-        [&](std::uint32_t vertex) { return sharp_[vertex]; },
+        false, [&](std::uint32_t vertex) { return sharp_[vertex]; },
         [&](std::uint32_t vertex, const glm::dvec3& n) { sums.try_emplace(vertex, 0.0).first->second += n; });
     for (const auto& [vertex, sum] : sums)
       if (const double size = glm::length(sum); size > 1e-6) normals[vertex] = sum / size;

@@ -36,9 +36,6 @@ class FaceFilling {
   std::vector<bool> is_requested_;  ///< per face of the surface: true if it was to be filled
 };
 
-/// Frees the unused capacity of lists that grew row by row, which is up to half of their size.
-void shrink_lists(FaceMesh& mesh);
-
 /// Meshes every face of `surface` between shared samples of its borders, on all cores that TBB may use. The mesh is the
 /// same for any number of threads. Throws Error if the tolerance is not a positive number or the edge length is
 /// negative, and OpenSurfaceError if the result would not be closed or would not have the areas and volumes of the
