@@ -44,10 +44,14 @@ class Wheels(unittest.TestCase):
         self.wheels = wheels_of(self.folder)
 
     def built(self, target):
-        """What stands for the files of a target: the programs of BUILD, and no library."""
+        """What stands for the files of a target: the programs of BUILD for this machine, others' names for others, and no library."""
         os.mkdir(os.path.join(self.folder, target))
         for path in self.wheels.programs(target).values():
-            shutil.copy(os.path.join(BUILD, os.path.basename(path).removesuffix(".exe")), path)
+            if target == platform.machine() + "-linux":
+                shutil.copy(os.path.join(BUILD, os.path.basename(path)), path)
+            else:
+                with open(path, "w", encoding="utf-8") as file:
+                    file.write(os.path.basename(path))
         with open(os.path.join(self.folder, target, self.wheels.TARGETS[target][1]), "wb"):
             pass
 
