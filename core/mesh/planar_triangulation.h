@@ -85,8 +85,8 @@ class PlanarTriangulation {
   std::vector<GridPoint> points_;
   std::vector<int> triangle_of_;  ///< a triangle at each vertex
   std::vector<Triangle> triangles_;
-  std::vector<Suspect> edges_;    ///< scratch of insert()
-  mutable int last_ = 0;          ///< the triangle where the last search ended
+  std::vector<Suspect> edges_;  ///< scratch of insert()
+  mutable int last_ = 0;        ///< the triangle where the last search ended
 };
 
 }  // namespace meniscus

@@ -61,6 +61,21 @@ Border way_of_probe(const Surface& surface, Border border, const glm::dvec3& cen
   return border;
 }
 
+/// Prefetches what way_of_probe() will read of later half-borders: borders first, then their faces, then the patches.
+[[gnu::always_inline]] inline void prefetch_ways(const Surface& surface, std::size_t half_border) {
+  prefetch_border(surface, half_border + 3 * kPrefetchAhead);
+  for (const std::size_t ahead : {2 * kPrefetchAhead, kPrefetchAhead}) {
+    const std::size_t border = border_at(surface, half_border + ahead);
+    if (border >= surface.borders.size()) continue;
+    for (const std::uint32_t f : surface.borders[border].face) {
+      if (ahead > kPrefetchAhead)
+        prefetch(surface.faces, f);
+      else if (f != kNone && surface.faces[f].kind == PatchKind::toroidal)
+        prefetch(surface.toroidal, surface.faces[f].patch);
+    }
+  }
+}
+
 class AreaDivider {
  public:
   /// group_of_face: empty if all faces belong to one group.
@@ -507,7 +522,9 @@ double accessible_area(const Surface& surface, const Face& face) {
   std::vector<SphereArc> walk;
   for (const Loop& loop : loops_of(surface, face)) {
     walk.clear();
-    for (const HalfBorder half : half_borders_of(surface, loop)) {
+    for (std::size_t n = loop.first_half_border, past = n + loop.half_border_count; n < past; ++n) {
+      prefetch_ways(surface, n);
+      const HalfBorder half = surface.half_borders[n];
       const Border way = way_of_probe(surface, surface.borders[border_of(half)], atom.center, ratio);
       walk.push_back(sphere_arc(way, is_backwards(half), atom.center, grown));
     }

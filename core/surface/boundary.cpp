@@ -245,7 +245,7 @@ class BoundaryBuilder {
   }
 
   // Prefetches as many half-borders as a patch has, from the patches that come next.
-  void prefetch_walk(std::size_t half_border, std::size_t count) const {
+  [[gnu::always_inline]] void prefetch_walk(std::size_t half_border, std::size_t count) const {
     for (std::size_t n = 0; n < count; ++n) prefetch_border(s_, half_border + n);
   }
 

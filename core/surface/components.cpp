@@ -68,6 +68,7 @@ class ComponentFinder {
     for_each_part(s_.borders.size(), [&](const auto& range) {
       for (std::size_t b = range.begin(); b != range.end(); ++b) {
         const Border& border = s_.borders[b];
+        prefetch_ends(b + kPrefetchAhead);
         if (border.face[0] != kNone) claim_vertices(border, static_cast<std::uint32_t>(b));
         if (border.face[0] != kNone && border.face[1] != kNone)
           joined.unite(border.face[0], border.face[1]);
@@ -104,12 +105,21 @@ class ComponentFinder {
       EulerSum euler(s_.components);
       for (std::size_t b = range.begin(); b != range.end(); ++b) {
         const Border& border = s_.borders[b];
+        prefetch_ends(b + kPrefetchAhead);
         if (border.vertex[0] == kNone || border.face[0] == kNone) continue;
         const int vertices =
             claims(border.vertex[0], b) + (border.vertex[1] != border.vertex[0] ? claims(border.vertex[1], b) : 0);
         euler.add(s_.faces[border.face[0]].component, vertices - 1);
       }
     });
+  }
+
+  // Prefetches what is known of a later border's ends and of its left face.
+  [[gnu::always_inline]] void prefetch_ends(std::size_t b) const {
+    if (b >= s_.borders.size()) return;
+    for (const std::uint32_t v : s_.borders[b].vertex)
+      if (v != kNone) __builtin_prefetch(&first_border_[v]);
+    prefetch(s_.faces, s_.borders[b].face[0]);
   }
 
   // Counts each vertex once, with the first border that has it.

@@ -51,13 +51,16 @@ void correct_neighbors(const CuspProblem& problem, CutLists& cuts) {
   cuts = std::move(corrected);
 }
 
+bool are_mutual(const CutLists& cuts, std::uint32_t s, std::uint32_t t) {
+  const auto back = cuts.of(t);
+  return std::binary_search(back.begin(), back.end(), s);
+}
+
 std::vector<std::array<std::uint32_t, 2>> mutual_pairs(const CutLists& cuts) {
   std::vector<std::array<std::uint32_t, 2>> pairs;
   for (std::uint32_t s = 0; s + 1 < cuts.first.size(); ++s)
-    for (std::uint32_t t : cuts.of(s)) {
-      const auto back = cuts.of(t);
-      if (t > s && std::binary_search(back.begin(), back.end(), s)) pairs.push_back({s, t});
-    }
+    for (std::uint32_t t : cuts.of(s))
+      if (t > s && are_mutual(cuts, s, t)) pairs.push_back({s, t});
   return pairs;
 }
 
@@ -176,15 +179,20 @@ class CpuCuspTracer final : public CuspTracer {
  public:
   CutLists list_cuts(const CuspProblem& problem) override {
     grid_ = std::make_unique<BallGrid>(problem.positions, problem.probe_radius);
-    // The number of probes in a chunk. Each chunk has one list, and each probe's part of it is sorted at once.
+    // The number of probes in a chunk of the grid's order. Each chunk has one list, and each probe's part of it is
+    // sorted at once.
     constexpr std::uint32_t kChunk = 64;
+    const std::vector<std::uint32_t>& order = grid_->order();
     const std::uint32_t count = problem.count(), chunks = (count + kChunk - 1) / kChunk;
+    const auto probes_of = [&](std::uint32_t chunk) {
+      return std::span(order).subspan(chunk * kChunk, std::min(kChunk, count - chunk * kChunk));
+    };
     std::vector<std::vector<std::uint32_t>> cuts(chunks);
     CutLists lists;
     lists.first.assign(count + 1, 0);
     tbb::parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t chunk) {
       std::vector<std::uint32_t>& list = cuts[chunk];
-      for (std::uint32_t s = chunk * kChunk; s < std::min(count, (chunk + 1) * kChunk); ++s) {
+      for (const std::uint32_t s : probes_of(chunk)) {
         if (!problem.low(s)) continue;
         const std::ptrdiff_t before = std::ssize(list);
         grid_->for_each_near(problem.positions[s], 2 * problem.probe_radius, [&](std::uint32_t t) {
@@ -195,8 +203,15 @@ class CpuCuspTracer final : public CuspTracer {
       }
     });
     for (std::uint32_t s = 0; s < count; ++s) lists.first[s + 1] += lists.first[s];
-    lists.probe.reserve(lists.first.back());
-    for (const std::vector<std::uint32_t>& list : cuts) lists.probe.insert(lists.probe.end(), list.begin(), list.end());
+    lists.probe.resize(lists.first.back());
+    for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
+      auto next = cuts[chunk].cbegin();
+      for (const std::uint32_t s : probes_of(chunk)) {
+        const auto past = next + (lists.first[s + 1] - lists.first[s]);
+        std::copy(next, past, lists.probe.begin() + lists.first[s]);
+        next = past;
+      }
+    }
     return lists;
   }
 
@@ -205,18 +220,20 @@ class CpuCuspTracer final : public CuspTracer {
       Worker(const CuspProblem& problem, const CutLists& cuts) : tracer(problem, cuts) {}
       PairTracer tracer;
       Blockers near;
-      std::uint32_t near_whom = kNone;
       std::vector<TracedArc> found;
     };
-    const auto pairs = mutual_pairs(cuts);
+    const std::vector<std::uint32_t>& order = grid_->order();
     tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(problem, cuts); });
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pairs.size(), 32), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 32), [&](const auto& range) {
       Worker& w = workers.local();
       for (std::size_t n = range.begin(); n != range.end(); ++n) {
-        const auto [s, t] = pairs[n];
-        if (w.near_whom != s) list_near(problem, s, w.near);
-        w.near_whom = s;
-        w.tracer.trace(s, t, w.near, w.found);
+        const std::uint32_t s = order[n];
+        bool is_listed = false;
+        for (const std::uint32_t t : cuts.of(s)) {
+          if (t < s || !are_mutual(cuts, s, t)) continue;
+          if (!std::exchange(is_listed, true)) list_near(problem, s, w.near);
+          w.tracer.trace(s, t, w.near, w.found);
+        }
       }
     });
     std::vector<TracedArc> found;

@@ -84,6 +84,9 @@ bool reaches(const CuspProblem& problem, std::uint32_t s, const glm::dvec3& othe
 /// other, because every point nearer to the other probe lies past the axis.
 void correct_neighbors(const CuspProblem& problem, CutLists& cuts);
 
+/// Returns true if each of two probes is in the other's list, given that t is in the list of s.
+bool are_mutual(const CutLists& cuts, std::uint32_t s, std::uint32_t t);
+
 /// Returns the pairs s < t in which each probe is in the other's list.
 std::vector<std::array<std::uint32_t, 2>> mutual_pairs(const CutLists& cuts);
 

@@ -89,6 +89,12 @@ class CuspSearch {
     tbb::parallel_for(std::size_t{0}, probes_.count(), [&](std::size_t s) {
       problem_.weights[s] = probe_decision_weight(p_, probes_.numbers.empty() ? s : probes_.numbers[s]);
       for (std::uint32_t n = probes_.first_side[s]; n < probes_.first_side[s + 1]; ++n) {
+        if (n + kPrefetchAhead < probes_.sides.size()) {
+          const ProbeSide& later = probes_.sides[n + kPrefetchAhead];
+          prefetch(toroidal_, later.toroidal);
+          prefetch(first_on_circle_, later.toroidal);
+          prefetch(atoms_, later.from);
+        }
         const ToroidalPatch& patch = toroidal_[probes_.sides[n].toroidal];
         CuspSide& side = problem_.sides[n];
         side.contact = glm::normalize(atoms_[probes_.sides[n].from].center - probes_.position[s]);

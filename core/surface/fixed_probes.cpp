@@ -124,6 +124,8 @@ class Placement {
     height_.resize(triples_.size());
     triple_at_.assign(arcs_.size() * 2, kNone);
     tbb::parallel_for(std::size_t{0}, triples_.size(), [&](std::size_t t) {
+      for (int n = 1; n < 3 && t + kPrefetchAhead < triples_.size(); ++n)
+        prefetch(atoms_, triples_[t + kPrefetchAhead].atom[n]);
       place_triple(t);
       for (std::uint32_t end : triples_[t].arc_and_end) triple_at_[end] = static_cast<std::uint32_t>(t);
     });
@@ -239,6 +241,7 @@ class Placement {
     resize_large(parts_.toroidal, count);
     std::vector<char> contradicted(arcs_.size(), 0);
     tbb::parallel_for(std::size_t{0}, arcs_.size(), [&](std::size_t n) {
+      prefetch_ends(n + kPrefetchAhead);
       if (vanished_[n]) return;
       const ToroidalPatch& patch = parts_.toroidal[toroidal_of_arc_[n]] = toroidal_patch(n);
       contradicted[n] = contradicts(arcs_[n], patch);
@@ -252,6 +255,16 @@ class Placement {
   bool contradicts(const RsArc& arc, const ToroidalPatch& patch) const {
     const bool little = patch.sweep<kLittle, much = patch.sweep> 2 * std::numbers::pi - kLittle;
     return !patch.free() && (little || much) && little != vanishes(arc);
+  }
+
+  // Prefetches what toroidal_patch() will read of a later arc.
+  [[gnu::always_inline]] void prefetch_ends(std::size_t n) const {
+    if (n >= arcs_.size()) return;
+    prefetch(atoms_, arcs_[n].j);
+    for (const std::size_t end : {2 * n, 2 * n + 1}) {
+      prefetch(probe_of_triple_, triple_at_[end]);
+      prefetch(position_, triple_at_[end]);
+    }
   }
 
   ToroidalPatch toroidal_patch(std::size_t n) const {

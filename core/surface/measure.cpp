@@ -41,6 +41,7 @@ class Measurement {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.faces.size(), 64), [&](const auto& range) {
       std::vector<SphereArc> loop;
       for (std::size_t f = range.begin(); f != range.end(); ++f) {
+        prefetch_atoms(f + kPrefetchAhead);
         const FaceIntegrals measured = measure(s_.faces[f], loop);
         s_.faces[f].area = measured.area;
         all.flux[f] = measured.flux;
@@ -55,6 +56,11 @@ class Measurement {
   }
 
  private:
+  [[gnu::always_inline]] void prefetch_atoms(std::size_t face) const {
+    if (face >= s_.faces.size() || s_.faces[face].kind != PatchKind::toroidal) return;
+    for (const std::uint32_t atom : s_.toroidal[s_.faces[face].patch].atom) prefetch(s_.atoms, atom);
+  }
+
   FaceIntegrals measure(const Face& face, std::vector<SphereArc>& loop) const {
     switch (face.kind) {
       case PatchKind::convex: {

@@ -101,7 +101,20 @@ class BorderPlacer {
     return n + 1 == probes_.first_side[probe + 1] ? probes_.first_side[probe] : n + 1;
   }
 
+  // Prefetches what place_patch_borders() will read of a later patch.
+  [[gnu::always_inline]] void prefetch_patch(std::size_t t) const {
+    if (t >= s_.toroidal.size()) return;
+    const ToroidalPatch& patch = s_.toroidal[t];
+    for (int n = 0; n < 2; ++n) {
+      prefetch(s_.atoms, patch.atom[n]);
+      prefetch(probes_.position, patch.probe[n]);
+      prefetch(probes_.first_side, patch.probe[n]);
+      prefetch(s_.vertices, side_at_[t][n]);
+    }
+  }
+
   void place_patch_borders(std::size_t t) {
+    prefetch_patch(t + kPrefetchAhead);
     const ToroidalPatch& patch = s_.toroidal[t];
     const PatchBorders& b = placed_.of_patch[t];
     for (int side = 0; side < (flat_ ? 1 : 2); ++side) {

@@ -298,6 +298,8 @@ void list_concave_patches(Surface& surface, const FixedProbes& probes, const Cus
     patch.first_plane = patch.first_contact + patch.first_cut;
     Plane* plane = surface.planes.data() + patch.first_plane;
     for (const ProbeSide& side : probes.sides_of(static_cast<std::uint32_t>(n))) {
+      if (const std::size_t later = (&side - probes.sides.data()) + kPrefetchAhead; later < probes.sides.size())
+        prefetch(surface.atoms, probes.sides[later].from);
       plane->normal =
           glm::normalize(glm::cross(surface.atoms[side.from].center - s, surface.atoms[side.to].center - s));
       plane->offset = glm::dot(plane->normal, s);

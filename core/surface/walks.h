@@ -2,6 +2,7 @@
 // Common walks over the tables of a surface: points on its arcs, pieces of a patch, borders of a face.
 #pragma once
 
+#include "core/surface/parallel_tables.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -38,17 +39,16 @@ inline std::span<const HalfBorder> half_borders_of(const Surface& surface, const
   return {surface.half_borders.data() + loop.first_half_border, loop.half_border_count};
 }
 
-/// Prefetches a border that will soon be walked, because neighbours around a face lie far apart in the table of
-/// borders. `half_border` is an index into Surface::half_borders, or past its end.
-inline void prefetch_border(const Surface& surface, std::size_t half_border) {
-  if (half_border >= surface.half_borders.size()) return;
-  const auto* border = reinterpret_cast<const char*>(&surface.borders[border_of(surface.half_borders[half_border])]);
-  __builtin_prefetch(border);
-  __builtin_prefetch(border + sizeof(Border) - 1);
+/// Returns the border of a half-border, or one past the last if `half_border` is past the end of the walks.
+inline std::size_t border_at(const Surface& surface, std::size_t half_border) {
+  return half_border < surface.half_borders.size() ? border_of(surface.half_borders[half_border])
+                                                   : surface.borders.size();
 }
 
-/// The number of half-borders to prefetch ahead.
-inline constexpr std::size_t kPrefetchAhead = 12;
+/// Prefetches a border that will soon be walked. `half_border` is an index into Surface::half_borders, or past its end.
+[[gnu::always_inline]] inline void prefetch_border(const Surface& surface, std::size_t half_border) {
+  prefetch(surface.borders, border_at(surface, half_border));
+}
 
 /// Calls visit(half border) for every half-border of a face, loop after loop.
 template <typename Visit>
