@@ -9,6 +9,7 @@
 
 #include "core/color/coloring.h"
 #include "core/math/rigid_motion.h"
+#include "core/math/vector_loops.h"
 #include "core/queries/surface_object.h"
 #include "core/shapes/shapes.h"
 
@@ -24,7 +25,7 @@ void walk(const glm::dvec3& from, const glm::dvec3& to, double step, const Add& 
   for (int n = 0; n <= count; ++n) add(count ? glm::mix(from, to, static_cast<double>(n) / count) : from);
 }
 
-constexpr int kRun = 4;             // texels whose coverage is computed at once
+constexpr int kRun = 8;             // texels whose coverage is computed at once
 constexpr float kLeastDisc = 0.5f;  // texels; larger discs of small balls would stand out of flat faces
 constexpr float kLeastSoft = 1.2f;  // texels; the edges of smaller balls are not smoothed, because many overlap
 
@@ -34,6 +35,7 @@ class Coverage {
   explicit Coverage(std::size_t texels) : whole_(texels + kRun, kEmpty), edge_(whole_), clear_(whole_.size(), 1.0f) {}
 
   /// Adds a ball at `count` texels. shares: of the texels that the ball covers; at most 0: nothing, at least 1: all.
+  MENISCUS_VECTOR_CLONES
   void add(std::size_t first, int count, const float* __restrict heights, const float* __restrict shares) {
     float* __restrict whole = &whole_[first], * __restrict edge = &edge_[first], * __restrict clear = &clear_[first];
     for (int n = 0; n < count; ++n) {
@@ -47,6 +49,7 @@ class Coverage {
   }
 
   /// Writes the words of light_maps.glsl, as floats of these bits. steps: of height, of a texel.
+  MENISCUS_VECTOR_CLONES
   void write(float steps, std::span<float> words) const {
     const auto step = [&](float height) {  // nothing is step 0
       return static_cast<int>(std::max(height * steps + 0.5f * (kernel::kLightSteps + 1), 0.0f));
@@ -64,6 +67,7 @@ class Coverage {
 
 /// Computes what a ball covers of `count` texels of a line: heights along and against the axis, and shares, which are
 /// about the areas within the ball's disc. x, y: from the first texel to the ball's centre; z: of the centre.
+MENISCUS_VECTOR_CLONES
 void cover(float x, float y, float z, float radius, int count, float* __restrict highest, float* __restrict lowest,
            float* __restrict shares) {
   const float disc = std::max(radius, kLeastDisc), per_square = radius < kLeastSoft ? 1e6f : 0.5f / disc;
@@ -229,7 +233,6 @@ void LightMaps::make(const Look& look, const ViewBasis& basis) {
       views_.push_back(view_along(way));
   const auto texels_of = [](int edge) { return static_cast<std::size_t>(edge) * edge; };
   const std::size_t sky = texels_of(sky_edge_), lamp = texels_of(lamp_edge_), sky_end = 2 * sky * axes;
-  texels_.resize(keeps_sky ? sky_end : 0);
   texels_.resize(sky_end + lamp * (views_.size() - axes));
   tbb::parallel_for(std::size_t{keeps_sky ? static_cast<std::size_t>(axes) : 0}, views_.size(), [&](std::size_t n) {
     const auto first_lamp = static_cast<std::size_t>(axes);

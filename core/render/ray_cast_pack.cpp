@@ -441,8 +441,6 @@ std::uint32_t row_count(const Primitive& primitive) {
 
 namespace {
 
-using ray_cast::Primitive;
-
 class ShapePacker {
  public:
   ShapePacker(const Coloring& coloring, const PictureFrame& frame, RayCastPack& scene)

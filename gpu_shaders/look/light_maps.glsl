@@ -8,7 +8,12 @@
 // the lamp there is one. The sky's axes are fixed in the molecule, so its shade has no noise and does not flicker. A row
 // of pixels reads the maps of one phase of kLightPhases; the mean over neighbouring rows (finish.glsl) has all phases.
 // Written in GLSL and, as the body of a struct, in C++ (view_space.glsl). The includer provides `maps` of
-// LightMapParameters, and light_texel() of an index.
+// LightMapParameters, and light_texel() of an index in GLSL, two_light_texels() in C++.
+
+#ifndef __cplusplus
+// Returns the texel at an index and the one behind it.
+ivec2 two_light_texels(int at) { return ivec2(light_texel(at), light_texel(at + 1)); }
+#endif
 
 // Returns the share of the light that a texel blocks above a height.
 GEOMETRY real blocked_at(integer texel, integer height) {
@@ -40,42 +45,59 @@ GEOMETRY real blocked(real3 p, real3 normal, int row, integer first, truth down,
   integer2 upper = integer2(real2(max(height, 0.0), max(height + to_right, 0.0)));
   height = height + to_below;
   integer2 lower = integer2(real2(max(height, 0.0), max(height + to_right, 0.0)));
-  return mix(mix(blocked_at(light_texel(at), upper.x), blocked_at(light_texel(at + 1), upper.y), right),
-             mix(blocked_at(light_texel(at + edge), lower.x), blocked_at(light_texel(at + edge + 1), lower.y), right),
-             below);
+  integer2 over = two_light_texels(at);
+  integer2 under = two_light_texels(at + edge);
+  return mix(mix(blocked_at(over.x, upper.x), blocked_at(over.y, upper.y), right),
+             mix(blocked_at(under.x, lower.x), blocked_at(under.y, lower.y), right), below);
 }
 
 // Returns the first map that a row of pixels reads.
 GEOMETRY int light_phase(int row) { return (int(floor(view.first_offset.y)) + row) & (kLightPhases - 1); }
 
-// Returns the share of the sky, from 0 to 1 and weighted by the cosine, that a point sees. p, normal: in the camera's
-// axes, on the viewer's side of the surface; row: of the pixel.
-GEOMETRY real sky_visibility(real3 p, real3 normal, int row) {
-  real3 from = p + normal * (kLightLift * maps.sky_texel);
+// Returns the point from which light is looked for. p: a point; texel: of the maps, Å.
+GEOMETRY real3 lifted(real3 p, real3 normal, float texel) { return p + normal * (kLightLift * texel); }
+
+// Adds the light around an axis of the sky that reaches a point, weighted by the cosine, to sky.x, and all of it to
+// sky.y.
+GEOMETRY void add_sky(int axis, real3 from, real3 normal, GEOMETRY_INOUT(real2) sky) {
   int texels = maps.sky_edge * maps.sky_edge;
-  real seen = real(0.0);
-  real all = real(1e-6);
-  for (int axis = light_phase(row); axis < maps.sky_axes; axis += kLightPhases) {
-    real cosine = dot(normal, vec3(maps.rows[3 * axis + 2]));
-    truth down = cosine < 0.0;
-    integer first = select(down, integer((2 * axis + 1) * texels), integer(2 * axis * texels));
-    real weight = abs(cosine);
-    seen += weight * (1.0 - blocked(from, normal, 3 * axis, first, down, maps.sky_edge, maps.sky_texel));
-    all += weight;
-  }
-  return seen / all;
+  real cosine = dot(normal, vec3(maps.rows[3 * axis + 2]));
+  truth down = cosine < 0.0;
+  integer first = select(down, integer((2 * axis + 1) * texels), integer(2 * axis * texels));
+  real weight = abs(cosine);
+  sky.x += weight * (1.0 - blocked(from, normal, 3 * axis, first, down, maps.sky_edge, maps.sky_texel));
+  sky.y += weight;
 }
 
-// Returns the share of the lamp that a point sees. Places below its horizon are out of sight, and fade close to it.
-GEOMETRY real lamp_visibility(real3 p, real3 normal, int row) {
-  real3 from = p + normal * (kLightLift * maps.lamp_texel);
-  int texels = maps.lamp_edge * maps.lamp_edge;
-  real seen = real(0.0);
-  for (int n = light_phase(row); n < maps.lamp_places; n += kLightPhases) {
-    int first_row = 3 * (maps.sky_axes + n);
-    real above = clamp(dot(normal, vec3(maps.rows[first_row + 2])) * (12.0 * maps.lamp_texel), 0.0, 1.0);
-    integer first = integer(maps.first_lamp_texel + n * texels);
-    seen += above * (1.0 - blocked(from, normal, first_row, first, truth(false), maps.lamp_edge, maps.lamp_texel));
-  }
-  return seen * (float(kLightPhases) / float(maps.lamp_places));
+// Returns the light of a place on the lamp that reaches a point. Places below its horizon are out of sight, and fade
+// close to it.
+GEOMETRY real lamp_light(int n, real3 from, real3 normal) {
+  int first_row = 3 * (maps.sky_axes + n);
+  real above = clamp(dot(normal, vec3(maps.rows[first_row + 2])) * (12.0 * maps.lamp_texel), 0.0, 1.0);
+  integer first = integer(maps.first_lamp_texel + n * (maps.lamp_edge * maps.lamp_edge));
+  return above * (1.0 - blocked(from, normal, first_row, first, truth(false), maps.lamp_edge, maps.lamp_texel));
 }
+
+// Returns the share of the lamp of which the light reaches a point.
+GEOMETRY real share_of_lamp(real light) { return light * (float(kLightPhases) / float(maps.lamp_places)); }
+
+#ifndef __cplusplus
+// The visibilities of one point, for shaders; the CPU reads a map for many points at once (look_rows.h). p, normal: in
+// the camera's axes, on the viewer's side of the surface; row: of the pixel.
+
+// Returns the share of the sky, from 0 to 1 and weighted by the cosine, that a point sees.
+float sky_visibility(vec3 p, vec3 normal, int row) {
+  vec3 from = lifted(p, normal, maps.sky_texel);
+  vec2 sky = vec2(0.0, 1e-6);
+  for (int axis = light_phase(row); axis < maps.sky_axes; axis += kLightPhases) add_sky(axis, from, normal, sky);
+  return sky.x / sky.y;
+}
+
+// Returns the share of the lamp that a point sees.
+float lamp_visibility(vec3 p, vec3 normal, int row) {
+  vec3 from = lifted(p, normal, maps.lamp_texel);
+  float light = 0.0;
+  for (int n = light_phase(row); n < maps.lamp_places; n += kLightPhases) light += lamp_light(n, from, normal);
+  return share_of_lamp(light);
+}
+#endif

@@ -313,8 +313,9 @@ void CpuRenderer::find_shade(BlockSamples& samples, int sample, const Look& look
   task.shade_depth = samples.shade_depth.data();
   if (sample > 0) return;
   for_each_row(kernels_.measure_row);
-  for_each_until(interruption, (task.view.size.y + kRowsAtOnce - 1) / kRowsAtOnce,
-                 [&](int n) { kernels_.occlude_rows(task, kRowsAtOnce * n); });
+  const glm::ivec2 squares = (task.view.size + (kShadeEdge - 1)) / kShadeEdge;
+  for_each_until(interruption, squares.x * squares.y,
+                 [&](int n) { kernels_.occlude_square(task, kShadeEdge * glm::ivec2(n % squares.x, n / squares.x)); });
 }
 
 /// Finishes the first transparent point along each ray: shade, depth cue and lines are written to samples_.over, each

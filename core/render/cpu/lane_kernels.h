@@ -178,7 +178,7 @@ struct LaneLook {
   const kernel::LightMapParameters* maps = nullptr;
   kernel::FinishParameters finish{};
   LaneSamples samples;
-  const float* light_maps = nullptr;   ///< LightMaps::texels(), for occlude_rows
+  const float* light_maps = nullptr;   ///< LightMaps::texels(), for occlude_square
   const float* shade_depth = nullptr;  ///< depths of the sample whose visibility this is
   float* shade_size = nullptr;         ///< size of a pixel at that depth, Å
   float* sky_seen = nullptr;           ///< shares of the sky and of the lamp that pixels see
@@ -188,7 +188,7 @@ struct LaneLook {
   float* ink = nullptr;           ///< receives the share of each pixel that lines cover; or nullptr
 };
 
-inline constexpr int kRowsAtOnce = 8;
+inline constexpr int kShadeEdge = 64;  ///< pixels; the shade of squares is computed together
 
 /// The kernels for one width.
 struct LaneKernels {
@@ -202,8 +202,8 @@ struct LaneKernels {
   void (*see_sky)(const LaneLight& light, const glm::vec3* points, const glm::vec3* normals, float* seen,
                   std::uint32_t count);
   void (*measure_row)(const LaneLook& look, int y);  ///< writes pixel sizes at the shade's depth to shade_size
-  /// Writes sky_seen and lamp_seen of kRowsAtOnce rows from y, where there are maps for them.
-  void (*occlude_rows)(const LaneLook& look, int y);
+  /// Writes sky_seen and lamp_seen of a square of kShadeEdge, where there are maps for them.
+  void (*occlude_square)(const LaneLook& look, glm::ivec2 corner);
   void (*finish_row)(const LaneLook& look, int y);  ///< reads the visibility and size of two rows around
 };
 

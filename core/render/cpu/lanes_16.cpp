@@ -16,7 +16,6 @@
 #endif
 #define MENISCUS_LANES 16
 #define MENISCUS_LANE_NAMESPACE lanes_16
-#include "core/render/cpu/layer_caster.h"
 #include "core/render/cpu/look_rows.h"
 #if defined(__clang__)
 #pragma clang attribute pop
@@ -24,28 +23,12 @@
 #pragma GCC pop_options
 #endif
 
-namespace meniscus {
-
-const LaneKernels* kernels_of_16_lanes() {
-  static constexpr LaneKernels kernels{16,
-                                       lanes_16::cast_tile,
-                                       lanes_16::cast_layer,
-                                       lanes_16::light_points,
-                                       lanes_16::see_sky,
-                                       lanes_16::measure_row,
-                                       lanes_16::occlude_rows,
-                                       lanes_16::finish_row};
-  return processor_has_avx512() ? &kernels : nullptr;
+const meniscus::LaneKernels* meniscus::kernels_of_16_lanes() {
+  return processor_has_avx512() ? &lanes_16::kKernels : nullptr;
 }
-
-}  // namespace meniscus
 
 #else
 
-namespace meniscus {
-
-const LaneKernels* kernels_of_16_lanes() { return nullptr; }
-
-}  // namespace meniscus
+const meniscus::LaneKernels* meniscus::kernels_of_16_lanes() { return nullptr; }
 
 #endif

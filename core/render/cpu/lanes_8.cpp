@@ -13,7 +13,6 @@
 #endif
 #define MENISCUS_LANES 8
 #define MENISCUS_LANE_NAMESPACE lanes_8
-#include "core/render/cpu/layer_caster.h"
 #include "core/render/cpu/look_rows.h"
 #if defined(__clang__)
 #pragma clang attribute pop
@@ -21,28 +20,12 @@
 #pragma GCC pop_options
 #endif
 
-namespace meniscus {
-
-const LaneKernels* kernels_of_8_lanes() {
-  static constexpr LaneKernels kernels{8,
-                                       lanes_8::cast_tile,
-                                       lanes_8::cast_layer,
-                                       lanes_8::light_points,
-                                       lanes_8::see_sky,
-                                       lanes_8::measure_row,
-                                       lanes_8::occlude_rows,
-                                       lanes_8::finish_row};
-  return processor_has_avx2() ? &kernels : nullptr;
+const meniscus::LaneKernels* meniscus::kernels_of_8_lanes() {
+  return processor_has_avx2() ? &lanes_8::kKernels : nullptr;
 }
-
-}  // namespace meniscus
 
 #else
 
-namespace meniscus {
-
-const LaneKernels* kernels_of_8_lanes() { return nullptr; }
-
-}  // namespace meniscus
+const meniscus::LaneKernels* meniscus::kernels_of_8_lanes() { return nullptr; }
 
 #endif

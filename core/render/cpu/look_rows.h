@@ -2,8 +2,7 @@
 // Computes ambient occlusion, depth cueing and silhouettes for rows of pixels in packets. Only lanes_*.cpp include it.
 #pragma once
 
-#include "core/render/cpu/lane_kernels.h"
-#include "core/render/cpu/packet.h"
+#include "core/render/cpu/layer_caster.h"
 
 namespace meniscus::MENISCUS_LANE_NAMESPACE {
 
@@ -39,7 +38,10 @@ struct LookedAtBlock {
   }
   real depth_or_nothing(integer2 pixel) { return fetch(look_.samples.depth, pixel); }
   real depth_or_nothing(pixel_row pixel) { return fetch(look_.samples.depth, pixel); }
-  integer light_texel(integer at) const { return bits_of(gather(look_.light_maps, at)); }
+  integer2 two_light_texels(integer at) const {
+    const real2 two = gather_two(look_.light_maps, at);
+    return {bits_of(two.x), bits_of(two.y)};
+  }
   real shade_depth_or_nothing(pixel_row pixel) { return fetch(look_.shade_depth, pixel); }
   real3 shade_seen_at(pixel_row pixel, real depth) {
     if constexpr (!kInside) return seen_at(place_of(pixel), depth, pixel_size_at(depth));
@@ -162,15 +164,38 @@ struct LookedAtBlock {
     put(size, pixel, look_.shade_size);
   }
 
-  void occlude(pixel_row pixel) {
-    const real depth = depth_or_nothing(pixel);
-    const truth met = depth != real(kNothing);
-    if (!some(met)) return;
-    // The other lanes read texels, too: their points must be numbers.
-    const real3 p = position_at(pixel, select(met, depth, real(1.0f)));
-    const real3 normal = select(met, facing(hit_normal_at(pixel), to_viewer_at(p)), real3(0.0f));
-    if (maps.sky_axes > 0) put(sky_visibility(p, normal, pixel.y), pixel, look_.sky_seen);
-    if (maps.lamp_places > 0) put(lamp_visibility(p, normal, pixel.y), pixel, look_.lamp_seen);
+  /// Computes the visibilities of each second row of a square, from its first row on. Each map is read for all of them
+  /// before the next one, because all maps together are larger than caches.
+  void occlude(pixel_row first) {
+    struct Point {
+      pixel_row pixel;
+      real3 normal, to_sky, to_lamp;
+      real2 sky;
+      real lamp;
+    };
+    Point points[kShadeEdge / kLanes * kShadeEdge / kLightPhases];
+    Point* past = points;
+    const int right = first.x + kShadeEdge, below = (first.y / kShadeEdge + 1) * kShadeEdge;
+    for (pixel_row pixel = first; pixel.y < below && pixel.y < view.size.y; pixel.y += kLightPhases)
+      for (pixel.x = first.x; pixel.x < right && pixel.x < view.size.x; pixel.x += kLanes) {
+        const real depth = depth_or_nothing(pixel);
+        const truth met = depth != real(kNothing);
+        if (!some(met)) continue;
+        // The other lanes read texels, too: their points must be numbers.
+        const real3 p = position_at(pixel, select(met, depth, real(1.0f)));
+        const real3 normal = select(met, facing(hit_normal_at(pixel), to_viewer_at(p)), real3(0.0f));
+        *past++ = {pixel,         normal, lifted(p, normal, maps.sky_texel), lifted(p, normal, maps.lamp_texel),
+                   {0.0f, 1e-6f}, 0.0f};
+      }
+    const int phase = light_phase(first.y);
+    for (int axis = phase; axis < maps.sky_axes; axis += kLightPhases)
+      for (Point* at = points; at < past; ++at) add_sky(axis, at->to_sky, at->normal, at->sky);
+    for (int n = phase; n < maps.lamp_places; n += kLightPhases)
+      for (Point* at = points; at < past; ++at) at->lamp += lamp_light(n, at->to_lamp, at->normal);
+    for (Point* at = points; at < past; ++at) {
+      if (maps.sky_axes > 0) put(at->sky.x / at->sky.y, at->pixel, look_.sky_seen);
+      if (maps.lamp_places > 0) put(share_of_lamp(at->lamp), at->pixel, look_.lamp_seen);
+    }
   }
 
  private:
@@ -265,11 +290,9 @@ inline void measure_row(const LaneLook& task, int y) {
   for_each_packet(task, y, 0, [](auto& block, pixel_row pixel) { block.measure(pixel); });
 }
 
-inline void occlude_rows(const LaneLook& task, int first) {
+inline void occlude_square(const LaneLook& task, glm::ivec2 corner) {
   LookedAtBlock<false> block(task);
-  // Packets above one another read the same parts of the maps.
-  for (int x = 0; x < task.view.size.x; x += kLanes)
-    for (int y = first; y < first + kRowsAtOnce && y < task.view.size.y; ++y) block.occlude({x, y});
+  for (int phase = 0; phase < kLightPhases; ++phase) block.occlude({corner.x, corner.y + phase});
 }
 
 inline void finish_row(const LaneLook& task, int y) {
@@ -277,5 +300,9 @@ inline void finish_row(const LaneLook& task, int y) {
   const int reach = ink_reach > kShadeReach ? ink_reach : kShadeReach;
   for_each_packet(task, y, reach, [](auto& block, pixel_row pixel) { block.finish(pixel); });
 }
+
+/// The kernels of this width.
+inline constexpr LaneKernels kKernels{kLanes,  cast_tile,   cast_layer,     light_points,
+                                      see_sky, measure_row, occlude_square, finish_row};
 
 }  // namespace meniscus::MENISCUS_LANE_NAMESPACE

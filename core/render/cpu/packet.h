@@ -328,6 +328,20 @@ inline real gather(const float* values, integer at) {
 #endif
 }
 
+/// Returns values[at] and values[at + 1] for each lane.
+inline real2 gather_two(const float* values, integer at) {
+#if MENISCUS_LANES == 8 && defined(__x86_64__)
+  // Each number of 64 bits is two floats. Lanes 0, 1, 4, 5 come first, because shuffles do not cross halves.
+  const __m256i places = _mm256_permute4x64_epi64(__builtin_bit_cast(__m256i, at.v), 0xd8);
+  const auto* const pairs = reinterpret_cast<const double*>(values);
+  const __m256 a = _mm256_castpd_ps(_mm256_i32gather_pd(pairs, _mm256_castsi256_si128(places), 4));
+  const __m256 b = _mm256_castpd_ps(_mm256_i32gather_pd(pairs, _mm256_extracti128_si256(places, 1), 4));
+  return {Floats(_mm256_shuffle_ps(a, b, 0x88)), Floats(_mm256_shuffle_ps(a, b, 0xdd))};
+#else
+  return {gather(values, at), gather(values, at + 1)};
+#endif
+}
+
 inline real load(const float* values) {
   Floats lanes;
   __builtin_memcpy(&lanes, values, sizeof lanes);

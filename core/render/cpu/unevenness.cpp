@@ -11,7 +11,7 @@ namespace {
 
 /// The greatest second difference of three pixels in a row that is even, in displayed values from 0 to 1. In between
 /// colours are nearly linear, and the mean over a pixel is the value at its centre.
-constexpr float kMostBend = 3.0f / 255.0f;
+constexpr float kMostBend = 4.0f / 255.0f;
 constexpr int kPadding = 16;  // the widest packet
 
 constexpr int kRows = kBundleEdge + 2;

@@ -16,9 +16,9 @@ namespace meniscus {
 /// which is at its centre, by at most 1/255.
 class Unevenness {
  public:
-  /// True if a picture is so large that samples which are left out save a user's time: 1920 x 1080 pixels or more.
+  /// True if a picture is so large that samples which are left out save a user's time: 1280 x 960 pixels or more.
   /// Smaller pictures are quick anyway. They have all samples, and differ from GL's pictures by rounding alone.
-  static bool pays_off(glm::ivec2 size) { return std::int64_t{size.x} * size.y >= 1920 * 1080; }
+  static bool pays_off(glm::ivec2 size) { return std::int64_t{size.x} * size.y >= 1280 * 960; }
 
   /// Compares the pixels of a block with their neighbours. first: the finished first sample of each pixel, linear and
   /// premultiplied, row by row.
