@@ -3,6 +3,7 @@
 what an earlier one left in the cache."""
 
 import pathlib
+import re
 import tempfile
 import unittest
 
@@ -40,6 +41,17 @@ class Configuration(unittest.TestCase):
         for path, text in first.items():
             changed = [pair for pair in zip(text.splitlines(), second[path].splitlines()) if pair[0] != pair[1]]
             self.assertEqual((changed[:3], len(text)), ([], len(second[path])), path)
+
+    def test_a_folder_below_the_prefix_stays_below_it(self):
+        """As debhelper names it, without a type, which CMake may take for a path below the current folder."""
+        with tempfile.TemporaryDirectory() as folder:
+            done = run("cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DMENISCUS_TESTS=OFF",
+                       "-DCMAKE_INSTALL_LIBDIR=lib/somewhere", cwd=folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            scripts = [path.read_text() for path in pathlib.Path(folder).glob("**/cmake_install.cmake")]
+            places = {place for text in scripts for place in re.findall(r'file\(INSTALL DESTINATION "([^"]*)', text)}
+            self.assertIn("${CMAKE_INSTALL_PREFIX}/lib/somewhere", places)
+            self.assertEqual({place for place in places if not place.startswith("${CMAKE_INSTALL_PREFIX}/")}, set())
 
 
 if __name__ == "__main__":
