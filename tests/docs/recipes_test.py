@@ -52,7 +52,7 @@ LANGUAGES = {
 NOT_RUN = [
     (r"^meniscus preview\b", "serves a page: tests/preview"),
     (r"\b(apt-get|pip|pipx|uv|docker|curl) ", "needs a network or root"),
-    (r"\b(cmake|cpack) |\b(scripts|tests/\w+)/\w+\.", "builds, installs or measures: scripts"),
+    (r"\bcmake |\bscripts/[\w/]+\.|\btests/\w+/\w+\.", "builds, installs or measures: scripts"),
     (r"\bpkg-config\b", "compiles: tests/c_api"),
     (r"\bglass\b|\bsubmit\.sh\b", "needs Slurm: tests/farm"),
     (r"/mnt/|/var/", "a folder of another machine: tests/farm"),
