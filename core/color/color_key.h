@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The meaning of the colours in a picture, for legends and exporters: scales of numbers and lists of classes, also as
-// JSON.
+// The meaning of the colours in a picture, for legends and exporters: scales of numbers and lists of classes.
 #pragma once
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
@@ -53,8 +50,5 @@ std::string color_conflicts(std::span<const ColorKey> keys, std::string_view pic
 
 /// Adds the single colour of some atoms, unless that name is already there, if the key explains anything else.
 void add_other(ColorKey& key, const std::string& name, const glm::vec3& color);
-
-/// Returns title, and unit, map, range, missing, missing_color or classes; and others, each in the same form.
-nlohmann::ordered_json color_key_json(const ColorKey& key);
 
 }  // namespace meniscus

@@ -10,6 +10,7 @@
 #include "core/base/output_file.h"
 #include "core/base/version.h"
 #include "core/color/color_key.h"
+#include "core/color/color_key_json.h"
 #include "exporters/blender/mns_file.h"
 
 namespace meniscus::blender {

@@ -10,6 +10,7 @@
 #include "core/base/text.h"
 #include "core/base/version.h"
 #include "core/color/color_key.h"
+#include "core/color/color_key_json.h"
 #include "core/color/color_maps.h"
 #include "core/mesh/mesh_colors.h"
 #include "core/queries/surface_parts.h"

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
+#include "core/color/color_key_json.h"
+
 namespace meniscus::povray {
 
 std::vector<MaterialRequest> materials_of(std::span<const SceneObject> objects) {

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/color/color_key_json.h"
 #include "core/surface/walks.h"
 
 namespace meniscus::povray {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the Debian packages with debhelper, and the source package from which sbuild makes the same ones.
+# Makes the Debian packages with debhelper, and their source package.
 #
 #   scripts/package/debian.sh OUT [BUILD]
 #

@@ -15,7 +15,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]', re.M)
 #: What builds with a part compile: up to #else or #endif.
 PART = re.compile(r"^#ifdef (MENISCUS_\w+)$.*?^#(?:else|endif)$", re.M | re.S)
 FREE = {"glm", "fmt", "tbb"}
-SYSTEM = {"cpuid.h", "stddef.h", "stdint.h", "sched.h", "fcntl.h", "unistd.h", "dlfcn.h", "sys/mman.h", "sys/stat.h", "sys/types.h", "sys/sysinfo.h", "emmintrin.h", "immintrin.h",
+SYSTEM = {"cpuid.h", "stddef.h", "stdint.h", "sched.h", "fcntl.h", "unistd.h", "dlfcn.h", "sys/mman.h", "sys/resource.h", "sys/stat.h", "sys/types.h", "sys/sysinfo.h", "emmintrin.h", "immintrin.h",
           "malloc.h", "quadmath.h", "linux/fs.h", "mach-o/dyld.h", "sys/syscall.h", "errno.h"}
 
 

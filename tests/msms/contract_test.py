@@ -248,7 +248,7 @@ class Alternatives(Folder):
     """What the Debian package does when it comes and goes, in a folder instead of in /."""
 
     def script(self, name, word):
-        text = (ROOT / "scripts/package/program" / name).read_text().replace("/usr/", f"{self.folder}/usr/")
+        text = (ROOT / f"scripts/package/debian/meniscus.{name}").read_text().replace("/usr/", f"{self.folder}/usr/")
         places = " ".join(f"--{what} {self.folder}/{what}" for what in ("altdir", "admindir")) + f" --log {self.folder}/log"
         self.good("sh", "-c", text.replace("update-alternatives", f"update-alternatives --quiet {places}"), name, word)
 

@@ -44,7 +44,7 @@ class Wheels(unittest.TestCase):
         self.wheels = wheels_of(self.folder)
 
     def built(self, target):
-        """What stands for the files of a target: the programs of BUILD for this machine, others' names for others, and no library."""
+        """Makes stand-ins for the files of a target: the programs of BUILD for this machine, text for other systems, and no library."""
         os.mkdir(os.path.join(self.folder, target))
         for path in self.wheels.programs(target).values():
             if target == platform.machine() + "-linux":
