@@ -3,6 +3,8 @@
 // of records, deflated and written as text.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "core/camera/camera.h"
 #include "core/color/color_key.h"
 #include "core/queries/surface_object.h"
