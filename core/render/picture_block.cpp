@@ -53,7 +53,7 @@ double squared_distance(const Border& border, const glm::dvec3& point) {
 
 std::uint32_t ComponentLookup::at(PatchKind kind, std::uint32_t patch, const glm::dvec3& point) const {
   const auto [first, count] = faces_of(surface_, kind, patch);
-  if (count == 0 || surface_.faces.empty()) return kNone;
+  if (count == 0) return kNone;
   const auto begin = surface_.faces.begin() + first, end = begin + count;
   if (std::all_of(begin, end, [&](const Face& face) { return face.component == begin->component; }))
     return begin->component;

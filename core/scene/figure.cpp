@@ -206,19 +206,6 @@ const SurfaceObject* extra_surface(const FigureExtras& extras, const PictureObje
   return nullptr;
 }
 
-namespace {
-
-/// Frees the tables by which AOVs name components: a third of a surface's memory, and no ray needs them.
-void release_borders(Surface& surface) {
-  surface.vertices = {};
-  surface.borders = {};
-  surface.half_borders = {};
-  surface.loops = {};
-  surface.faces = {};
-}
-
-}  // namespace
-
 Framebuffer draw(StillRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
                  const RenderSettings& settings, const Survey& survey, const FigureMotion* motion) {
   // The picture comes in bands or as a whole, depending on the renderer.
@@ -244,8 +231,6 @@ Framebuffer draw(StillRenderer& renderer, Figure figure, const FigureRequest& re
     return picture;
   };
   std::vector<SurfaceObject>& objects = figure.molecule.objects;
-  if (!settings.aovs)
-    for (SurfaceObject& object : objects) release_borders(object.surface);
   const bool opaque = std::ranges::none_of(objects, [](const SurfaceObject& o) { return o.coloring.is_translucent(); });
   // Points of copies that are not in memory have no velocities.
   if (request.plain() && opaque && !settings.motion && placed_atoms(objects) > kMostMergedAtoms) {
