@@ -9,6 +9,7 @@
 
 #include "core/surface/components.h"
 #include "core/surface/convex_planes.h"
+#include "core/surface/parallel_tables.h"
 #include "core/surface/spherical.h"
 
 namespace meniscus {
