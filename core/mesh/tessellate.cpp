@@ -288,7 +288,7 @@ class Tessellation {
   }
 
   /// Calls note(vertex, normal) for the corners at shared vertices for which wanted(vertex) is true, face after face.
-  /// With once_a_face, a face has one call for a sample inside a border, where all its corners have the same normal.
+  /// once_a_face: each face is called once for a sample inside a border, because its corners share one normal there.
   template <typename Wanted, typename Note>
   void for_each_shared_normal(bool once_a_face, const Wanted& wanted, const Note& note) const {
     for_each_chunk([&](std::uint32_t first, std::uint32_t last) {

@@ -156,9 +156,9 @@ class MeshFileMaker {
   std::size_t triangles_ = 0, further_places_ = 0, joined_ = 0, fins_ = 0, flipped_ = 0, flat_ = 0;
 };
 
-/// Returns a file with one object per pocket from the mesh of pocket_mesh(). Objects are named "pocket 1", ... by rank
-/// and have the rank as vertex number "pocket"; colours are those of categorical_color(). Lengths are in Å. The file
-/// has neither atoms nor inner points, so it suits formats that need neither.
+/// Returns a file with one object per pocket from the mesh of pocket_mesh(). Objects are named "pocket 1", ... by rank.
+/// The vertex number "pocket" is the rank, and categorical_color() gives the colours. Lengths are in Å. The file has
+/// neither atoms nor inner points, so it suits formats that need neither.
 MeshFile pocket_file(const TriangleMesh& mesh);
 
 }  // namespace meniscus

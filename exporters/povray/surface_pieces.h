@@ -46,7 +46,7 @@ class CutObjects {
   /// copies differ (copies_differ()). Returns the given objects otherwise.
   std::span<const SurfaceObject> objects() const { return objects_; }
   bool has_caps() const { return cuts_; }
-  /// Returns the caps, of which CapMesh::atom is an index into the atoms of the merged object.
+  /// Returns the caps. Their CapMesh::atom is an index into the atoms of the merged object.
   const CapMesh& caps() const { return caps_; }
 
  private:

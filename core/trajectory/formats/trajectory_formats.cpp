@@ -227,7 +227,7 @@ void store_index(const BinaryFile& file, const std::string& folder, const FrameI
     output.write(bytes);
     output.commit();
   } catch (const OutputError&) {
-    // Without a stored index the file is walked through again, which only costs time.
+    // An index that cannot be stored only costs time: the next run reads through the file again.
   }
 }
 
