@@ -40,6 +40,14 @@ class Documents(unittest.TestCase):
         self.assertGreater(len(pages), 40)
         self.assertEqual(pages - linked, set())
 
+    def test_the_list_of_dependencies_has_every_package(self):
+        page = (ROOT / "docs/reference/dependencies.md").read_text()
+        named = set(re.findall(r"`([\w+-]+)`", page))
+        script = (ROOT / "scripts/packages.sh").read_text()
+        packages = " ".join(re.search(rf"^{name}=\((.*?)\)", script, re.M | re.S)[1] for name in ("build_packages", "film_packages"))
+        self.assertGreater(len(packages.split()), 20)
+        self.assertEqual(set(packages.split()) - named - {"povray-includes"}, set())
+
     def test_pages_of_the_manual_are_found_by_one_word(self):
         """`meniscus help NAME` takes the stem of a page."""
         stems = [path.stem for path in (ROOT / "docs").glob("*/*.md")]
