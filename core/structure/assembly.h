@@ -20,7 +20,6 @@ enum class CopyMode {
 /// The greatest number of atoms of an assembly with CopyMode::atoms. A larger one is an error of the file, or too large
 /// for any machine; it can still be drawn with instances.
 inline constexpr std::size_t kMostAssembledAtoms = 10'000'000;
-/// The greatest number of operators of an assembly.
 inline constexpr std::size_t kMostOperators = 100'000;
 
 /// Returns the motion of three rows (r1 r2 r3 t), which files have rounded. The rotation is replaced by the nearest

@@ -107,7 +107,7 @@ gemmi::Element lone_ion_element(const Atom& atom) {
 /// standard ones. Returns X if there is none.
 gemmi::Element element_of_two_letters(const Atom& atom, bool of_polymer) {
   constexpr std::string_view kHalogens = " CL BR ",
-                             kOthers = " FE ZN MG MN SI SE CU PT IR RU RH RE AU AS AL TE ";  // not in polymers
+                             kOthers = " FE ZN MG MN SI SE CU PT IR RU RH RE AU AS AL TE ";  // ignored in polymers
   const std::size_t letter = std::min(atom.name.find_first_not_of("0123456789"), atom.name.size());
   const std::string two = upper_case(atom.name.substr(letter, 2)), word = " " + two + " ";
   const bool known = two.size() == 2 && (kHalogens.find(word) != std::string_view::npos ||
@@ -299,7 +299,7 @@ class Classifier {
 
   /// True if the previous or next residue in the file is in the same chain and has a lower or higher number.
   bool in_chain(std::size_t r, std::size_t neighbor) const {
-    if (neighbor >= begins_.size() - 1) return false;  // for the first residue r - 1 is the largest number
+    if (neighbor >= begins_.size() - 1) return false;  // r - 1 is the largest number if r is the first residue
     const Atom &here = head(r), &there = head(neighbor);
     return is_polymer_name(there.residue_name) && !hint(begins_[neighbor]).is_heteroatom && there.chain == here.chain &&
            there.segment == here.segment && there.model == here.model &&

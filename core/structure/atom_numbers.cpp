@@ -21,7 +21,7 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 bool is_missing(std::string_view word) { return word == "nan" || word == "NaN" || word == "?" || word == "-"; }
 
-/// True for a missing number, also as spreadsheets and R write it.
+/// True for a missing number, including the ways in which spreadsheets and R write it.
 bool is_missing_cell(std::string_view cell) {
   return cell.empty() || cell == "NA" || cell == "N/A" || is_missing(cell);
 }

@@ -206,7 +206,6 @@ std::vector<std::string> assign_extra_radii(Structure& structure, const RadiiCho
   return unknown;
 }
 
-/// Makes the copies of the assembly for the atoms in `extra_atoms`.
 void assemble_extra_atoms(Structure& structure, const Assembly& assembly) {
   std::erase_if(structure.extra_atoms, [&](const Atom& atom) { return !names_chain_of(assembly, atom); });
   if (structure.extra_atoms.empty()) return;

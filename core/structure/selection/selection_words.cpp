@@ -221,7 +221,7 @@ std::string from_pymol(std::string_view word) {
   fields.resize(5);
   Translation translation;
   translation.add("chain", fields[2]);
-  const std::size_t tick = fields[3].find('`');  // as in LYS`10
+  const std::size_t tick = fields[3].find('`');  // LYS`10 has a tick
   translation.add_residues(fields[3].substr(0, tick));
   if (tick != std::string_view::npos) translation.add_residues(fields[3].substr(tick + 1));
   translation.add("name", fields[4].substr(0, fields[4].find('`')));
