@@ -16,7 +16,7 @@ constexpr int kMostPasses = 8;
 /// Cuts the triangles of one face along its colour lines.
 class ColorCutter {
  public:
-  /// scores: of each point, one per contact; the largest wins.
+  /// `scores` has one score for each contact at each point; the contact with the largest score wins there.
   ColorCutter(FaceMesh& mesh, std::size_t contacts, std::vector<double> scores)
       : mesh_(mesh), contacts_(contacts), scores_(std::move(scores)) {
     for (const auto& edge : mesh.rim_edges)
@@ -63,7 +63,7 @@ class ColorCutter {
     }
     double best = sum[*tied.begin()];
     for (std::size_t c : tied) best = std::max(best, sum[c]);
-    for (std::size_t c : tied) sum[c] = best;  // equal but for rounding
+    for (std::size_t c : tied) sum[c] = best;  // they are equal except for rounding
     mesh_.points.push_back(
         mesh_.domain->between({&mesh_.points[v[0]], &mesh_.points[v[1]], &mesh_.points[v[2]]}, weight));
     return index;
@@ -74,7 +74,7 @@ class ColorCutter {
     const auto [at, fresh] = crossings_.try_emplace({a, b}, 0);
     if (fresh) {
       const std::span<const double> from = scores(a), to = scores(b);
-      std::size_t first = 0;  // of the contacts that win at a, the one that wins just after it
+      std::size_t first = 0;  // among the contacts that win at a, the one that wins just after it
       for (std::size_t c = 1; c < from.size(); ++c) {
         if (wins(a, c) && (!wins(a, first) || to[c] > to[first])) first = c;
       }

@@ -152,7 +152,6 @@ FaceMesh fill_outline(FaceOutline outline, double tolerance);
 /// rounding.
 FaceMesh fan_outline(FaceOutline outline);
 
-/// Returns the triangles of a whole sphere.
 FaceMesh whole_sphere(const Surface& surface, const Face& face, const SphereLattice& lattice);
 
 /// Splits inner edges until no two of them, and no inner edge and the rim, join the same two named points. This is

@@ -25,7 +25,6 @@ struct TriangleExchange {
   std::vector<PlacedTriangle> made;
   std::vector<std::uint32_t> removed;
 };
-/// Returns the triangles that a change makes and removes.
 TriangleExchange exchange_by(const MeshOnSurface& mesh, const MeshChange& change);
 
 /// Calls visit(PlacedTriangle) for each triangle that a change makes.

@@ -42,7 +42,7 @@ class MeshMender {
   };
 
   struct Candidate {
-    std::ptrdiff_t fewer_faults;  ///< how many fewer faults remain after the change
+    std::ptrdiff_t fewer_faults;  ///< number of faults that the change removes
     double gain;                  ///< increase of the score
     MeshChange change;
   };

@@ -10,7 +10,7 @@ namespace meniscus {
 /// The constants of remeshing. The quality of a triangle is 4 sqrt(3) area / sum of squared edges: 1 for an equilateral
 /// triangle, 0 for a degenerate one. Edges are measured in units of the length wanted at their ends.
 struct RemeshTuning {
-  // --- Passes over the mesh (remesher.h)
+  // --- Passes over the mesh (mesh_change.h)
   /// Longer edges are split, shorter ones collapsed: either change brings edges nearer to the wanted length (Botsch &
   /// Kobbelt 2004).
   static constexpr double longest_edge = 4.0 / 3.0, shortest_edge = 4.0 / 5.0;
@@ -38,8 +38,8 @@ struct RemeshTuning {
   /// Steps shorter than this share of the wanted edge length are not made: they would change nothing that is worth the
   /// walk.
   static constexpr double shortest_step = 0.01;
-  /// Refinement shortens the wanted edges no further below this share of their first length, as that would not help
-  /// either.
+  /// Refinement shortens the wanted edges no further than to this share of their first length, because even shorter
+  /// edges would not help.
   static constexpr float finest_scale = 0.25f;
 
   // --- The slope of triangles (mesh_on_surface.h): cosines between their normals and that of the surface at a vertex
@@ -73,7 +73,7 @@ struct RemeshTuning {
   /// The radius around a triangle, in units of its longest edge, within which mending checks for crossings.
   static constexpr double mending_radius = 2.5;
 
-  // --- Wanted edges (even_sizes.h)
+  // --- Wanted edges (EvenSizes)
   /// The number of vertices per Å² times the squared edge length. It is 2 / sqrt(3) = 1.155 for equilateral triangles;
   /// splitting and collapsing leave edges a little shorter.
   static constexpr double vertices_per_square = 1.34;
@@ -191,7 +191,7 @@ class EvenSizes {
   const EvenMeshOptions& options_;
   double smallest_ball_;  ///< smallest radius (Å) of a ball: the radius of curvature if the probe radius is 0
   double edge_of_density_;
-  /// Per component, Å, with a density: short enough for the fewest vertices that a component needs.
+  /// Per component, with a density: an edge length (Å) short enough for the fewest vertices that a component needs.
   std::vector<double> longest_edge_;
 };
 

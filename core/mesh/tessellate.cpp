@@ -48,7 +48,7 @@ FaceMesh FaceFilling::filled(std::uint32_t f) const {
   const Face& face = surface_.faces[f];
   if (face.loop_count == 0) return whole_sphere(surface_, face, lattices_.at(frequency(face)));
   FaceOutline rim = outline(f);
-  if (rim.edges.size() < 3) return {};  // shrunk to a point or to one line
+  if (rim.edges.size() < 3) return {};  // the face has shrunk to a point or to one line
   return fill_outline(std::move(rim), tolerance_of(rule_, surface_, face));
 }
 
@@ -449,7 +449,7 @@ TriangleMesh tessellate(const Surface& surface, const MeshOptions& options) {
 
 namespace {
 
-constexpr std::array kTolerances{0.1, 0.03, 0.01};  // Å, the finer ones after the others have failed
+constexpr std::array kTolerances{0.1, 0.03, 0.01};  // Å; each is tried after the coarser ones have failed
 
 }  // namespace
 
