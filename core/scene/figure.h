@@ -88,7 +88,6 @@ struct FigureExtras {
   bool empty() const { return shapes.empty() && objects.empty(); }
   /// Returns balls around all of it, for framing.
   std::vector<Ball> balls() const;
-  /// Returns the lengths of all dashed lines.
   std::vector<PlaceLabel> lengths() const;
 };
 

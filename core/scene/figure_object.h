@@ -20,8 +20,8 @@ namespace meniscus {
 struct FigureObjectRequest {
   Selection atoms;
   std::optional<RepresentationRequest::Kind> shapes{};  ///< nothing: the surface of these atoms, as if they were alone
-  std::optional<Selection> partners{};  ///< of dashed lines: the atoms at their other ends; nothing: all that are drawn
-  std::optional<ColorScheme> color{};   ///< nothing: the molecule's colours, or kDashColor
+  std::optional<Selection> partners{};   ///< atoms at the other ends of dashed lines; nothing: all that are drawn
+  std::optional<ColorScheme> color{};    ///< nothing: the molecule's colours, or kDashColor
   std::vector<OpacityRule> opacities{};  ///< opacities of this object; the molecule's opacities do not apply to it
   MaterialRequest material{};
   std::optional<double> radius{};  ///< radius of sticks, backbones and dashes, Å; nothing: the default radius
@@ -29,7 +29,7 @@ struct FigureObjectRequest {
   // These members apply to surfaces only.
   SurfaceKind kind = SurfaceKind::ses;
   double probe_radius = kUsualProbe;  ///< Å
-  std::optional<Selection> show{};    ///< the atoms, of the object's, whose part of the surface is drawn; nothing: all
+  std::optional<Selection> show{};    ///< atoms of the object whose part of the surface is drawn; nothing: all
   std::vector<Cut> cuts{};
   CapStyle cap{};
   bool thickens = false;  ///< PictureObject::thickens

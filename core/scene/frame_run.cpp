@@ -382,7 +382,7 @@ void FrameRun::read_velocities(ReadFrame& into) {
   // A damaged neighbour is an error of its own frame, not of this one.
   const auto read_neighbor = [&](std::uint64_t neighbor, Frame& frame) {
     try {
-      if (neighbor >= run_.size()) return read(into.number, frame);  // also for the frame before the first
+      if (neighbor >= run_.size()) return read(into.number, frame);  // no frame is before the first or after the last
       read(run_[neighbor], frame);
       steps += 1.0;
     } catch (const InputError&) {

@@ -55,7 +55,7 @@ void open_book(Structure& structure, std::span<const AtomGroup> groups, const Op
 struct MoleculeRequest {
   std::string file;  ///< "-": standard input
   ReadOptions reading;
-  std::optional<Selection> show;  ///< the atoms, of those read, whose part of the surface is drawn and exported
+  std::optional<Selection> show;  ///< atoms whose part of the surface is drawn and exported; nothing: all
   SurfaceRequest surface;
   Division division;
   ColorScheme color;

@@ -37,7 +37,7 @@ constexpr bool draws_each_atom(RepresentationRequest::Kind kind) {
 
 /// Radii of shapes, Å; nothing: the default radii.
 struct ShapeRadii {
-  std::optional<double> stick_radius;  ///< of bases, too; default: kStickRadius, with balls kThinStickRadius
+  std::optional<double> stick_radius;  ///< applies to bases, too; default: kStickRadius, with balls kThinStickRadius
   std::optional<double> tube_radius;   ///< default: kTubeRadius
 };
 

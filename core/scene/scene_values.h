@@ -24,7 +24,8 @@ class ValueError : public RequestError {
   std::string key_;
 };
 
-/// True if scenes have a value of this property. Properties of a command alone, such as overwriting files, are none.
+/// True if scenes have a value of this property. Properties of a command alone, such as overwriting files, do not
+/// count.
 bool is_scene_value(const Property& property);
 
 /// Returns the name of a property in programs: its option without leading dashes, and with "_" for other dashes:
@@ -63,7 +64,7 @@ void complete(Scene& scene);
 /// with an interface.
 Scene prepared_scene(Scene scene);
 
-/// A scene, and a function that tells which of its values were given.
+/// A scene, and a function that says which of its values were given.
 struct GivenScene {
   const Scene& scene;
   std::function<bool(std::string_view key)> is_given;

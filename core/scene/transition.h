@@ -51,7 +51,6 @@ Camera camera_between(const Camera& from, const Camera& to, double share);
 /// from a default.
 double radius_between(double from, double to, double share);
 
-/// Returns the planes as cuts.
 std::vector<Cut> cuts_at(std::span<const ClipPlane> planes);
 
 /// Returns planes on the way from some to others. The first plane becomes the first of the others, and so on. A plane
