@@ -42,7 +42,7 @@ std::optional<Markers> markers_of(std::string_view start) {
   return std::nullopt;
 }
 
-/// True if programs mean that there is no box. They write edges of 0 or 1 Å then.
+/// True for the edges of 0 or 1 Å by which programs say that there is no box.
 bool means_no_box(const std::array<double, 6>& numbers) {
   return std::abs(numbers[0]) <= 1.0 && std::abs(numbers[2]) <= 1.0 && std::abs(numbers[5]) <= 1.0;
 }

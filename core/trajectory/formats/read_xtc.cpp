@@ -14,8 +14,8 @@ namespace {
 /// A compressed frame (GROMACS manual, file formats: xtc; after F. van Hoesel, 1994).
 struct PackedCoordinates {
   float precision = 0.0F;                    ///< steps per nanometre
-  std::array<std::int32_t, 3> lowest = {};   ///< of all atoms, in steps
-  std::array<std::int32_t, 3> highest = {};  ///< of all atoms, in steps
+  std::array<std::int32_t, 3> lowest = {};   ///< least coordinates of all atoms, in steps
+  std::array<std::int32_t, 3> highest = {};  ///< greatest coordinates of all atoms, in steps
   std::int32_t small_class = 0;              ///< index into the format's table of sizes of small differences
   /// Compressed positions; kPackedPadding readable bytes must follow, which do not belong to them.
   std::span<const std::byte> bits = {};
@@ -229,7 +229,6 @@ Number big_endian(const std::byte* bytes) {
   return number_at<Number>(bytes, std::endian::big);
 }
 
-/// The header of a frame.
 struct XtcHeader {
   std::size_t atoms = 0;
   std::size_t data_offset = 0;  // bytes from the beginning of the frame
