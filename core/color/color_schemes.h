@@ -59,12 +59,12 @@ struct ColorScheme {
   std::optional<ColorMap> map;                 ///< nothing: the default of the scheme (color_scale)
   std::shared_ptr<const ColorRamp> own_map;    ///< replaces `map`, if set
   std::optional<std::array<double, 2>> range;  ///< numbers at both ends of the map; nothing: automatic (color_scale)
-  /// For numbers that change from frame to frame: their smallest and largest in all frames, which replace an automatic
+  /// The smallest and largest number in all frames, if numbers change from frame to frame. They replace an automatic
   /// range.
   std::optional<std::array<double, 2>> frames_range;
   std::optional<glm::vec3> missing;           ///< colour of atoms without a number; nothing: default_missing_color
-  NumberFile file;                            ///< for takes_file(); for is_measured() it holds the numbers of the atoms
-  std::shared_ptr<const VolumePaint> volume;  ///< for of_points(); the volume of lipophilicity comes with the surface
+  NumberFile file;                            ///< used if takes_file(), or for the numbers of atoms if is_measured()
+  std::shared_ptr<const VolumePaint> volume;  ///< used if of_points(); that of lipophilicity comes with the surface
   std::string title, unit;                    ///< title and unit of the scale; empty: the default
   std::vector<ColorRule> rules;               ///< override the scheme; of several rules for an atom the last one counts
   std::vector<OpacityRule> opacities;         ///< of several rules for an atom the last one counts
@@ -85,10 +85,10 @@ struct ColorScheme {
   bool uses_file() const { return uses(By::file) || uses(By::conservation); }
   /// True if these numbers differ from frame to frame of a run.
   bool uses_frames() const;
-  /// True if they do, or if this scheme or a rule colours by positions of atoms or by buried areas.
+  /// True if uses_frames(), or if this scheme or a rule colours by positions of atoms or by buried areas.
   bool changes_with_frames() const;
-  /// Sets the numbers of this scheme and of all rules. Numbers of frames have one scale: without a range that of all
-  /// frames. Throws RequestError for them if the map gives each number a colour of its own.
+  /// Sets the numbers of this scheme and of all rules. Numbers of frames have one scale, whose default range is that of
+  /// all frames. Throws RequestError for them if the map gives each number a colour of its own.
   void set_numbers(const NumberFile& numbers);
   /// Applies this map, range and colour of missing numbers also to rules that colour by a number.
   void share_scale();

@@ -30,7 +30,7 @@ const std::map<std::uint8_t, std::uint32_t> kElements{
 constexpr std::uint32_t kOtherElement = 0xd070b0;
 constexpr std::uint32_t kUnknownElement = 0xc4c4c4;  // for XYZR, which has no elements
 
-// By chemistry, in Okabe and Ito's colours.
+// These groups follow chemistry, in Okabe and Ito's colours.
 constexpr ResidueGroup kResidueGroups[] = {{0xd55e00, "acidic", " ASP GLU ASH GLH "},
                                            {0x0072b2, "basic", " ARG LYS HIS HID HIE HIP HSD HSE HSP LYN "},
                                            {0x56b4e9, "polar", " ASN GLN SER THR "},
@@ -95,7 +95,7 @@ struct CssColor {
   std::uint32_t hex;
 };
 
-// Sorted by name, for binary search.
+// These are sorted by name for binary search.
 constexpr CssColor kCssColors[] = {{"aliceblue", 0xf0f8ff},
                                    {"antiquewhite", 0xfaebd7},
                                    {"aqua", 0x00ffff},
