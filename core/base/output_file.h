@@ -33,8 +33,8 @@ class OutputFile {
   /// written.
   void rewrite_beginning(std::span<const std::byte> bytes);
 
-  /// The path of the temporary file, for programs that write a file by name instead of by write(). It has the extension
-  /// of the target.
+  /// Returns the path of the temporary file, for programs that write a file by name instead of by write(). It has the
+  /// extension of the target.
   const std::filesystem::path& temporary_path() const { return temporary_; }
   const std::filesystem::path& target() const { return target_; }
 

@@ -48,7 +48,8 @@ std::optional<State> state_of(int file);
 
 /// Opens a file for reading and returns its descriptor, or -1. No child process inherits it.
 int open_to_read(const std::filesystem::path& path);
-/// Opens a file for reading as a stream of bytes. Returns null for a link, a folder and all that is no plain file.
+/// Opens a file for reading as a stream of bytes. Returns null for a link, a folder and all other files that are not
+/// plain.
 std::FILE* open_plain(const std::filesystem::path& path);
 /// Creates a file for writing and returns its descriptor, or -1. Fails if there is a file or link of this name already.
 int create(const std::filesystem::path& path);
@@ -81,9 +82,8 @@ void remove(const std::filesystem::path& path) noexcept;
 /// Waits for a millisecond. A signal handler may call it.
 void wait_a_millisecond() noexcept;
 
-/// The number of this process.
 int process_id();
-/// The path of the running program; empty if the system does not have it.
+/// Returns the path of the running program; empty if the system does not have it.
 std::filesystem::path program_path();
 
 }  // namespace system_file
