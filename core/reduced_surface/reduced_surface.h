@@ -35,7 +35,7 @@ struct RsArc {
 };
 
 /// All exposed arcs, sorted, and the atoms without arcs that are wholly exposed. Every method that computes the arcs
-/// (exhaustive enumeration, rolling probe, GPU) must give the same ones; the atoms follow from them (whole_spheres.h).
+/// (exhaustive enumeration, rolling probe, GPU) must give the same ones; find_whole_spheres() finds the atoms by them.
 struct ReducedSurface {
   std::vector<RsArc> arcs;
   std::vector<std::uint32_t> lone_atoms;  ///< SAS spheres that meet no other and lie in none, sorted

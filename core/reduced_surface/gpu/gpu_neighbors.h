@@ -139,7 +139,7 @@ class GpuNeighbors {
   Buffer ball_count_;   // uint: true if loops were cut short; uint: number of balls
   BallBatch resident_;  // the batch whose lists the buffers hold; count 0: none
   Counting counting_ = Counting::now;
-  BallBatch known_, trusted_;  // sizes of one batch: as last counted, with room
+  BallBatch known_, trusted_;  // sizes of one batch: as last counted, and with spare room
   struct Counted {
     std::uint32_t cut_short = 0, neighbors = 0, pairs = 0;
   } counted_;
