@@ -10,7 +10,6 @@
 
 namespace meniscus {
 
-/// The type of a value.
 enum class ValueType {
   flag,      ///< true or false; an option without a value
   number,    ///< a finite number from `lowest` to `highest`
@@ -140,7 +139,7 @@ std::vector<std::string> parted(std::string_view list);
 /// Returns the help, followed by the default in brackets.
 std::string help_of(const Property& property);
 
-/// Returns the first sentence of such a text, up to a full stop or semicolon outside of parentheses, followed by its
+/// Returns the first sentence of a help text, up to a full stop or semicolon outside of parentheses, followed by its
 /// brackets.
 std::string first_sentence(std::string_view help);
 
