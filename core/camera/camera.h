@@ -79,7 +79,6 @@ class DecisiveBalls {
       farthest_;  ///< the farthest ball along each direction, by its outer side; empty before the first ball
 };
 
-/// A camera at a frame.
 struct CameraKey {
   double frame = 0.0;
   Camera camera;
