@@ -24,7 +24,7 @@ struct DeviceChoice {
   /// The value of CUDA_VISIBLE_DEVICES, if set: the visible NVIDIA GPUs in order, by CUDA's index or by UUID. As in
   /// CUDA, entries after an invalid one are ignored. GPUs of other vendors follow.
   std::optional<std::string> cuda_visible{};
-  /// The folder for kernels as the driver has compiled them (kernel_files.h); empty: none.
+  /// The folder for kernels as the driver has compiled them (KernelFiles); empty: none.
   std::string kernel_folder{};
   /// The number of this worker: among several suitable GPUs, worker k takes number k first, modulo their count.
   int worker = 0;
@@ -40,7 +40,6 @@ struct GlDevice {
   std::string pci;                ///< "0000:3b:00.0"; empty if the system does not report it
 };
 
-/// A device to try.
 struct DeviceAttempt {
   GlDevice device;
   bool hardware_only = false;  ///< true if a software renderer is to be rejected

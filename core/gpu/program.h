@@ -22,7 +22,7 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// Sets a uniform block from one of the structs of kernel_parameters.h; it stays set until the next call. Throws
+  /// Sets a uniform block from one of the structs of kernel_records.h; it stays set until the next call. Throws
   /// GpuError if the kernel has no block at this binding, or one of another size.
   template <typename T>
   void set(const T& parameters, int binding = 0) const {
