@@ -149,8 +149,8 @@ struct Nearest {
   double operator()(const Foot& nearest) const { return nearest.distance; }
 };
 
-/// Returns the nearest foot of x on what a tree's boxes hold, as far as the search extends. `foot_of` has one function
-/// for each table, of an index into the table and of the distance beyond which no foot is wanted.
+/// Returns the nearest foot of x on the objects in a tree's boxes, as far as the search extends. `foot_of` has one
+/// function for each table, of an index into the table and of the distance beyond which no foot is wanted.
 template <typename Wanted, typename... FootOf>
 Foot nearest_foot(const glm::dvec3& x, const Search<Wanted>& search, const BoxTree& tree,
                   const Tables<sizeof...(FootOf)>& tables, const FootOf&... foot_of) {
@@ -383,7 +383,7 @@ class BandFinder {
     if (static_cast<double>(count) * halvings * halvings > (size > kEdge ? 2.0 : 1.0) * kMostBandBlocks) refuse();
   }
 
-  /// Returns the place of a cube with respect to the band, as the distance of its middle tells it.
+  /// Returns the place of a cube with respect to the band, by the distance of its middle.
   Place place_of(const glm::ivec3& origin, int size) const {
     const glm::dvec3 middle = voxel_ * (glm::dvec3(origin) + 0.5 * (size - 1));
     const double to_corner = 0.5 * (size - 1) * voxel_ * std::numbers::sqrt3;
