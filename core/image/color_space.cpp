@@ -30,7 +30,7 @@ const std::array<float, 8>& chromaticities(Primaries primaries) {
 }
 
 glm::vec3 from_rec709(const glm::vec3& color, Primaries primaries) {
-  // Computed from the chromaticities above and Lam & Rigg's "Bradford" adaptation from D65; OpenColorIO's
+  // This matrix follows from the chromaticities above and Lam & Rigg's "Bradford" adaptation from D65; OpenColorIO's
   // configurations for ACES have the same numbers. Columns are red, green and blue.
   static const glm::mat3 kAp1(0.6130974024f, 0.0701937225f, 0.0206155929f, 0.3395231462f, 0.9163538791f, 0.1095697729f,
                               0.0473794514f, 0.0134523985f, 0.8698146342f);
