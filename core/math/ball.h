@@ -83,8 +83,8 @@ class BallGrid {
       }
   }
 
-  /// The indices of the balls, cell by cell. Neighbours in this order are close to each other in space and in the
-  /// cache.
+  /// Returns the indices of the balls, cell by cell. Neighbours in this order are close to each other in space and in
+  /// the cache.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
  private:
