@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads volume maps by their content: CCP4 and MRC, OpenDX and Gaussian cube.
+// Reads volume maps by their content: CCP4 and MRC (A. Cheng et al., J. Struct. Biol. 192, 146, 2015, and CCP4's
+// maplib), OpenDX and Gaussian cube.
 //
-// Cheng et al., J. Struct. Biol. 192, 146, 2015, and CCP4's maplib).
-//
-// gemmi reads them, too, but in the other byte order only floats, and it trusts the header's sizes.
+// gemmi reads CCP4 and MRC, too, but in the other byte order only floats, and it trusts the header's sizes.
 #include "core/volume/volume_grid.h"
 
 #include <bit>
