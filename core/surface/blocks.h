@@ -80,7 +80,7 @@ struct BlockPart {
   double exact_within = 0.0;
 };
 
-/// The place of a kind's faces in BlockPart::faces.
+/// Returns the place of a kind's faces in BlockPart::faces.
 inline std::size_t place_of(PatchKind kind) { return static_cast<std::size_t>(kind); }
 
 /// Computes the surface of a block's atoms and its halo, and keeps the faces that belong to the block because their

@@ -63,7 +63,7 @@ struct ToroidalPatch {
   double sweep = 0.0;                                ///< radians, in (0, 2 pi]; exactly 2 pi for a free edge
   std::uint32_t first_face = 0;
   std::uint32_t face_count = 0;  ///< 1, or 2 for a spindle (the piece of atom[0], then that of atom[1])
-  /// For a spindle: which of its two pieces exist. Both exist except in a part of a surface (part.h).
+  /// For a spindle: which of its two pieces exist. Both exist except in a part of a surface (SurfacePart).
   std::array<bool, 2> has_piece{true, true};
   bool free() const { return probe[0] == kNone; }
   /// Returns the piece of a spindle that its n-th face is.
@@ -84,7 +84,7 @@ inline bool crosses_axis(const ToroidalPatch& t, std::span<const Ball> atoms, do
 
 /// Re-entrant patch: the sphere of one fixed probe (an RS face) inside all its planes. First come `side_count` planes
 /// through the probe and two neighbouring contacts, then `cut_count` bisectors towards the probes in `cuts`, then
-/// `parting_count` planes that separate it from faces that are not in a part of a surface (part.h).
+/// `parting_count` planes that separate it from faces that are not in a part of a surface (SurfacePart).
 struct ConcavePatch {
   glm::dvec3 center{0.0};           ///< centre of the probe, Å
   std::uint32_t first_contact = 0;  ///< into Surface::contacts: touched atoms, counter-clockwise seen from the probe
