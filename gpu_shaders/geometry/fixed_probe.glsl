@@ -2,8 +2,8 @@
 // The position of a fixed probe, which is the point at three SAS radii from three atoms, as accurately as its numbers
 // allow; and a test if two probes are in one place.
 //
-// Written in the common subset of GLSL and C++ with GLM (circle.glsl, which must be included first). Decimal fractions
-// are written as quotients of integers, which are rounded once in any precision; GLSL would take 1e-6 for a float.
+// This file is in the common subset of GLSL and C++ with GLM, and follows circle.glsl. Decimal fractions are written as
+// quotients of integers, which are rounded once in any precision; GLSL would take 1e-6 for a float.
 #ifndef MENISCUS_GEOMETRY_FIXED_PROBE_GLSL
 #define MENISCUS_GEOMETRY_FIXED_PROBE_GLSL
 

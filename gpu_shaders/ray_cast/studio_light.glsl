@@ -2,8 +2,8 @@
 // Computes studio light on a surface with normal n. All directions are in the camera's axes (x right, y up, z towards
 // the camera).
 //
-// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu). The includer provides `params` with the
-// numbers of the lamps, of RayCastParameters or FinishParameters.
+// This file is written in GLSL and, as the body of a struct, in C++ (core/render/cpu). The includer provides `params`
+// with the numbers of the lamps, of RayCastParameters or FinishParameters.
 
 // The part of the key light that reaches a point.
 struct KeyLight {
