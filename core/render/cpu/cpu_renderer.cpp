@@ -326,7 +326,7 @@ void CpuRenderer::apply_front_look(int sample, LaneLook task, const Look& look, 
   front_sums_.assign(pixel_count, glm::vec4(0.0f));
   front_ink_.assign(pixel_count, 0.0f);
   task.samples = front_.lanes(look.traces_sky());
-  task.finish.specular = 0.0f;  // what is cast has highlights already
+  task.finish.specular = 0.0f;  // the cast colours have highlights already
   task.sums = front_sums_.data();
   task.ink = front_ink_.data();
   find_shade(front_, sample, look, task, interruption);

@@ -15,7 +15,7 @@ namespace meniscus {
 /// The packed objects of one picture.
 class LayerStack final : public PictureContent {
  public:
-  /// Packs the objects. placement: of all objects together. The data that the objects point to must outlive the scene.
+  /// Packs the objects. placement: that of all objects together. The data that objects point to must outlive the scene.
   LayerStack(std::span<const PictureObject> objects, const PictureFrame& frame, const PackPlacement& placement,
              const Look& look);
 
