@@ -43,7 +43,7 @@ void resize_large(std::vector<Row>& table, std::size_t size) {
   table.resize(size);
 }
 
-/// How many rows before its use a row is prefetched.
+/// The number of rows by which a row is prefetched before its use.
 inline constexpr std::size_t kPrefetchAhead = 12;
 
 /// Prefetches a row that will soon be read, because neighbours in space may lie far apart in a table. Does nothing for

@@ -25,9 +25,9 @@ struct ReducedSurface;
 
 /// The choice when a surface lists the clip planes of its convex patches (ConvexPatch::planes), a fifth of the work.
 enum class ClipPlanes {
-  listed,    ///< at once: the surface can be drawn, exported and divided
-  deferred,  ///< when list_convex_planes() is called; until then as with `left_out`
-  left_out   ///< never: for numbers, borders and areas; the certificate is as strict
+  listed,    ///< listed at once, so that the surface can be drawn, exported and divided
+  deferred,  ///< listed when list_convex_planes() is called; until then `left_out`
+  left_out   ///< never listed: for numbers, borders and areas; the certificate is as strict
 };
 
 /// A half-space: a point x (Å) is inside where dot(normal, x) <= offset.
@@ -103,7 +103,7 @@ struct ConcavePatch {
 enum class BorderKind : std::uint8_t {
   contact,  ///< contact circle: convex | toroidal
   edge,     ///< side of a concave patch: toroidal | concave
-  cusp      ///< where two fixed probes intersect: concave | concave
+  cusp      ///< intersection of two fixed probes: concave | concave
 };
 
 /// An arc of a circle where exactly two faces meet.
