@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decodes UTF-8, escapes and wraps texts, spells options in messages, finds the nearest known word, and fills
-// templates.
+// Decodes UTF-8, escapes and wraps texts, spells options in messages, finds nearest words, and fills templates.
 #include "core/base/text.h"
 
 #include <algorithm>

@@ -72,8 +72,7 @@ std::string pointed_at(std::string_view text, std::size_t position);
 /// spell_options() has set returns it.
 std::string option_name(std::string_view name);
 
-/// A function that spells options, and the call that sets it for this interface. It has to be called before anything
-/// else.
+/// A function that spells options, and the call that sets it for this interface, before anything else.
 using OptionSpelling = std::string (*)(std::string_view name);
 void spell_options(OptionSpelling spelling);
 

@@ -90,8 +90,7 @@ inline constexpr double kLargestCoordinate = 1e5;
 /// Returns a coordinate in Å. Throws InputError if it is beyond kLargestCoordinate.
 double check_extent(const TextFile& file, std::size_t line, char axis, double coordinate);
 
-/// Parses a coordinate field in Å. Throws InputError with file, line, axis and text if it is not finite or beyond
-/// kLargestCoordinate.
+/// Parses a coordinate field in Å. Throws InputError with file, line, axis and text if it is not finite or too large.
 double parse_coordinate(const TextFile& file, std::size_t line, char axis, std::string_view field);
 
 /// Parses a coordinate field and multiplies it by `unit` (Å). False where parse_coordinate would throw.

@@ -36,8 +36,7 @@ struct DrawnAtoms {
 /// Returns the scales and classes of the colours of drawn atoms. Throws like color_atoms.
 ColorKey color_key(const Structure& structure, const ColorScheme& scheme, const DrawnAtoms& drawn = {});
 
-/// Adds the key of further atoms in the picture; if its title already has another meaning, `whose` is appended to the
-/// title.
+/// Adds the key of further atoms in the picture; if its title has another meaning there, `whose` is appended.
 void add_key(ColorKey& key, ColorKey more, const std::string& whose);
 
 /// True if both scales give each number the same colour, and numbers are of the same kind.

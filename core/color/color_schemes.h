@@ -124,8 +124,7 @@ std::optional<ColorScheme> parse_color_scheme(std::string_view text);
 /// Formats a scheme without its rules as parse_color_scheme reads it: a word, or "#rrggbb".
 std::string scheme_word(const ColorScheme& color);
 
-/// Returns all words that parse_color_scheme reads, for messages: "auto, element, ..., a name such as red, or
-/// #rrggbb".
+/// Returns all words that parse_color_scheme reads, for messages: "auto, ..., a name such as red, or #rrggbb".
 std::string color_scheme_words();
 
 /// Parses "EXPR=red", split at the last "=", with the part after it as in parse_color_scheme. Throws RequestError for

@@ -31,9 +31,8 @@ class Program {
   }
 
   /// Starts `group_count` groups. Counts above the driver's limit along x are folded into a rectangle, so kernels must
-  /// use linear_group_index() of gpu_shaders/shared/dispatch.glsl and ignore indices past the end. A full barrier
-  /// for storage follows. `longest_row` is for tests: 0 means the driver's limit. Throws GpuError if a block was never
-  /// set.
+  /// use linear_group_index() of gpu_shaders/shared/dispatch.glsl and ignore indices past the end. A full barrier for
+  /// storage follows. longest_row: for tests; 0: the driver's limit. Throws GpuError if a block was never set.
   void dispatch(std::size_t group_count, std::uint32_t longest_row = 0) const;
   /// Starts groups in a plane, without folding.
   void dispatch_2d(std::uint32_t x, std::uint32_t y) const;

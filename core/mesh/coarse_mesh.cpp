@@ -140,8 +140,7 @@ class CoarseMeshing {
     return saddle_fan(f, part, at);
   }
 
-  /// Cuts a face on a sphere as a fan. Seen from the centre, the fan must turn around its middle, which must lie on the
-  /// face.
+  /// Cuts a face on a sphere as a fan. Seen from the centre, the fan must turn around its middle, a point of the face.
   std::optional<Part> sphere_fan(std::uint32_t f, Part part, std::vector<glm::dvec3>& at) const {
     const Face& face = surface_.faces[f];
     const bool convex = face.kind == PatchKind::convex;

@@ -44,8 +44,7 @@ class ColorCutter {
     const std::span<const double> s = scores(vertex);
     return s[contact] >= *std::max_element(s.begin(), s.end()) - kTie;
   }
-  /// Returns a contact that wins at all of these vertices, and so between them, as scores are linear on a flat
-  /// triangle.
+  /// Returns a contact that wins at all of these vertices, and so between them, because scores are linear.
   std::optional<std::size_t> shared_winner(std::initializer_list<std::uint32_t> vertices) const {
     for (std::size_t c = 0; c < contacts_; ++c) {
       if (std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return wins(v, c); })) return c;

@@ -196,8 +196,7 @@ class Cutter {
     std::erase_if(result_.sharp_edges, [](const auto& edge) { return edge[0] == edge[1]; });
   }
 
-  /// Removes segments that are traversed in both directions, as these enclose nothing. Returns false if a segment
-  /// occurs twice.
+  /// Removes segments traversed in both directions, which enclose nothing. Returns false if a segment occurs twice.
   bool keep_single_segments() {
     std::ranges::sort(segments_);
     if (std::ranges::adjacent_find(segments_) != segments_.end()) return false;
@@ -264,8 +263,7 @@ class Cutter {
     if (place && *place == static_cast<int>(vertex_.size())) vertex_.push_back(add_vertex(point, plane_.normal));
   }
 
-  /// Adds the triangles of the section, cut where parts are equally near, and cuts the triangles that share edges with
-  /// them.
+  /// Adds the triangles of the section, cut where parts are equally near, and cuts the adjacent triangles.
   void add_caps(const PlanarTriangulation& plane) {
     std::vector<std::uint32_t> atom(vertex_.size(), kNone);
     EdgeVertices borders;

@@ -12,11 +12,9 @@
 namespace meniscus {
 namespace {
 
-/// A point that is less than this (Å) beyond a wall counts as on it: the faces on both sides have one tangent plane
-/// there.
+/// A point that is less than this (Å) beyond a wall counts as on it: both faces have one tangent plane there.
 constexpr double kOnWall = 1e-9;
-/// A point that is less than this (Å) beyond a plane of a patch counts as on it: planes and borders come from different
-/// formulas.
+/// A point that is less than this (Å) beyond a plane of a patch is on it: planes and borders follow two formulas.
 constexpr double kOffPatch = 1e-8;
 /// The most faces that one walk visits.
 constexpr int kLongestWalk = 40;

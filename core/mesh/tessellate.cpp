@@ -91,8 +91,7 @@ constexpr std::uint32_t kSeamNames = 1024;
 constexpr double kSharpAngle = 1e-4;
 /// The number of faces with rows that are made at the same time.
 constexpr std::uint32_t kFacesTogether = 1 << 12;
-/// How often, and after how many faces at least, the memory of finished faces is returned: each time the whole heap is
-/// walked.
+/// How often, and after how many faces at least, the memory of finished faces is returned: each time walks the heap.
 constexpr std::uint32_t kTimesFreed = 16, kFacesFreed = 1 << 14;
 
 /// Returns the memory of small blocks that were freed to the system; otherwise the allocator keeps it.
@@ -338,8 +337,7 @@ class Tessellation {
     std::vector<glm::dvec3> normals;
   };
 
-  /// Moves the rows of faces into the mesh and frees them: for a large molecule, keeping both would need twice the
-  /// memory.
+  /// Moves the rows of faces into the mesh and frees them: keeping both would need twice the memory.
   void append_faces(std::uint32_t first, std::uint32_t last) {
     std::vector<FacePlace> places;
     FacePlace next{static_cast<std::uint32_t>(mesh_.positions.size()),

@@ -49,8 +49,7 @@ class Welder {
     put_back_triangles();
   }
 
-  /// Flips the longest edges of flat triangles in rounds. Calls changed(t, from) if triangle t now covers what `from`
-  /// did.
+  /// Flips the longest edges of flat triangles in rounds. Calls changed(t, from) if triangle t now covers `from`.
   template <typename Changed>
   void flip_flat_triangles(const Changed& changed) {
     for (int round = 0; round < kRounds; ++round) {

@@ -435,8 +435,7 @@ class CellFinder {
     for (int n = 0; n < 8; ++n) divide(eighth_of(corner, edge, n), edge / 2, region.near, regions);
   }
 
-  /// Returns the region of a range with `edge` cubes along each axis, with the atoms that are no farther than `away`
-  /// from it.
+  /// Returns the region of a range with `edge` cubes along each axis, with the atoms within `away` of it.
   Region region_of(std::span<const std::uint32_t> atoms, const CubeRange& corner, int edge, double away) const {
     Region region{corner.middle(glm::dvec3(0.5 * edge)), kCoarsest * edge, {}};
     const double far = region.reach() + away + kRounding;

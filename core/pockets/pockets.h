@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds pockets, tunnels and cavities of a molecule: the space that a small probe can fill in the solid that a large
-// one rolls over.
+// Finds pockets, tunnels and cavities of a molecule: spaces that a small probe fills in the solid below a large one.
 #pragma once
 
 #include <string>
@@ -90,8 +89,7 @@ class PocketLocator {
   /// `pockets` must outlive this object and not change.
   explicit PocketLocator(const Pockets& pockets);
 
-  /// Returns the index into Pockets::pockets of the pocket that has a probe which covers the point (Å); nothing if
-  /// there is none.
+  /// Returns the index into Pockets::pockets of the pocket whose probes cover the point (Å), if any.
   std::optional<std::size_t> operator()(const glm::dvec3& point) const;
 
  private:

@@ -139,8 +139,7 @@ std::vector<std::string> parted(std::string_view list);
 /// Returns the help, followed by the default in brackets.
 std::string help_of(const Property& property);
 
-/// Returns the first sentence of a help text, up to a full stop or semicolon outside of parentheses, followed by its
-/// brackets.
+/// Returns the first sentence of a help text, up to a full stop or semicolon outside of parentheses, with its brackets.
 std::string first_sentence(std::string_view help);
 
 /// Returns all properties: sections in the order of scene files, the properties of a section in the order of the help.

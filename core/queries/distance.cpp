@@ -84,8 +84,7 @@ Foot foot_on(const Surface& s, const ConvexPatch& patch, double radius, const gl
   return {distance, atom.center + radius * direction};
 }
 
-/// Returns the foot of x on a concave patch. There is none from the probe's centre itself: the patch's borders are as
-/// near.
+/// Returns the foot of x on a concave patch. There is none from the probe's centre: borders are as near.
 Foot foot_on(const Surface& s, const ConcavePatch& patch, const glm::dvec3& x, double limit) {
   const glm::dvec3 out = x - patch.center;
   const double length = glm::length(out), distance = std::abs(length - s.probe_radius);
@@ -182,8 +181,7 @@ struct SurfaceDistance::Index {
         parts(list_parts()),
         part_tree(parts.boxes) {}
 
-  /// Returns the largest SAS radius, except for a few that are far larger than all others; their atoms are listed in
-  /// `large`.
+  /// Returns the largest SAS radius, except for a few that are far larger than all others; `large` lists their atoms.
   double find_reach() {
     constexpr std::size_t kFew = 64;
     constexpr double kFarLarger = 4.0;

@@ -83,8 +83,7 @@ std::vector<FigureObjectRequest> all_requests(std::span<const FigureObjectReques
 std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> objects, const Structure& structure,
                                        std::size_t first_mark, const ColorScheme& scheme);
 
-/// Updates the colours, opacities and shown parts of objects made by make_objects(). Their atoms, surfaces and shapes
-/// stay.
+/// Updates the colours, opacities and shown parts of objects made by make_objects(). Their surfaces and shapes stay.
 void color_objects(std::span<const FigureObjectRequest> requests, const Structure& structure, const ColorScheme& scheme,
                    std::vector<FigureObject>& objects);
 
@@ -95,8 +94,7 @@ ColorScheme scheme_of(const FigureObjectRequest& request, const Structure& struc
 /// Returns balls that enclose the object, for framing.
 std::vector<Ball> balls_of(const FigureObject& object);
 
-/// Returns the object for a picture. balls: as for clip_plane(). `object` and `request` must stay until the picture is
-/// made.
+/// Returns the object for a picture. balls: as for clip_plane(). `object` and `request` must outlive the drawing.
 PictureObject picture_object(const FigureObject& object, const FigureObjectRequest& request, const Camera& camera,
                              std::span<const Ball> balls);
 

@@ -374,8 +374,7 @@ void FrameRun::survey(const std::function<void(std::uint64_t, const Structure&)>
   }
 }
 
-/// Computes the differences that Velocities names, Å per frame of the run. A frame that cannot be read counts as
-/// missing.
+/// Computes the differences that Velocities names, Å per frame of the run. Unreadable frames count as missing.
 void FrameRun::read_velocities(ReadFrame& into) {
   const std::uint64_t place = place_.at(into.number);
   double steps = 0.0;

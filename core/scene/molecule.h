@@ -141,8 +141,7 @@ class MoleculeBuilder {
 };
 
 /// Returns the share in [0, 1] of the area with a volume map's colours that lies where the map has no values, measured
-/// at points of all patches. It is exactly 0 if the atoms lie deep enough in the map, and 0 if nothing shows its
-/// colours.
+/// at points of all patches. It is exactly 0 if the atoms lie deep in the map, and 0 if nothing shows its colours.
 double share_beyond(const VolumePaint& map, std::span<const SurfaceObject> objects);
 
 /// The atoms in the surroundings of a molecule, and their effect on its areas.

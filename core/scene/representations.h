@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes in addition to a surface: atoms drawn as sticks, balls, spheres, a backbone, bases or sugars, and their
-// colours.
+// Shapes in addition to a surface: atoms drawn as sticks, balls, spheres, a backbone, bases or sugars; their colours.
 #pragma once
 
 #include "core/color/color_schemes.h"

@@ -96,8 +96,7 @@ RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motio
 /// can be read, and RequestError if the atoms change from frame to frame (fluctuations).
 void measure_colors(ColorScheme& color, ShownFrames& frames);
 
-/// Returns FrameRun::possible_structure() with the number of the first frame, because a file may have numbers for that
-/// frame.
+/// Returns FrameRun::possible_structure() with the number of the first frame, whose numbers a file may have.
 Structure numbered_structure(const FrameRun& frames);
 
 /// Returns all colours that a frame of the run may have, in the order of the atoms; for components, all their colours.

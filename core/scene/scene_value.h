@@ -204,8 +204,7 @@ Written written_length(const Property& property, const Scene& scene, const std::
 /// Gives all lengths on paper their values in pixels. Throws ValueError for lengths that the properties cannot have.
 void complete_lengths(Scene& scene);
 
-/// Returns the size in pixels that lengths of sides give. If only one side is given, the picture has the default aspect
-/// ratio.
+/// Returns the size in pixels that lengths of sides give. With a single side, the picture has the default aspect ratio.
 glm::ivec2 size_by_lengths(const Scene& scene);
 /// True if the size of the picture is size_by_lengths(), except for a height that follows from the molecule.
 bool has_lengths_of_sides(const Scene& scene);

@@ -24,8 +24,7 @@ class ValueError : public RequestError {
   std::string key_;
 };
 
-/// True if scenes have a value of this property. Properties of a command alone, such as overwriting files, do not
-/// count.
+/// True if scenes have a value of this property. Properties of a command alone, such as overwriting, do not count.
 bool is_scene_value(const Property& property);
 
 /// Returns the name of a property in programs: its option without leading dashes, and with "_" for other dashes:
@@ -41,8 +40,7 @@ const Property& scene_property(std::string_view name);
 /// SelectionError.
 void set_value(Scene& scene, const Property& property, std::span<const std::string> texts);
 
-/// Returns the texts from which set_value() reads the scene's value, to the last bit; empty if it is the value of
-/// Scene{}.
+/// Returns the texts from which set_value() reads the scene's value, to the last bit; empty if it is that of Scene{}.
 std::vector<std::string> value_texts(const Scene& scene, const Property& property);
 
 /// The looks that follow the lights of LookPreset in the table of presets.

@@ -79,8 +79,7 @@ bool is_of_organic_residues(gemmi::Element element) {
   }
 }
 
-/// True for CA, CB, CG, CD, CE, CZ, NE1, OG, SG, HG21 and so on: an element and a Greek letter, which only amino acids
-/// have.
+/// True for CA, CB, CG, CD, CE, CZ, NE1, OG, SG, HG21 and so on: an element and a Greek letter, as in amino acids.
 bool is_amino_acid_atom_name(std::string_view name) {
   return name.size() >= 2 && std::string_view("CNOSH").find(name[0]) != std::string_view::npos &&
          std::string_view("ABGDEZH").find(name[1]) != std::string_view::npos &&

@@ -119,8 +119,7 @@ class NumberReader {
     return cell;
   }
 
-  /// Parses the number of a residue: "12", "-3", "52A", or "12.0", as programs write integers in a column with missing
-  /// ones.
+  /// Parses the number of a residue: "12", "-3", "52A", or "12.0", as in a column of integers with missing ones.
   static bool parse_place(std::string_view word, ResidueName& residue) {
     residue.insertion_code = ' ';
     if (word.ends_with(".0")) word.remove_suffix(2);

@@ -12,8 +12,7 @@ namespace {
 
 constexpr std::uint8_t kProton = 1, kNitrogen = 7, kOxygen = 8, kSulfur = 16;
 constexpr double kReach = 3.9;  // Å; S-H is 1.35 Å long
-// Lengths in Å. C=O is shorter than the first, S=O than the second, bonds of planar N than the third, C≡N than the
-// last.
+// Lengths in Å. C=O is shorter than the first, S=O than the second, planar N's bonds than the third, C≡N than the last.
 constexpr double kCarbonyl = 1.30, kSulfonyl = 1.60, kConjugated = 1.42, kNitrile = 1.20;
 
 double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {

@@ -237,8 +237,7 @@ std::string chain_of_file(const Atom& atom);
 /// Returns the distinct chains of some atoms as they are named in the file, in order of appearance.
 std::vector<std::string> chains_of(std::span<const Atom> atoms);
 
-/// Returns the location of an atom in its file: "chain A 35B LEU CD1", or "atom 12" (from 1) if the format has no
-/// names.
+/// Returns the location of an atom in its file: "chain A 35B LEU CD1", or "atom 12" (from 1) without names.
 std::string atom_place(const Atom& atom);
 
 }  // namespace meniscus

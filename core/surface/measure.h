@@ -14,8 +14,7 @@ struct MeasurementDoubts {
   std::vector<std::uint32_t> disputed;  ///< the doubtful faces for which the two closed forms disagree
 };
 
-/// Returns the point half-way between the outermost centres, Å. Volumes are measured from there, where rounding is
-/// least.
+/// Returns the point half-way between the outermost centres, Å. Volumes are measured from it, with least rounding.
 glm::dvec3 middle_of(std::span<const Ball> atoms);
 
 /// The contributions of faces to their components, in addition to Face::area.

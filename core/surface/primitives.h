@@ -205,8 +205,7 @@ struct Surface {
   Certificate certificate;
   double area = 0.0;    ///< Å²
   double volume = 0.0;  ///< Å³ of the solid: outer components minus cavities
-  /// The sums, if the tables from `cuts` to `faces` were released; then patches refer to none of these tables. Else
-  /// null.
+  /// The sums, if the tables from `cuts` to `faces` were released; patches then refer to none of them. Else null.
   std::shared_ptr<const SurfaceSums> sums;
   /// The reduced surface, which list_convex_planes() needs, if the surface was computed with ClipPlanes::deferred and
   /// has no planes yet. Else null.

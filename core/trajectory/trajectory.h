@@ -77,8 +77,7 @@ std::string cut_short_sentence(std::uint64_t whole_frames);
 /// Options for opening a trajectory.
 struct TrajectoryOptions {
   /// The folder for frame indices of formats whose frames are found only by walking through the file (XTC, TRR). It is
-  /// made if missing. Empty: no index is stored. An index is used only while its file has the same size and time of
-  /// change.
+  /// made if missing. Empty: no index is stored. An index is valid only for the same size and time of change.
   std::string index_folder{};
   /// Returns the number of atoms of the structure, for a format without this number (mdcrd). It may throw. Null: there
   /// is no structure.

@@ -300,8 +300,7 @@ class CubeReader {
     return line;
   }
 
-  /// Reads a line of the header: a whole number, which becomes `count`, and three numbers. `wanted` describes them in
-  /// messages.
+  /// Reads a line of the header: a whole number, which becomes `count`, and three numbers. `wanted` is for messages.
   glm::dvec3 count_and_vector(std::int64_t& count, const char* wanted) {
     const std::vector<std::string_view> fields = fields_of(next_line());
     glm::dvec3 vector(0.0);

@@ -8,8 +8,7 @@
 // is good to 2.5 units in the last place, and sqrt, computed by inversesqrt, to 4.5. half_plane_noise() covers all of
 // this; docs/explanation/theory.md derives it.
 //
-// All positions are relative to the centre of the circle's first ball. A ball is a centre and a weight (squared
-// radius).
+// Positions are relative to the first ball's centre. A ball is a centre and a weight (squared radius).
 #ifndef MENISCUS_GEOMETRY_CIRCLE_GLSL
 #define MENISCUS_GEOMETRY_CIRCLE_GLSL
 

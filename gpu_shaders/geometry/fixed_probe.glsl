@@ -25,8 +25,7 @@ struct FixedProbe {
   real height;     // over the plane of the atoms, Å
 };
 
-// Improves the position of a probe by one Newton step on its three distances, which removes the errors of slim
-// triangles.
+// Improves the position of a probe by one Newton step on its three distances, to correct slim triangles.
 GEOMETRY real3 polished_probe(real3 x, real3 b, real3 c, real ra, real rb, real rc) {
   real3 eb = x - b;
   real3 ec = x - c;

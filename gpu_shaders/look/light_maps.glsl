@@ -57,8 +57,7 @@ GEOMETRY int light_phase(int row) { return (int(floor(view.first_offset.y)) + ro
 // Returns the point from which light is looked for. p: a point; texel: side of a texel of the maps, Å.
 GEOMETRY real3 lifted(real3 p, real3 normal, float texel) { return p + normal * (kLightLift * texel); }
 
-// Adds the light around an axis of the sky that reaches a point, weighted by the cosine, to sky.x, and all of it to
-// sky.y.
+// Adds the light around an axis of the sky that reaches a point, weighted by the cosine, to sky.x, and all to sky.y.
 GEOMETRY void add_sky(int axis, real3 from, real3 normal, GEOMETRY_INOUT(real2) sky) {
   int texels = maps.sky_edge * maps.sky_edge;
   real cosine = dot(normal, vec3(maps.rows[3 * axis + 2]));

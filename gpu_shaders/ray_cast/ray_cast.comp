@@ -54,8 +54,7 @@ Primitive load_primitive(uint index) {
 
 ivec2 tile_origin;  // first pixel of this group's tile
 
-// Returns pixel k of the four of this invocation. Consecutive invocations, which share a vector, fill squares, not
-// rows.
+// Returns pixel k of the four of this invocation. Consecutive invocations, which share a vector, fill squares.
 ivec2 pixel_of(int k) {
   int i = int(gl_LocalInvocationIndex);
   ivec2 quad = ivec2((i & 3) | (i >> 1 & 4), (i >> 2 & 1) | (i >> 3 & 6));
@@ -100,8 +99,7 @@ int next_candidate(Walk walk, int i, Nearest nearest) {
   do {
     ++i;
     uint index = texelFetch(entries, i).x;
-    // All later primitives begin no earlier than the slice of this one. Testing each of them would cost more than it
-    // saves.
+    // All later primitives begin no earlier than the slice of this one. Testing each would cost more than it saves.
     if (i < walk.end && ((i - walk.first) & 7) == 0 &&
         slice_begin(slices, slice_of(slices, nearest_of(index))) + walk.eye_t - walk.spread > farthest)
       i = walk.end;

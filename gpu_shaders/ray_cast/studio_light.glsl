@@ -11,8 +11,7 @@ struct KeyLight {
   real open;     // share of the lamp that nothing covers
 };
 
-// Returns the unoccluded key light at a point with normal n. Wrapped diffuse light makes a soft terminator like a large
-// lamp.
+// Returns the unoccluded key light at a point with normal n. Wrapped diffuse light makes the terminator soft.
 GEOMETRY KeyLight open_key_light(real3 n) {
   KeyLight key;
   key.diffuse = max((dot(n, params.key_direction) + 0.25) / 1.25, 0.0);

@@ -1,7 +1,6 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes the properties of the point that a pixel's ray has met: its colour in the light, its normal, its depth, its
-// atom.
+// Computes the properties of the point that a pixel's ray has met: its lit colour, its normal, its depth, its atom.
 #include "gpu_shaders/webgl/scene.glsl"
 
 #ifdef LAYERS

@@ -431,8 +431,7 @@ struct StructureFile::Parts {
     added.emplace(file.path, options.added, options.model, options.superpose_on, contents);
   }
 
-  /// Makes a structure of atoms, which are those of the contents at any positions. Structure::shown_bonds is not filled
-  /// in.
+  /// Makes a structure of atoms, which are those of the contents at any positions. Structure::shown_bonds stays empty.
   Structure choose(std::vector<Atom> atoms, PositionScope scope) const {
     Structure structure;
     structure.file = file.path;

@@ -65,8 +65,7 @@ class NamePattern {
   std::vector<std::vector<Piece>> alternatives_;
 };
 
-/// A table of radii. It may have two radii for an atom: one for molecules with hydrogens, and one that includes the
-/// hydrogens.
+/// A table of radii. It may have two radii for an atom: one for molecules with hydrogens, and one that includes them.
 class RadiiTable {
  public:
   struct Entry {

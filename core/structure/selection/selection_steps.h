@@ -85,8 +85,7 @@ struct NumberTest {
   AtomField field;
   std::vector<std::array<double, 2>> ranges;
 };
-/// Tests whether residue number and insertion code are in one of these closed ranges. They are ordered as in 52, 52A,
-/// 52B, 53.
+/// Tests whether residue number and insertion code are in one of these closed ranges. Their order is 52, 52A, 52B, 53.
 struct ResidueTest {
   using Id = std::pair<std::int32_t, char>;
   std::vector<std::array<Id, 2>> ranges;

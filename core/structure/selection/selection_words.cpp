@@ -210,8 +210,7 @@ std::vector<std::string_view> fields_between_slashes(std::string_view word) {
   }
 }
 
-/// Translates /object/segment/chain/residue/name. The first slash and the parts at the left may be missing, as in
-/// A/10/CA.
+/// Translates /object/segment/chain/residue/name. The first slash and parts at the left may be missing: A/10/CA.
 std::string from_pymol(std::string_view word) {
   std::vector<std::string_view> fields = fields_between_slashes(word);
   if (fields.front().empty())

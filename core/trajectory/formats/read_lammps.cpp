@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads text dumps of LAMMPS (dump atom, dump custom). Their atoms come in any order and are identified by their
-// numbers.
+// Reads text dumps of LAMMPS (dump atom, dump custom). Atoms come in any order and are identified by numbers.
 #include <numeric>
 
 #include "core/base/binary_file.h"

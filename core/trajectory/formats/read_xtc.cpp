@@ -27,8 +27,7 @@ constexpr std::size_t kPackedPadding = 32;
 __extension__ using Wide = unsigned __int128;
 
 /// The ranges of small differences by class. They grow by the cube root of 2, so that the class is the number of bits
-/// of three numbers together. The values are those of the format, including irregular ones. Classes below 9 are not
-/// used.
+/// of three numbers together. The values are those of the format, including irregular ones. Classes begin at 9.
 constexpr std::array<std::uint32_t, 73> kSmallSizes{
     0,       0,       0,       0,       0,        0,        0,       0,       0,       8,       10,
     12,      16,      20,      25,      32,       40,       50,      64,      80,      101,     128,
