@@ -96,7 +96,7 @@ class OutputFolder {
 void remove_unfinished_outputs() noexcept;
 
 struct SharedFile {
-  std::string name;  ///< without a folder
+  std::string name;  ///< name without a folder
   std::string text;
 };
 

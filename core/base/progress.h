@@ -64,7 +64,7 @@ struct StageTime {
   double milliseconds = 0.0;
 };
 
-/// How stages account for work that another device does in parallel.
+/// The way in which stages account for work that another device does in parallel.
 enum class StageTiming {
   rough,  ///< does not wait: work of one stage may count for a later stage that needs it; sums are right
   exact   ///< waits until the device is idle at both ends of each stage, which costs a round trip each

@@ -12,7 +12,7 @@ namespace meniscus {
 
 /// The text of a file, with LF line ends and without byte-order mark. It is not empty and has no NUL bytes.
 struct TextFile {
-  std::string path;  ///< as given, or "standard input"
+  std::string path;  ///< path as the user gave it, or "standard input"
   std::string text;
 };
 

@@ -253,7 +253,7 @@ class Shadows {
   double surrounded(const glm::dvec3& point, const glm::dvec3& along) const {
     constexpr double kSlice = 3.0;  // Å
     constexpr double kSides = 6.0;
-    std::map<int, unsigned> sides;  // per slice, one bit for each side
+    std::map<int, unsigned> sides;  // key: slice; value: one bit for each side
     for (const Ball& ball : around_) {
       const glm::dvec3 from = ball.center - point;
       const double turn = std::atan2(glm::dot(from, v_), glm::dot(from, u_)) / (2.0 * std::numbers::pi) + 0.5;
@@ -453,7 +453,7 @@ OpenDepth open_depth(std::span<const Ball> seen, std::span<const Ball> all, cons
     nearest = std::min(nearest, front);
     if (own.has(ball)) limit = std::min(limit, front);
   }
-  // For each ray that meets a ball to be seen: the depth to which the balls in front of it must be cut.
+  // The depth to which the balls in front of a ball to be seen must be cut, for each ray that meets such a ball.
   std::vector<double> depths;
   for (const Ray& ray : window.rays()) {
     double hit = std::numeric_limits<double>::infinity();

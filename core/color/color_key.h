@@ -29,7 +29,7 @@ struct ColorKey {
 /// The atoms whose colours a key explains.
 struct DrawnAtoms {
   std::vector<bool> atoms{};         ///< one per Structure::atoms; empty: all
-  std::vector<AtomGroup> objects{};  ///< for ColorScheme::By::component
+  std::vector<AtomGroup> objects{};  ///< objects for ColorScheme::By::component
   bool in_a_run = false;             ///< true if rules by position may select other atoms in other frames
 };
 

@@ -54,8 +54,8 @@ glm::vec3 default_missing_color(ColorMap map);
 
 /// Colours at ascending places, with straight lines in sRGB between them.
 struct ColorRamp {
-  std::vector<double> places;     ///< from 0 to 1, ascending
-  std::vector<glm::vec3> colors;  ///< as many, at least two; sRGB
+  std::vector<double> places;     ///< ascending, from 0 to 1
+  std::vector<glm::vec3> colors;  ///< one for each place, at least two; sRGB
 
   /// Returns the colour at t in [0, 1] (clamped).
   glm::vec3 color(double t) const;

@@ -15,7 +15,7 @@ struct Structure;
 /// The opacity of some atoms.
 struct OpacityRule {
   std::optional<Selection> atoms;  ///< nothing: all
-  float opacity = 1.0f;            ///< in [0, 1]
+  float opacity = 1.0f;            ///< opacity in [0, 1]
 };
 
 struct ColorRule;
@@ -39,7 +39,7 @@ struct ColorScheme {
     plddt,            ///< confidence of a predicted model, in four classes
     snfg,             ///< sugars, as their symbols
     bead,             ///< classes of Martini's beads
-    bfactor,          ///< from here on, schemes are numbers with a map and a range
+    bfactor,          ///< this and all later schemes are numbers with a map and a range
     occupancy,
     charge,
     hydrophobicity,  ///< Kyte & Doolittle 1982
@@ -67,7 +67,7 @@ struct ColorScheme {
   std::shared_ptr<const VolumePaint> volume;  ///< used if of_points(); that of lipophilicity comes with the surface
   std::string title, unit;                    ///< title and unit of the scale; empty: the default
   std::vector<ColorRule> rules;               ///< override the scheme; of several rules for an atom the last one counts
-  std::vector<OpacityRule> opacities;         ///< of several rules for an atom the last one counts
+  std::vector<OpacityRule> opacities;         ///< the last of several rules for an atom counts
 
   /// True for schemes that colour by a number.
   bool has_scale() const { return by >= By::bfactor; }
@@ -103,7 +103,7 @@ struct ColorRule {
 
 /// The description of a scheme for users.
 struct ColorSchemeMetadata {
-  std::string_view word;  ///< for --color
+  std::string_view word;  ///< word for --color
   ColorScheme::By by;
   std::string_view description;
   std::string_view source;  ///< source of its colours or numbers; empty if it needs none

@@ -128,7 +128,7 @@ class Decay {
   }
 
  private:
-  static constexpr std::size_t kPlaces = 128;  // per Å²
+  static constexpr std::size_t kPlaces = 128;  // number per Å²
   std::array<double, static_cast<std::size_t>(kReach* kReach) * kPlaces + 2> values_{};
 };
 

@@ -35,8 +35,8 @@ struct GlDevice {
   int egl_index = 0;              ///< index in EGL's own list
   bool software = false;          ///< according to EGL; the renderer may still turn out to be software
   std::string name;               ///< driver file, or EGL's extension names; only for people
-  std::optional<int> cuda_index;  ///< for NVIDIA devices (EGL_NV_device_cuda)
-  std::string uuid;               ///< in CUDA's notation, "GPU-8a2d1c5e-..."; empty if EGL does not report it
+  std::optional<int> cuda_index;  ///< index of NVIDIA devices (EGL_NV_device_cuda)
+  std::string uuid;               ///< UUID in CUDA's notation, "GPU-8a2d1c5e-..."; empty if EGL does not report it
   std::string pci;                ///< "0000:3b:00.0"; empty if the system does not report it
 };
 

@@ -44,7 +44,7 @@ class Program {
   struct Block {
     std::uint32_t binding = 0;
     std::uint32_t buffer = 0;        ///< GL name; 0 if it was never set
-    std::vector<std::byte> content;  ///< as long as the kernel's block
+    std::vector<std::byte> content;  ///< its length is that of the kernel's block
   };
 
   void compile(const ShaderSource& source);

@@ -38,7 +38,7 @@ ShaderSource expand_embedded_shader(std::string_view path, const ShaderDefines& 
 std::string translate_shader_log(std::string_view log, const std::vector<std::string>& files);
 
 struct EmbeddedShader {
-  std::string_view path;  ///< from the repository root: "gpu_shaders/..."
+  std::string_view path;  ///< path from the repository root: "gpu_shaders/..."
   std::string_view text;
 };
 

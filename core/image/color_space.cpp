@@ -125,7 +125,7 @@ void layout_bytes(std::span<const glm::vec4> pixels, std::uint8_t* bytes) {
   const auto is_partly_covered = [](const glm::vec4& pixel) { return !(pixel.w <= 0.0f || pixel.w >= 1.0f); };
   for (auto pixel = pixels.begin(); pixel != pixels.end();) {
     const auto end = std::find_if(pixel, pixels.end(), is_partly_covered);
-    display_bytes({pixel, end}, {}, 4, bytes);  // for most pixels both are alike
+    display_bytes({pixel, end}, {}, 4, bytes);  // both are alike for most pixels
     bytes += 4 * (end - pixel);
     for (pixel = end; pixel != pixels.end() && is_partly_covered(*pixel); ++pixel) {
       const glm::vec4 color = layout_color(*pixel);

@@ -152,7 +152,7 @@ void add_resolution(Bytes& file, double dots_per_inch) {
 
 /// Appends the sizes, then the meaning of sRGB: its gamma and primaries.
 void add_header(Bytes& file, const ImageToEncode& image) {
-  constexpr std::array<std::uint8_t, 5> kColorType{0, 0, 4, 2, 6};  // by number of channels
+  constexpr std::array<std::uint8_t, 5> kColorType{0, 0, 4, 2, 6};  // one for each number of channels
   Bytes header;
   add_word(header, static_cast<std::uint32_t>(image.width));
   add_word(header, static_cast<std::uint32_t>(image.height));
@@ -203,7 +203,7 @@ std::size_t sum_of_differences(const Bytes& bytes) {
 struct Row {
   const std::uint8_t* bytes;
   const std::uint8_t* above;
-  std::size_t size, pixel;  // in bytes
+  std::size_t size, pixel;  // bytes
 };
 
 /// Takes the row by value, because written bytes might otherwise alias it.

@@ -74,7 +74,7 @@ class PngEncoder {
   void filter(std::span<const std::uint8_t> rows);
 
   Write write_;
-  std::size_t pixel_, row_size_;  // in bytes
+  std::size_t pixel_, row_size_;  // bytes
   bool averages_;
   std::vector<std::uint8_t> last_row_;  // zeros above the first row
   std::unique_ptr<PngStream> stream_;

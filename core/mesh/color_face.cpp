@@ -73,7 +73,7 @@ class ColorCutter {
     const auto [at, fresh] = crossings_.try_emplace({a, b}, 0);
     if (fresh) {
       const std::span<const double> from = scores(a), to = scores(b);
-      std::size_t first = 0;  // among the contacts that win at a, the one that wins just after it
+      std::size_t first = 0;  // the contact that wins just after a; it wins at a, too
       for (std::size_t c = 1; c < from.size(); ++c) {
         if (wins(a, c) && (!wins(a, first) || to[c] > to[first])) first = c;
       }

@@ -242,7 +242,7 @@ class TorusRim {
   struct Sample {
     BorderPoint name;
     FacePoint point;
-    Segment segment;  ///< from here to the next sample, in walking order
+    Segment segment;  ///< the segment between this and the next sample, in walking order
   };
   /// Returns a full contact circle in walking order, from the sample nearest to `near_theta`, with falling or rising
   /// theta; the first point is repeated at the end.

@@ -52,7 +52,7 @@ bool is_flat_fan(const HalfEdges& links, std::span<const glm::dvec3> positions, 
   });
   if (!faces_one_way) return false;
   const glm::dvec3 side = glm::cross(direction, positions[links.to(links.leaving(vertex))] - x);
-  int turns = 0;  // how often the fan goes over to this side
+  int turns = 0;  // number of times that the fan goes over to this side
   links.for_each_leaving(vertex, [&](std::uint32_t half) {
     const bool before = glm::dot(positions[links.to(half)] - x, side) < 0.0;
     turns += before && !(glm::dot(positions[links.opposite(half)] - x, side) < 0.0);

@@ -71,7 +71,7 @@ void FaceFilling::fill(std::vector<std::uint32_t> todo, std::vector<FaceMesh>& m
       for (const Segment& s : meshes[f].too_coarse) segments.insert({s.border, s.index});
     }
     std::set<std::uint32_t> dirty;
-    for (auto s = segments.rbegin(); s != segments.rend(); ++s) {  // from the back, so that indices remain valid
+    for (auto s = segments.rbegin(); s != segments.rend(); ++s) {  // the last ones first, so that indices remain valid
       samples_.split(s->first, s->second);
       for (std::uint32_t f : surface_.borders[s->first].face)
         if (is_requested_[f]) dirty.insert(f);
@@ -91,7 +91,7 @@ constexpr std::uint32_t kSeamNames = 1024;
 constexpr double kSharpAngle = 1e-4;
 /// The number of faces with rows that are made at the same time.
 constexpr std::uint32_t kFacesTogether = 1 << 12;
-/// How often, and after how many faces at least, the memory of finished faces is returned: each time walks the heap.
+/// The number of times that freed memory is returned, and the least number of faces between two: each walks the heap.
 constexpr std::uint32_t kTimesFreed = 16, kFacesFreed = 1 << 14;
 
 /// Returns the memory of small blocks that were freed to the system; otherwise the allocator keeps it.

@@ -39,7 +39,7 @@ const char* event_word(CavityEvent event);
 
 /// The history of a cavity from one frame to the next.
 struct CavityStep {
-  std::uint32_t id = 0;  ///< from 1, never reused
+  std::uint32_t id = 0;  ///< counts from 1 and is never reused
   CavityEvent event = CavityEvent::born;
   std::optional<std::uint32_t> other;  ///< the id of the cavity that it comes from or went into
   std::size_t cavity = kNone;          ///< its index among the cavities of the frame; kNone: it is gone

@@ -320,7 +320,7 @@ bool SurfaceDistance::is_within(const glm::dvec3& x, double limit) const {
 namespace {
 
 constexpr int kEdge = DistanceBand::kEdge;
-constexpr double kMostVoxels = 1 << 28;  // from the origin along an axis
+constexpr double kMostVoxels = 1 << 28;  // greatest distance from the origin along an axis
 
 /// Finds the blocks and cubes of a band.
 class BandFinder {

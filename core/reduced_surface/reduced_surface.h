@@ -41,7 +41,7 @@ struct ReducedSurface {
   std::vector<std::uint32_t> lone_atoms;  ///< SAS spheres that meet no other and lie in none, sorted
   std::vector<std::uint32_t> lost_atoms;  ///< atoms with missing arcs, sorted; none unless there is a fault
   double exact_within = 0.0;              ///< largest change of radii, Å, for which all decisions are right
-  std::vector<std::uint32_t> numbers;     ///< for atoms taken out of a larger set: their AtomNumbers there
+  std::vector<std::uint32_t> numbers;     ///< AtomNumbers of atoms taken out of a larger set
   bool operator==(const ReducedSurface&) const = default;
 };
 

@@ -39,7 +39,7 @@ struct Annotations {
   std::vector<PlaceLabel> labels;
   bool labels_must_fit = true;  ///< false: labels are left out of a picture without room for them
   std::optional<Curve>
-      curve;  ///< at the bottom right, a third of the picture's width; faint after `now`, which has a mark
+      curve;  ///< curve at the bottom right, a third of the picture's width; faint after `now`, which has a mark
   std::vector<glm::vec4> atoms;  ///< centres and radii of the atoms, Å, which labels avoid where possible
   LetterStyle letters;
 

@@ -70,7 +70,7 @@ struct ImageSettings {
   /// that blend in linear light. False: an alpha for which blending in sRGB makes the same edges as on white
   /// (layout_color()).
   bool linear_alpha = true;
-  double dots_per_inch = 0.0;  ///< for printing; 0: not written
+  double dots_per_inch = 0.0;  ///< resolution for printing; 0: not written
   bool names_program = true;   ///< the file names the program's version
   std::string command = {};    ///< the command that made the picture; empty: not written. Not in WebP files.
   std::string scene = {};      ///< the scene that the picture shows, JSON; empty: not written. Not in WebP files.

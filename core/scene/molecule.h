@@ -74,7 +74,7 @@ struct MoleculeRequest {
 struct Molecule {
   Structure structure;
   ColorScheme color;                   ///< the requested scheme with the numbers of its file
-  std::vector<SurfaceObject> objects;  ///< at least one
+  std::vector<SurfaceObject> objects;  ///< there is at least one
   double beyond_map = 0.0;             ///< share of the surface, in [0, 1), that its volume map does not cover
   std::string device;                  ///< the device that computed the surfaces
   std::vector<StageTime> stages;       ///< times of the stages of all surfaces

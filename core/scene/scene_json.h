@@ -64,7 +64,7 @@ nlohmann::ordered_json figure_object_json(const FigureObjectRequest& object);
 /// A value that a scene file sets.
 struct SceneSetting {
   const Property* property = nullptr;
-  std::vector<std::string> texts;  ///< in the form of set_value(); paths as in the file
+  std::vector<std::string> texts;  ///< the form is that of set_value(); paths as in the file
   std::string place;               ///< place in the file, for messages: "objects[0].clip"
 };
 

@@ -11,7 +11,7 @@ struct Atom;
 struct RigidMotion;
 struct Structure;
 
-/// How the copies of an assembly are represented.
+/// The representation of the copies of an assembly.
 enum class CopyMode {
   atoms,     ///< every copy has atoms of its own, and all of them together have one surface
   instances  ///< the atoms exist once; Structure::instances has the motions of the copies

@@ -98,7 +98,7 @@ struct ReadReport {
   /// Like `excluded`, but it counts only atoms that have a partial charge and occupy space. Atoms that are excluded as
   /// kExcludedAltloc, kExcludedVirtual or kExcludedRadius do not occupy any.
   std::map<std::string, std::size_t> charged;
-  /// For kExcludedLigand and kExcludedLipid the number of residues by their name.
+  /// The number of residues by their name, for kExcludedLigand and kExcludedLipid.
   std::map<std::string, std::map<std::string, std::size_t>> residues;
   std::size_t used = 0;
   std::size_t models = 1;  ///< number of models in the file
@@ -138,7 +138,7 @@ inline constexpr const char* kExcludedAssembly = "not_in_assembly";  ///< the as
 struct RadiusClass {
   std::string label;   ///< bonding class, force-field type, or element
   double radius;       ///< Å
-  std::string source;  ///< where the radius is from: a paper, a file or an option, as text for people
+  std::string source;  ///< origin of the radius: a paper, a file or an option, as text for people
   std::size_t atoms;
 };
 
@@ -152,7 +152,7 @@ struct Instances {
 /// Chains that have the same motions in an assembly.
 struct AssemblyPart {
   std::vector<std::string> chains;   ///< values of Atom::subchain; empty: all chains
-  std::vector<RigidMotion> motions;  ///< from the positions in the file to each copy, at least one
+  std::vector<RigidMotion> motions;  ///< motions from the positions in the file to each copy, at least one
 };
 
 /// A biological assembly as described in a file.

@@ -103,7 +103,7 @@ struct OutsideEnd {
 struct BlockPatches {
   std::vector<ConvexPatch> convex;
   std::vector<ToroidalPatch> toroidal;
-  std::vector<ConcavePatch> concave;  ///< in ascending order of first contacts
+  std::vector<ConcavePatch> concave;  ///< by ascending first contacts
   std::vector<Plane> planes;
   std::vector<std::uint32_t> contacts;
   std::vector<OutsideEnd> outside;

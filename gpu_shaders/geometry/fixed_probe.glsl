@@ -22,7 +22,7 @@ const real kSteep = real(1) / real(100);
 
 struct FixedProbe {
   real3 position;  // relative to the first atom
-  real height;     // over the plane of the atoms, Å
+  real height;     // height over the plane of the atoms, Å
 };
 
 // Improves the position of a probe by one Newton step on its three distances, to correct slim triangles.

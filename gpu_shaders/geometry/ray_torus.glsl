@@ -100,7 +100,7 @@ GEOMETRY real torus_run(real3 o, real3 d, real major, real minor, real tolerance
     truth arrived = !ended && !(value > real(0));  // exactly on it, or a rounding past it
     root = select(arrived, t, root);
     ended = ended || arrived;
-    truth turns = !ended && !(slope < real(0));  // before it comes to zero
+    truth turns = !ended && !(slope < real(0));  // the slope turns before the factor comes to zero
     root = select(turns && sure, t, root);
     ended = ended || turns;
     real walked = -value / slope;

@@ -7,7 +7,7 @@
 
 // The part of the key light that reaches a point.
 struct KeyLight {
-  real diffuse;  // as much as the surface is turned towards it
+  real diffuse;  // share by which the surface is turned towards it
   real open;     // share of the lamp that nothing covers
 };
 

@@ -140,7 +140,7 @@ struct FaceParameters {
 // The camera and the capacities of the tables, for all kernels that make primitives.
 struct PrimitiveParameters {
   dvec3 pivot;
-  double eye_distance;  // from the camera to the pivot
+  double eye_distance;  // distance from the camera to the pivot
   dvec3 camera_position;
   double probe_radius;
   dvec3 camera_forward;

@@ -8,8 +8,7 @@
 uniform usampler2D map_texels;
 uniform vec4 map_axes[3];   // a point's place along each axis: dot(xyz, x) + w
 uniform vec3 map_size;      // points along each axis
-uniform vec3 map_scale;     // x: value at the first colour; y: 1 / (value at the last one - x); z: Å from the surface
-                            // to the sample
+uniform vec3 map_scale;     // x: value at the first colour; y: 1 / (value at the last one - x); z: sampling offset, Å
 uniform vec3 map_parts;     // places in the table: x: colour outside of the map; y: numbers of atoms; z: values
 uniform float map_is_shown; // 0: colours follow atoms
 

@@ -28,7 +28,7 @@ constexpr ray_cast::Hit kNoHit{glm::vec3(0.0f), 0.0f, ray_cast::kNoPrimitive, ra
 
 /// Returns the width of the thinnest thing that objects have, in Å, such as the diameter of a stick.
 double least_width(const Surface* surface, const Shapes* shapes) {
-  constexpr double kLeastThickness = 0.4;  // of ribbons and plates
+  constexpr double kLeastThickness = 0.4;  // thickness of ribbons and plates
   double least = std::numeric_limits<double>::infinity();
   if (surface)
     for (const Ball& atom : surface->atoms) least = std::min(least, 2.0 * atom.radius);

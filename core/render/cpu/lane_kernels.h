@@ -26,7 +26,7 @@ struct VolumePaint;
 struct PointPaint {
   const VolumePaint* map = nullptr;           ///< nullptr: points have the colours of atoms
   glm::dvec3 pivot{0.0};                      ///< Å, the origin of positions
-  const std::uint8_t* keeps_color = nullptr;  ///< for each atom, 1 if it keeps its own colour
+  const std::uint8_t* keeps_color = nullptr;  ///< 1 for each atom that keeps its own colour
 };
 
 /// Returns the linear colour of a point of this atom. x: Å from the pivot; normal: towards the solvent.
@@ -36,7 +36,7 @@ glm::vec3 painted(const PointPaint& paint, std::uint32_t atom, const glm::vec4& 
 /// A box of a tree over the primitives of an object; low and high are relative to the pivot.
 struct OccluderBox {
   glm::vec3 low;
-  /// For a leaf the first index in LaneOccluder::order; otherwise the second child, because the first one follows.
+  /// The first index in LaneOccluder::order for a leaf; else the second child, because the first one follows.
   std::uint32_t first;
   glm::vec3 high;
   std::uint32_t count;  ///< number of a leaf's primitives; 0: the box has two children

@@ -35,7 +35,7 @@ class LayerStack final : public PictureContent {
     HostPack scene;
     std::vector<glm::vec4> planes;  // relative to the pivot
     CpuTileLists lists;
-    std::optional<BallGrid> atoms;  // for surfaces that planes cut
+    std::optional<BallGrid> atoms;  // present if planes cut the surface
     double farthest_atom = 0.0;     // Å, each point of the solid is at most this far from the sphere of some atom
   };
 

@@ -59,8 +59,8 @@ void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& extra_atoms, ReadRep
   atoms.resize(kept);
 }
 
-/// How selections are evaluated: for the current positions of atoms, for those in a frame of a trajectory, where
-/// nothing may be selected, or for all positions that atoms may have.
+/// The positions for which selections are evaluated: the current ones; those in a frame of a trajectory, where nothing
+/// may be selected; or all that atoms may have.
 enum class PositionScope { current, frame, any };
 
 std::vector<bool> select(const Selection& selection, const std::vector<Atom>& atoms, PositionScope scope) {
