@@ -34,7 +34,7 @@ class Coverage {
  public:
   explicit Coverage(std::size_t texels) : whole_(texels + kRun, kEmpty), edge_(whole_), clear_(whole_.size(), 1.0f) {}
 
-  /// Adds a ball at `count` texels. shares: shares of the texels that it covers; at most 0: nothing, at least 1: all.
+  /// Adds a ball at `count` texels. shares: of the texels that the ball covers; at most 0: nothing, at least 1: all.
   MENISCUS_VECTOR_CLONES
   void add(std::size_t first, int count, const float* __restrict heights, const float* __restrict shares) {
     float* __restrict whole = &whole_[first], * __restrict edge = &edge_[first], * __restrict clear = &clear_[first];
@@ -48,10 +48,10 @@ class Coverage {
     }
   }
 
-  /// Writes the words of light_maps.glsl, as floats of these bits. steps: steps of height per side of a texel.
+  /// Writes the words of light_maps.glsl, as floats of these bits. steps: of height, of a texel.
   MENISCUS_VECTOR_CLONES
   void write(float steps, std::span<float> words) const {
-    const auto step = [&](float height) {  // an empty texel has step 0
+    const auto step = [&](float height) {  // nothing is step 0
       return static_cast<int>(std::max(height * steps + 0.5f * (kernel::kLightSteps + 1), 0.0f));
     };
     for (std::size_t at = 0; at < words.size(); ++at) {
@@ -66,7 +66,7 @@ class Coverage {
 };
 
 /// Computes what a ball covers of `count` texels of a line: heights along and against the axis, and shares, which are
-/// about the areas within the ball's disc. x, y: place of the ball's centre from the first texel; z: its height.
+/// about the areas within the ball's disc. x, y: from the first texel to the ball's centre; z: of the centre.
 MENISCUS_VECTOR_CLONES
 void cover(float x, float y, float z, float radius, int count, float* __restrict highest, float* __restrict lowest,
            float* __restrict shares) {

@@ -122,7 +122,7 @@ struct LaneTile {
   int sample_count = 1;              ///< 1 to kMostSamples
   glm::vec2 offset[kMostSamples]{};  ///< offsets of samples from the pixels' centres
   LaneList list;
-  const float* counts = nullptr;  ///< Unevenness::counts(); bundles with 0 are not cast; nullptr: all are
+  const float* counts = nullptr;  ///< as Unevenness::counts(); bundles with 0 are not cast; nullptr: all are
 
   glm::vec4* sums = nullptr;      ///< pixels of the block, to which the sum of samples is added; or nullptr
   ray_cast::Hit* hits = nullptr;  ///< pixels of the block, which get the hits of the first sample; or nullptr
@@ -183,7 +183,7 @@ struct LaneLook {
   float* shade_size = nullptr;         ///< size of a pixel at that depth, Å
   float* sky_seen = nullptr;           ///< shares of the sky and of the lamp that pixels see
   float* lamp_seen = nullptr;
-  const float* counts = nullptr;  ///< Unevenness::counts(); pixels with 0 are not finished; nullptr: all are
+  const float* counts = nullptr;  ///< as Unevenness::counts(); pixels with 0 are not finished; nullptr: all are
   glm::vec4* sums = nullptr;      ///< the finished colours are added to it
   float* ink = nullptr;           ///< receives the share of each pixel that lines cover; or nullptr
 };
