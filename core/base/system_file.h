@@ -48,7 +48,7 @@ std::optional<State> state_of(int file);
 
 /// Opens a file for reading and returns its descriptor, or -1. No child process inherits it.
 int open_to_read(const std::filesystem::path& path);
-/// Opens a file for reading as a stream of bytes. Returns null for a link, a folder and any file that is not plain.
+/// Opens a file for reading as a stream of bytes. Returns null for a link, a folder and all that is no plain file.
 std::FILE* open_plain(const std::filesystem::path& path);
 /// Creates a file for writing and returns its descriptor, or -1. Fails if there is a file or link of this name already.
 int create(const std::filesystem::path& path);
