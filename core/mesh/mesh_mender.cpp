@@ -41,7 +41,7 @@ bool MeshMender::is_too_short(std::uint32_t half) const {
 /// which would otherwise remain slivers forever.
 bool MeshMender::may_merge(std::uint32_t half) const { return is_mergeable(mesh_, half) || is_too_short(half); }
 
-/// Returns the quality of a triangle with a placed vertex. If `steep`, triangles may lean almost upright on it.
+/// Returns a triangle's quality with a placed vertex. If `steep`, triangles may lean almost upright on the surface.
 double MeshMender::quality(const PlacedTriangle& t, const PlacedVertex& placed, bool steep) const {
   const glm::dvec3 normal = glm::cross(t.at[1] - t.at[0], t.at[2] - t.at[0]);
   const double size = glm::length(normal);

@@ -214,7 +214,7 @@ class BondFinder {
   void join_hydrogens(std::size_t r) {
     constexpr double kLongestToHydrogen = 1.6;
     for (std::uint32_t h = begins_[r]; h < begins_[r + 1]; ++h) {
-      if (atoms_[h].element > 1) continue;  // the element of a site is 0, as of the fourth site of water models
+      if (atoms_[h].element > 1) continue;  // sites have the element 0, such as the fourth of water models
       std::uint32_t nearest = h;
       double least = kLongestToHydrogen * kLongestToHydrogen;
       for (std::uint32_t n = begins_[r]; n < begins_[r + 1]; ++n) {

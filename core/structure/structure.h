@@ -36,8 +36,7 @@ enum class SecondaryStructure : std::uint8_t { unknown, coil, helix, strand };
 /// An atom. Its texts are as in the file and must never be inserted into the source code of another program.
 struct Atom {
   glm::dvec3 position{0.0};  ///< Å
-  double radius = 0.0;  ///< van der Waals radius in Å, from the file (PQR, XYZR) or a set of radii; 0 before it is
-                        ///< known
+  double radius = 0.0;  ///< van der Waals radius in Å, from the file (PQR, XYZR) or a set of radii; 0 until it is set
   std::uint8_t element = 0;  ///< atomic number; 0: unknown
   AtomClass kind = AtomClass::unclassified;
   char insertion_code = ' ';

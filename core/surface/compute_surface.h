@@ -10,7 +10,7 @@
 
 namespace meniscus {
 
-/// Finds reduced surfaces on one device, frame after frame. All engines find the same ones. Only one thread may use it.
+/// Finds reduced surfaces on one device, frame after frame. All engines find the same. One thread uses it at a time.
 class ReducedSurfaceEngine {
  public:
   virtual ~ReducedSurfaceEngine() = default;

@@ -52,8 +52,8 @@ struct FinishParameters {
   float inner_lines;  // width of lines around what is in front of something else, in pixels
   float part_lines;   // width of lines between parts, in pixels
   float widest_line;
-  float step_pixels;  // a line begins where the depth steps back by half an Å and this many pixels,
-  float fade_pixels;  // and is black where it steps back by another three Å and this many pixels
+  float step_pixels;  // lines begin at steps of depth of half an Å and this many pixels
+  float fade_pixels;  // lines are black at steps of another three Å and this many pixels
   float depth_cue;
   float first_depth;
   float last_depth;

@@ -78,7 +78,7 @@ class CpuRenderer {
     SceneBlock at;
     const RenderSettings& settings;
     bool hits = false;  ///< true: hits are requested, too
-    /// Is called after each sample, when its hits are complete. If it is empty, hits are the hits of the first sample.
+    /// This is called after each sample, when its hits are complete. Empty: hits are those of the first sample.
     std::function<void(int sample)> after_sample{};
 
     std::size_t pixel_count() const { return static_cast<std::size_t>(at.block.size.x) * at.block.size.y; }
@@ -111,8 +111,7 @@ class CpuRenderer {
   PackPlacement placement_;             // placement of the current picture
   LightMaps light_maps_;                // maps of the current picture, if its look needs them
   std::optional<Occluders> occluders_;  // occluders of the current picture, if its light is traced
-  const std::shared_ptr<SurfaceContent> surface_ = std::make_shared<SurfaceContent>();  // content of pictures of a
-                                                                                        // surface
+  const std::shared_ptr<SurfaceContent> surface_ = std::make_shared<SurfaceContent>();  // content of one surface
   bool nothing_is_thin_ = false;      // true: nothing in the current picture fits between the centres of pixels
   std::optional<Unevenness> uneven_;  // unevenness of the current block, known after its first sample
   std::vector<glm::vec4> sums_;
