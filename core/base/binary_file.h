@@ -30,7 +30,7 @@ class BinaryFile {
 
   const std::string& path() const { return path_; }
   std::uint64_t size() const { return size_; }  ///< bytes, when it was opened
-  /// The time of the last change when the file was opened, in nanoseconds, for comparing only.
+  /// Returns the time of the last change when the file was opened, in nanoseconds, for comparing only.
   std::int64_t modified() const { return modified_; }
 
   /// Reads exactly these bytes. Throws InputError if they reach beyond the end, or for an error of the disk.
@@ -47,7 +47,7 @@ class BinaryFile {
   int descriptor_ = -1;
   std::uint64_t size_ = 0, current_size_ = 0;
   std::int64_t modified_ = 0, current_modified_ = 0;
-  std::vector<std::byte> tail_;  ///< what is before the end, to tell appending from writing again
+  std::vector<std::byte> tail_;  ///< bytes before the end, which distinguish appending from writing again
 };
 
 /// Returns the number at `bytes`, which need not be aligned, in the byte order `order`.

@@ -12,7 +12,7 @@ struct ModuleFile {
   /// Name of the file, which is in the folder of the program, in lib/meniscus of its installation or, for other
   /// programs of a build folder, in their run path.
   const char* name;
-  const char* purpose;  ///< what needs the module, in the plural: "pictures"
+  const char* purpose;  ///< things that need the module: "pictures"
   /// Bytes of address space that its libraries take. Some of these libraries end the program if they start without
   /// memory, so that there must be room for all of them before the first is loaded.
   std::size_t room;

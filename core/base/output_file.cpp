@@ -301,7 +301,7 @@ void write_shared_files(const std::filesystem::path& folder, Existing existing, 
       if (!is_there(shared)) output.file(shared.name).write(shared.text);
     output.commit();
   } catch (const OutputError&) {
-    if (!std::ranges::all_of(files, is_there)) throw;  // otherwise another process has written them
+    if (!std::ranges::all_of(files, is_there)) throw;  // another process has written them if they are there
   }
 }
 

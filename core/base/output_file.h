@@ -33,8 +33,8 @@ class OutputFile {
   /// written.
   void rewrite_beginning(std::span<const std::byte> bytes);
 
-  /// The path of the temporary file, for programs that write a file by name instead of by write(). It has the extension
-  /// of the target.
+  /// Returns the path of the temporary file, for programs that write a file by name instead of by write(). It has the
+  /// extension of the target.
   const std::filesystem::path& temporary_path() const { return temporary_; }
   const std::filesystem::path& target() const { return target_; }
 
@@ -61,8 +61,7 @@ void protect_input(const std::filesystem::path& path);
 /// Makes the missing folders on the path to a file. Throws OutputError.
 void make_folders_of(const std::filesystem::path& file);
 
-/// Throws what an OutputFile of this target would throw, before long work begins. A temporary file is made and deleted
-/// again.
+/// Throws what an OutputFile of this target would throw, before long work begins, by making a temporary file.
 void check_output(const std::filesystem::path& target, Existing existing);
 
 /// Several output files that belong together, in one folder that is made if missing. No file appears before all are
@@ -78,8 +77,7 @@ class OutputFolder {
   OutputFile& file(const std::string& name);
   const std::filesystem::path& path() const { return folder_; }
 
-  /// Syncs all files, then renames them in the order in which they were begun. The file that users open should be begun
-  /// last.
+  /// Syncs all files, then renames them in the order of their begin. The file that users open should be begun last.
   void commit();
 
  private:
@@ -98,7 +96,7 @@ class OutputFolder {
 void remove_unfinished_outputs() noexcept;
 
 struct SharedFile {
-  std::string name;  ///< without a folder
+  std::string name;  ///< name without a folder
   std::string text;
 };
 

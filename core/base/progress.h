@@ -59,13 +59,12 @@ class ProgressText {
   int last_tenth_ = -1;
 };
 
-/// The name of a stage and its duration.
 struct StageTime {
   std::string name;
   double milliseconds = 0.0;
 };
 
-/// How stages account for work that another device does in parallel.
+/// The way in which stages account for work that another device does in parallel.
 enum class StageTiming {
   rough,  ///< does not wait: work of one stage may count for a later stage that needs it; sums are right
   exact   ///< waits until the device is idle at both ends of each stage, which costs a round trip each
@@ -96,7 +95,6 @@ class StageClock {
 
   explicit StageClock(StageTiming timing = StageTiming::rough) : is_exact_(timing == StageTiming::exact) {}
 
-  /// Begins a stage.
   [[nodiscard]] Stage stage(const std::string& name) {
     if (check_) check_();
     return Stage(*this, name);
@@ -111,7 +109,6 @@ class StageClock {
     end({std::move(name), milliseconds});
   }
 
-  /// Forgets all times.
   void restart() { times_.clear(); }
   bool is_exact() const { return is_exact_; }
   const std::vector<StageTime>& times() const { return times_; }

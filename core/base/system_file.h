@@ -81,9 +81,8 @@ void remove(const std::filesystem::path& path) noexcept;
 /// Waits for a millisecond. A signal handler may call it.
 void wait_a_millisecond() noexcept;
 
-/// The number of this process.
 int process_id();
-/// The path of the running program; empty if the system does not have it.
+/// Returns the path of the running program; empty if the system does not have it.
 std::filesystem::path program_path();
 
 }  // namespace system_file

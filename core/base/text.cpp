@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decodes UTF-8, escapes and wraps texts, spells options in messages, finds the nearest known word, and fills
-// templates.
+// Decodes UTF-8, escapes and wraps texts, spells options in messages, finds nearest words, and fills templates.
 #include "core/base/text.h"
 
 #include <algorithm>
@@ -19,7 +18,7 @@ Character first_character(std::string_view text) {
     if (byte(n) >> 6 != 2) return {};
     code = code << 6 | (byte(n) & 0x3fu);
   }
-  constexpr char32_t kLeast[] = {0x80, 0x800, 0x10000};  // with 2, 3 and 4 bytes; smaller codes have a shorter form
+  constexpr char32_t kLeast[] = {0x80, 0x800, 0x10000};  // the least codes that need 2, 3 and 4 bytes
   const bool is_surrogate = code >= 0xd800 && code < 0xe000;
   if (code < kLeast[bytes - 2] || is_surrogate || code > 0x10ffff) return {};
   return {code, bytes};

@@ -33,8 +33,8 @@ bool is_utf8(std::string_view text);
 /// ASCII and U+0080 to U+009F, marks of direction (Unicode's Bidi_Control), and separators of lines and paragraphs.
 bool is_control(char32_t code);
 
-/// Returns the text with control characters (is_control() in utf8.h) and bytes that are not UTF-8 written as \xNN. So a
-/// text from a file cannot control a terminal or reverse the direction of words. All other UTF-8 is unchanged.
+/// Returns the text with control characters (is_control()) and bytes that are not UTF-8 written as \xNN. So a text from
+/// a file cannot control a terminal or reverse the direction of words. All other UTF-8 is unchanged.
 std::string escaped(std::string_view text);
 
 /// Returns the text escaped, cut after at most `bytes` bytes, with "..." in place of the rest.
@@ -72,8 +72,7 @@ std::string pointed_at(std::string_view text, std::size_t position);
 /// spell_options() has set returns it.
 std::string option_name(std::string_view name);
 
-/// A function that spells options, and the call that sets it for this interface. It has to be called before anything
-/// else.
+/// A function that spells options, and the call that sets it for this interface, before anything else.
 using OptionSpelling = std::string (*)(std::string_view name);
 void spell_options(OptionSpelling spelling);
 
@@ -100,7 +99,7 @@ struct Filling {
 std::string filled(std::string_view text, const std::vector<Filling>& fillings);
 
 /// Returns the text with each "@NAME@" and "@NAME VALUE@" spelled as this interface writes an option and its value
-/// (option_name() in text.h). For example "@frames all@" becomes "frames=all" in libraries.
+/// (option_name()). For example "@frames all@" becomes "frames=all" in libraries.
 std::string with_options(std::string_view text);
 
 /// Formats such a text by fmt::format(). Options are replaced in the text only, not in the values.

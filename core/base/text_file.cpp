@@ -234,8 +234,7 @@ double parse_radius(const TextFile& file, std::size_t line, std::string_view fie
 
 #ifdef MENISCUS_WITH_ZLIB
 
-/// zlib checks length and CRC of each member (RFC 1952). Zeros after the last member are accepted, because tapes add
-/// them.
+/// zlib checks length and CRC of each member (RFC 1952). Zeros after the last member are accepted: tapes add them.
 std::string unpack_gzip(const std::string& path, const std::string& packed, std::size_t largest) {
   z_stream stream{};
   if (inflateInit2(&stream, 15 + 16) != Z_OK) throw std::bad_alloc();

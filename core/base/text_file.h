@@ -12,7 +12,7 @@ namespace meniscus {
 
 /// The text of a file, with LF line ends and without byte-order mark. It is not empty and has no NUL bytes.
 struct TextFile {
-  std::string path;  ///< as given, or "standard input"
+  std::string path;  ///< path as the user gave it, or "standard input"
   std::string text;
 };
 
@@ -53,9 +53,9 @@ class LineReader {
     return true;
   }
 
-  std::size_t number() const { return number_; }  ///< of the line last read, from 1
+  std::size_t number() const { return number_; }  ///< number of the line last read, from 1
   bool only_blanks_left() const { return rest_.find_first_not_of(" \t\n") == std::string_view::npos; }
-  std::size_t bytes_left() const { return rest_.size(); }  ///< after the line last read
+  std::size_t bytes_left() const { return rest_.size(); }  ///< bytes after the line last read
 
   /// Returns the error of the line of the file that was last read, with a text for fmt::format().
   template <typename... Values>
@@ -90,8 +90,7 @@ inline constexpr double kLargestCoordinate = 1e5;
 /// Returns a coordinate in Å. Throws InputError if it is beyond kLargestCoordinate.
 double check_extent(const TextFile& file, std::size_t line, char axis, double coordinate);
 
-/// Parses a coordinate field in Å. Throws InputError with file, line, axis and text if it is not finite or beyond
-/// kLargestCoordinate.
+/// Parses a coordinate field in Å. Throws InputError with file, line, axis and text if it is not finite or too large.
 double parse_coordinate(const TextFile& file, std::size_t line, char axis, std::string_view field);
 
 /// Parses a coordinate field and multiplies it by `unit` (Å). False where parse_coordinate would throw.
@@ -110,7 +109,7 @@ bool parse_whole_number(std::string_view field, std::int64_t& number);
 /// The largest radius that readers accept, in Å.
 inline constexpr double kLargestRadius = 1000.0;
 
-/// Parses a field as parse_number does, and rounds to single precision. False also beyond the range of that.
+/// Parses a field as parse_number does, and rounds to single precision. False if the number is beyond its range, too.
 bool parse_single(std::string_view field, float& number);
 
 /// Unpacks all members of gzip data and returns their bytes. path: the file, for messages. Throws InputError if the

@@ -101,8 +101,7 @@ glm::dmat3 principal_axes(glm::dmat3 a) {
 /// Returns the tangent of half the angle of a perspective camera, less the margin.
 double tangent_of(const Camera& camera) { return std::tan(camera.vertical_fov * (std::numbers::pi / 360.0)) / kMargin; }
 
-/// Returns (sideways, depth) of the edge at which two planes that open at `half_angle` about +z touch all balls from
-/// outside.
+/// Returns (sideways, depth) of the edge at which two planes that open at `half_angle` about +z touch all balls.
 glm::dvec2 touch(std::span<const Ball> balls, const glm::dvec3& sideways, const glm::dvec3& forward, double tangent) {
   const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent), sine = tangent * cosine;
   double left = std::numeric_limits<double>::max(), right = left;

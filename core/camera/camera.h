@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The camera that ray caster and exporters share: its rays, its matrices, a default one for a surface, and its path
-// between keys.
+// The camera that ray caster and exporters share: its rays, its matrices, a default, and a path between keys.
 #pragma once
 
 #include <span>
@@ -44,8 +43,7 @@ void validate_camera(const Camera& camera, const std::string& file);
 /// Returns the axes of a valid camera.
 ViewBasis view_basis(const Camera& camera);
 
-/// Returns half the picture's width and height on the plane one Å in front of a perspective camera, or in Å if
-/// orthographic.
+/// Returns half the picture's width and height: one Å in front of a perspective camera, or in Å if orthographic.
 glm::dvec2 half_extent(const Camera& camera, double aspect);
 
 /// Returns the ray through `pixel` (column, row from the top; (0.5, 0.5) is the centre of the first pixel) of a picture
@@ -79,7 +77,6 @@ class DecisiveBalls {
       farthest_;  ///< the farthest ball along each direction, by its outer side; empty before the first ball
 };
 
-/// A camera at a frame.
 struct CameraKey {
   double frame = 0.0;
   Camera camera;

@@ -244,7 +244,7 @@ class ForeignReader {
     for (std::size_t n = 0; n < kViewNumbers; ++n) v[n] = number(words[n], kOf);
     // The first nine numbers are written by rows; each column is an axis of the camera.
     const glm::dmat3 axes = rotation({{v[0], v[3], v[6]}, {v[1], v[4], v[7]}, {v[2], v[5], v[8]}}, kOf);
-    const glm::dvec3 origin(v[12], v[13], v[14]);  // of rotation; v[9..11] is its position seen from the camera
+    const glm::dvec3 origin(v[12], v[13], v[14]);  // the centre of rotation; v[9..11] is its place seen from the camera
     Camera camera;
     camera.position = origin - axes * glm::dvec3(v[9], v[10], v[11]);
     const double distance = -v[11];

@@ -18,7 +18,6 @@ Camera parse_camera(std::string_view json, const std::string& file);
 
 /// Formats a camera as parse_camera reads it: every number is preserved exactly. Ends with a newline.
 std::string camera_json(const Camera& camera);
-/// Returns a camera as a JSON object.
 nlohmann::ordered_json camera_object(const Camera& camera);
 
 /// Parses {"keys":[{"frame":0,"camera":{...}},...]}, with each camera as in parse_camera. `file` is for messages.
@@ -30,7 +29,6 @@ CameraPath read_camera_path(const std::string& file);
 
 /// Formats keys as parse_camera_path reads them: every number is preserved exactly. Ends with a newline.
 std::string camera_path_json(const std::vector<CameraKey>& keys);
-/// Returns keys as a JSON object.
 nlohmann::ordered_json camera_path_object(const std::vector<CameraKey>& keys);
 
 /// Parses a camera of this program (parse_camera), of PyMOL or of ChimeraX; the content decides which.

@@ -62,7 +62,7 @@ std::vector<glm::dvec3> points_on(std::span<const Ball> balls) {
 /// The result for one direction.
 struct Openness {
   std::size_t free = 0;  ///< number of free points
-  double cover = 0.0;    ///< Å, from each covered point to where the ray leaves the last ball, summed
+  double cover = 0.0;    ///< Å: sum of the distances from covered points to where their rays leave the last ball
 };
 
 /// Returns the distance from the point to where its ray leaves the ball; 0 if the ray misses it.
@@ -153,7 +153,7 @@ constexpr Grid kCoarse{0.75, 130}, kFine{0.3, 500};
 constexpr int kNear = 6;                  // directions around the best one, to each side
 constexpr double kNearStep = 0.035;       // radians between neighbours
 constexpr double kLeastWidth = 2.0;       // Å, between balls grown by kClosed
-constexpr std::size_t kTriedAxes = 2000;  // over the sphere: 4.5 degrees between neighbours
+constexpr std::size_t kTriedAxes = 2000;  // spread over the sphere: 4.5 degrees between neighbours
 
 /// Parallel shadows of balls on squares of a plane.
 class Shadows {
@@ -253,7 +253,7 @@ class Shadows {
   double surrounded(const glm::dvec3& point, const glm::dvec3& along) const {
     constexpr double kSlice = 3.0;  // Å
     constexpr double kSides = 6.0;
-    std::map<int, unsigned> sides;  // per slice, one bit for each side
+    std::map<int, unsigned> sides;  // key: slice; value: one bit for each side
     for (const Ball& ball : around_) {
       const glm::dvec3 from = ball.center - point;
       const double turn = std::atan2(glm::dot(from, v_), glm::dot(from, u_)) / (2.0 * std::numbers::pi) + 0.5;
@@ -426,7 +426,7 @@ bool shows_more_behind(const ViewBasis& view, std::span<const Ball> balls, std::
         if (group[b] < kCountedGroups) seen.covered_by |= std::uint64_t{1} << group[b];
       }
   }
-  std::array<std::array<double, kCountedGroups + 1>, 3> area{};  // seen from the front, from behind, and alone
+  std::array<std::array<double, kCountedGroups + 1>, 3> area{};  // areas seen from the front, from behind, and alone
   for (const Pixel& seen : pixels) {
     for (const int side : {0, 1}) ++area[side][seen.group[side]];
     for (std::uint64_t bits = seen.covered_by; bits != 0; bits &= bits - 1) ++area[2][std::countr_zero(bits)];
@@ -453,7 +453,7 @@ OpenDepth open_depth(std::span<const Ball> seen, std::span<const Ball> all, cons
     nearest = std::min(nearest, front);
     if (own.has(ball)) limit = std::min(limit, front);
   }
-  // For each ray that meets a ball to be seen: the depth to which the balls in front of it must be cut.
+  // The depth to which the balls in front of a ball to be seen must be cut, for each ray that meets such a ball.
   std::vector<double> depths;
   for (const Ray& ray : window.rays()) {
     double hit = std::numeric_limits<double>::infinity();

@@ -54,10 +54,10 @@ ViewBasis turned(ViewBasis basis, std::span<const Turn> turns);
 struct ViewRequest {
   int width = 1280, height = 960;  ///< in pixels
   bool fits = false;               ///< true: the height is chosen so that the picture ends at the molecule
-  std::optional<int> margin;       ///< of such a picture, in pixels; nothing: 2 mm
-  double dots_per_inch = 0.0;      ///< of the printed picture; 0: not set
+  std::optional<int> margin;       ///< margin of such a picture, in pixels; nothing: 2 mm
+  double dots_per_inch = 0.0;      ///< resolution of the printed picture; 0: not set
   std::string camera_file;         ///< path of a camera, or its JSON; empty: a camera that shows all of the surface
-  Projection projection = Projection::perspective;  ///< of that default camera
+  Projection projection = Projection::perspective;  ///< projection of that default camera
   std::optional<ViewDirection> direction;           ///< side for the default camera; nothing: the broad side
   std::vector<Turn> turns;                          ///< turns of the molecule about its middle, for either camera
   std::optional<Selection> zoom_to;                 ///< atoms that should fill the picture; nothing: all shown atoms
@@ -66,7 +66,6 @@ struct ViewRequest {
   double aspect() const { return static_cast<double>(width) / height; }
 };
 
-/// Returns the mean of the centres of these balls.
 glm::dvec3 mean_center(std::span<const Ball> balls);
 
 /// The balls in front of a camera.

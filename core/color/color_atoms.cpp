@@ -229,8 +229,8 @@ std::vector<double> grades_of(const Structure& structure, const NumberFile& file
   return grades;
 }
 
-/// Returns positions from 0, for the first residue of each chain of polymers, to 1, for its last; also for atoms drawn
-/// in addition to the surface, so that sticks and cartoons have the same positions. NaN: not part of a polymer.
+/// Returns positions from 0, for the first residue of each chain of polymers, to 1, for its last. Atoms drawn in
+/// addition to the surface have them, too, so that sticks and cartoons agree. NaN: not part of a polymer.
 std::vector<double> places_in_chains(const Structure& structure) {
   using Chain = std::tuple<std::int32_t, std::uint32_t, std::string_view>;
   std::map<Chain, std::set<std::uint32_t>> residues;

@@ -29,15 +29,14 @@ struct ColorKey {
 /// The atoms whose colours a key explains.
 struct DrawnAtoms {
   std::vector<bool> atoms{};         ///< one per Structure::atoms; empty: all
-  std::vector<AtomGroup> objects{};  ///< for ColorScheme::By::component
+  std::vector<AtomGroup> objects{};  ///< objects for ColorScheme::By::component
   bool in_a_run = false;             ///< true if rules by position may select other atoms in other frames
 };
 
 /// Returns the scales and classes of the colours of drawn atoms. Throws like color_atoms.
 ColorKey color_key(const Structure& structure, const ColorScheme& scheme, const DrawnAtoms& drawn = {});
 
-/// Adds the key of further atoms in the picture; if its title already has another meaning, `whose` is appended to the
-/// title.
+/// Adds the key of further atoms in the picture; if its title has another meaning there, `whose` is appended.
 void add_key(ColorKey& key, ColorKey more, const std::string& whose);
 
 /// True if both scales give each number the same colour, and numbers are of the same kind.

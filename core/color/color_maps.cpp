@@ -40,8 +40,8 @@ constexpr Table kMagma{0x000004, 0x02020b, 0x050416, 0x090720, 0x0e0b2b, 0x140e3
 constexpr std::array<std::uint32_t, 3> kBlueWhiteRed{0x2a4fd7, 0xffffff, 0xd2322a};
 constexpr std::array<std::uint32_t, 3> kRedWhiteBlue{0xd2322a, 0xffffff, 0x2a4fd7};
 
-// Each goes from light to dark. The first of nine is left out, because on white it has no visible edge, and so are the
-// last two, which hide shade.
+// Each of these maps goes from light to dark. The first of nine colours is left out, because on white it has no visible
+// edge, and so are the last two, which hide shade.
 constexpr std::array<std::uint32_t, 6> kBlues{0xdeebf7, 0xc6dbef, 0x9ecae1, 0x6baed6, 0x4292c6, 0x2171b5};
 constexpr std::array<std::uint32_t, 6> kYlOrRd{0xffeda0, 0xfed976, 0xfeb24c, 0xfd8d3c, 0xfc4e2a, 0xe31a1c};
 
@@ -55,7 +55,7 @@ constexpr std::array<std::uint32_t, 6> kRainbow{0x0072b2, 0x56b4e9, 0x009e73, 0x
 // These tones are as light as the colours of chains. Any two differ by at least 7.1 in CIEDE2000 for any colour vision.
 constexpr std::array<std::uint32_t, 6> kPastel{0x84a9ea, 0x8ad0de, 0xc3e7b4, 0xf7e294, 0xe8a474, 0xcb7a78};
 
-// In the order of ColorMap.
+// The order of these maps is that of ColorMap.
 constexpr ColorMapMetadata kMaps[] = {
     {ColorMap::viridis, "viridis", "N. J. Smith, S. van der Walt and E. Firing, matplotlib 1.5 (2015), CC0 1.0",
      kViridis},

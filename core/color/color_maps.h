@@ -29,10 +29,10 @@ struct ColorMapMetadata {
   ColorMap map;
   std::string_view name;
   std::string_view source;                  ///< authors, year, licence
-  std::span<const std::uint32_t> colors{};  ///< sRGB, 0xrrggbb, at even steps; of another map for the categorical one
+  std::span<const std::uint32_t> colors{};  ///< sRGB, 0xrrggbb, at even steps; the categorical map borrows another's
 };
 
-/// All maps, in the order the help names them.
+/// Returns all maps, in the order the help names them.
 std::span<const ColorMapMetadata> color_maps();
 
 /// Returns the name of a map: "viridis", ..., "blue-white-red", "categorical".
@@ -41,8 +41,8 @@ std::string_view map_name(ColorMap map);
 /// Parses the name of a map; nothing for any other text.
 std::optional<ColorMap> parse_color_map(std::string_view text);
 
-/// Returns the colour at t in [0, 1] (clamped), sRGB; for a map of steps the one with the nearest place. Not for the
-/// categorical map, which has no order.
+/// Returns the colour at t in [0, 1] (clamped), sRGB; for a map of steps the colour with the nearest place. `map` must
+/// not be the categorical map, which has no order.
 glm::vec3 mapped_color(ColorMap map, double t);
 
 /// Returns the number of colours of a map of steps, each for a class of numbers; 0 for a continuous map.
@@ -54,8 +54,8 @@ glm::vec3 default_missing_color(ColorMap map);
 
 /// Colours at ascending places, with straight lines in sRGB between them.
 struct ColorRamp {
-  std::vector<double> places;     ///< from 0 to 1, ascending
-  std::vector<glm::vec3> colors;  ///< as many, at least two; sRGB
+  std::vector<double> places;     ///< ascending, from 0 to 1
+  std::vector<glm::vec3> colors;  ///< one for each place, at least two; sRGB
 
   /// Returns the colour at t in [0, 1] (clamped).
   glm::vec3 color(double t) const;
@@ -72,7 +72,7 @@ struct ColorScale {
   std::string unit;   ///< "Å²", "e", or empty
   ColorMap map = ColorMap::viridis;
   std::shared_ptr<const ColorRamp> own_map;  ///< replaces `map`, if set
-  std::array<double, 2> range{0.0, 1.0};     ///< at the ends of the map; equal if all numbers are
+  std::array<double, 2> range{0.0, 1.0};     ///< numbers at the ends of the map; equal if all numbers are equal
   std::array<std::string, 2> ends{};         ///< the meaning of the ends in words; empty: only their numbers
   std::vector<double> classes;               ///< categorical map and colours only: the different numbers, ascending
   bool of_colors = false;                    ///< true if numbers are colours, 0xrrggbb
@@ -90,7 +90,7 @@ struct ColorScale {
 /// A volume map, the distance at which it is sampled, and the colours of its values.
 struct VolumePaint {
   VolumeGrid grid;
-  ColorScale scale;     ///< without numbers of atoms
+  ColorScale scale;     ///< has no numbers of atoms
   double offset = 0.0;  ///< Å outside of the surface, along its normal
 
   /// Returns the value at a point; NaN outside the map. point: Å; normal: of length 1, towards the solvent.

@@ -15,7 +15,7 @@ struct Structure;
 /// The opacity of some atoms.
 struct OpacityRule {
   std::optional<Selection> atoms;  ///< nothing: all
-  float opacity = 1.0f;            ///< in [0, 1]
+  float opacity = 1.0f;            ///< opacity in [0, 1]
 };
 
 struct ColorRule;
@@ -39,7 +39,7 @@ struct ColorScheme {
     plddt,            ///< confidence of a predicted model, in four classes
     snfg,             ///< sugars, as their symbols
     bead,             ///< classes of Martini's beads
-    bfactor,          ///< from here on, schemes are numbers with a map and a range
+    bfactor,          ///< this and all later schemes are numbers with a map and a range
     occupancy,
     charge,
     hydrophobicity,  ///< Kyte & Doolittle 1982
@@ -59,15 +59,15 @@ struct ColorScheme {
   std::optional<ColorMap> map;                 ///< nothing: the default of the scheme (color_scale)
   std::shared_ptr<const ColorRamp> own_map;    ///< replaces `map`, if set
   std::optional<std::array<double, 2>> range;  ///< numbers at both ends of the map; nothing: automatic (color_scale)
-  /// For numbers that change from frame to frame: their smallest and largest in all frames, which replace an automatic
+  /// The smallest and largest number in all frames, if numbers change from frame to frame. They replace an automatic
   /// range.
   std::optional<std::array<double, 2>> frames_range;
   std::optional<glm::vec3> missing;           ///< colour of atoms without a number; nothing: default_missing_color
-  NumberFile file;                            ///< for takes_file(); for is_measured() it holds the numbers of the atoms
-  std::shared_ptr<const VolumePaint> volume;  ///< for of_points(); the volume of lipophilicity comes with the surface
+  NumberFile file;                            ///< used if takes_file(), or for the numbers of atoms if is_measured()
+  std::shared_ptr<const VolumePaint> volume;  ///< used if of_points(); that of lipophilicity comes with the surface
   std::string title, unit;                    ///< title and unit of the scale; empty: the default
   std::vector<ColorRule> rules;               ///< override the scheme; of several rules for an atom the last one counts
-  std::vector<OpacityRule> opacities;         ///< of several rules for an atom the last one counts
+  std::vector<OpacityRule> opacities;         ///< the last of several rules for an atom counts
 
   /// True for schemes that colour by a number.
   bool has_scale() const { return by >= By::bfactor; }
@@ -85,10 +85,10 @@ struct ColorScheme {
   bool uses_file() const { return uses(By::file) || uses(By::conservation); }
   /// True if these numbers differ from frame to frame of a run.
   bool uses_frames() const;
-  /// True if they do, or if this scheme or a rule colours by positions of atoms or by buried areas.
+  /// True if uses_frames(), or if this scheme or a rule colours by positions of atoms or by buried areas.
   bool changes_with_frames() const;
-  /// Sets the numbers of this scheme and of all rules. Numbers of frames have one scale: without a range that of all
-  /// frames. Throws RequestError for them if the map gives each number a colour of its own.
+  /// Sets the numbers of this scheme and of all rules. Numbers of frames have one scale, whose default range is that of
+  /// all frames. Throws RequestError for them if the map gives each number a colour of its own.
   void set_numbers(const NumberFile& numbers);
   /// Applies this map, range and colour of missing numbers also to rules that colour by a number.
   void share_scale();
@@ -103,7 +103,7 @@ struct ColorRule {
 
 /// The description of a scheme for users.
 struct ColorSchemeMetadata {
-  std::string_view word;  ///< for --color
+  std::string_view word;  ///< word for --color
   ColorScheme::By by;
   std::string_view description;
   std::string_view source;  ///< source of its colours or numbers; empty if it needs none
@@ -124,8 +124,7 @@ std::optional<ColorScheme> parse_color_scheme(std::string_view text);
 /// Formats a scheme without its rules as parse_color_scheme reads it: a word, or "#rrggbb".
 std::string scheme_word(const ColorScheme& color);
 
-/// Returns all words that parse_color_scheme reads, for messages: "auto, element, ..., a name such as red, or
-/// #rrggbb".
+/// Returns all words that parse_color_scheme reads, for messages: "auto, ..., a name such as red, or #rrggbb".
 std::string color_scheme_words();
 
 /// Parses "EXPR=red", split at the last "=", with the part after it as in parse_color_scheme. Throws RequestError for

@@ -35,8 +35,7 @@ struct Coloring {
   /// of this atom cover. 0 is the same as hidden.
   std::vector<float> opacity{};
 
-  /// Empty, or the part of each of Surface::atoms, such as its chain: pictures with silhouettes have lines between
-  /// parts.
+  /// Empty, or the part of each of Surface::atoms, such as its chain: silhouettes have lines between parts.
   std::vector<std::uint32_t> part{};
 
   /// Empty, or true for each of Surface::atoms with an outlined patch: pictures have lines on the surface where points

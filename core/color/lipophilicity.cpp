@@ -94,10 +94,10 @@ constexpr double kAmmonium = -1.3074, kAmmoniumOfProline = -1.5216, kCarboxylate
 /// The numbers of neighbours of an atom.
 struct Neighbours {
   std::uint8_t heavy = 0, hydrogens = 0, oxygens = 0;  ///< oxygens: those without another neighbour
-  bool of_other_residue = false;                       ///< at least one
+  bool of_other_residue = false;                       ///< true if at least one is of another residue
 };
 
-/// bonds: in both directions.
+/// `bonds` has each bond in both directions.
 std::vector<Neighbours> neighbours_of(const std::vector<Atom>& atoms, const std::vector<Bond>& bonds) {
   std::vector<Neighbours> all(atoms.size());
   for (const auto& [own, other] : bonds) {
@@ -128,7 +128,7 @@ class Decay {
   }
 
  private:
-  static constexpr std::size_t kPlaces = 128;  // per Å²
+  static constexpr std::size_t kPlaces = 128;  // number per Å²
   std::array<double, static_cast<std::size_t>(kReach* kReach) * kPlaces + 2> values_{};
 };
 

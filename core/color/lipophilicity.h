@@ -32,8 +32,7 @@ ColorScale lipophilicity_scale(const ColorScheme& scheme);
 
 /// Returns the potential of the atoms used, with its colours: at a point the sum of lipophilicity times exp(-d) over
 /// all atoms at d Å (J.-L. Fauchère, P. Quarendon and L. Kaetterer, J. Mol. Graph. 6, 203 (1988)), up to 8 Å. The grid
-/// around the molecule has steps of 0.5 Å, or larger ones for huge molecules. Throws InputError if there are no amino
-/// acids.
+/// around the molecule has steps of 0.5 Å, or larger ones for huge molecules. Throws InputError without amino acids.
 std::shared_ptr<const VolumePaint> lipophilicity_paint(const Structure& structure, const ColorScheme& scheme);
 
 }  // namespace meniscus

@@ -28,9 +28,9 @@ const std::map<std::uint8_t, std::uint32_t> kElements{
     {15, 0xf08a24}, {16, 0xe8c93a}, {17, 0x3fae49}, {19, 0x7d3fb0}, {20, 0x6fa35f}, {25, 0x9c7ac7}, {26, 0xc86a2f},
     {27, 0xdb8aa0}, {28, 0x5fb08c}, {29, 0xc58032}, {30, 0x7d80b0}, {34, 0xd99a1e}, {35, 0x9b3b2a}, {53, 0x7a2a8c}};
 constexpr std::uint32_t kOtherElement = 0xd070b0;
-constexpr std::uint32_t kUnknownElement = 0xc4c4c4;  // for XYZR, which has no elements
+constexpr std::uint32_t kUnknownElement = 0xc4c4c4;  // XYZR has no elements
 
-// By chemistry, in Okabe and Ito's colours.
+// These groups follow chemistry, in Okabe and Ito's colours.
 constexpr ResidueGroup kResidueGroups[] = {{0xd55e00, "acidic", " ASP GLU ASH GLH "},
                                            {0x0072b2, "basic", " ARG LYS HIS HID HIE HIP HSD HSE HSP LYN "},
                                            {0x56b4e9, "polar", " ASN GLN SER THR "},
@@ -95,7 +95,7 @@ struct CssColor {
   std::uint32_t hex;
 };
 
-// Sorted by name, for binary search.
+// These are sorted by name for binary search.
 constexpr CssColor kCssColors[] = {{"aliceblue", 0xf0f8ff},
                                    {"antiquewhite", 0xfaebd7},
                                    {"aqua", 0x00ffff},

@@ -30,8 +30,7 @@ glm::vec3 categorical_color(std::size_t n);
 /// paler; then all of them again.
 glm::vec3 chain_color(std::size_t n);
 
-/// Returns the colour by atomic number in the space-filling models of R. B. Corey, L. Pauling and W. L. Koltun; 0:
-/// unknown.
+/// Returns an element's colour in the space-filling models of R. B. Corey, L. Pauling and W. L. Koltun; 0: unknown.
 glm::vec3 cpk_color(std::uint8_t element);
 
 /// Returns the same hue paler, with carbon #c8c8c8: dark colours on white would hide shade and lines.

@@ -88,7 +88,7 @@ namespace {
 
 constexpr Row kOther{"other", 0xb4b4b4}, kWhiteHalf{"white half", 0xf5f5f5};
 
-// In the order of BeadClass.
+// The order of these rows is that of BeadClass.
 constexpr std::array<Row, 6> kBeads{{{"charged", 0xd55e00},
                                      {"polar", 0x56b4e9},
                                      {"intermediate", 0x009e73},

@@ -9,7 +9,6 @@ namespace meniscus {
 
 struct Structure;
 
-/// A name and its colour.
 struct ColorClass {
   std::string name;  ///< may come from a molecule file
   glm::vec3 color{0.0f};

@@ -17,8 +17,7 @@
 namespace meniscus {
 namespace {
 
-/// Rounds up to whole 16-byte rows, for fill() and vec4 arrays. An empty buffer also gets memory, so that it can be
-/// bound.
+/// Rounds up to whole 16-byte rows, for fill() and vec4 arrays. Empty buffers get memory, too, to be bound.
 std::size_t in_rows(std::size_t byte_count) { return byte_count < 16 ? 16 : (byte_count + 15) / 16 * 16; }
 
 std::atomic<std::uint64_t> allocations = 0;

@@ -9,8 +9,7 @@
 
 namespace meniscus {
 
-/// A storage buffer. Its memory is undefined until uploaded, filled or written by a kernel. A GL context must be
-/// current.
+/// A storage buffer. Its memory is undefined until it is written. A GL context must be current.
 class Buffer {
  public:
   Buffer() = default;
@@ -66,8 +65,7 @@ class Buffer {
   void bind(std::uint32_t binding) const;
   /// Returns the GL name, for dispatch_indirect().
   std::uint32_t gl_name() const { return name_; }
-  /// Returns a number for the buffer's memory: a new one after each allocation of any buffer, 0 for none. GL names are
-  /// reused.
+  /// Returns a number for the buffer's memory: a new one after each allocation, 0 for none. GL names are reused.
   std::uint64_t memory() const { return memory_; }
 
   void write(std::size_t byte_offset, const void* bytes, std::size_t byte_count);

@@ -13,7 +13,7 @@ namespace meniscus {
 namespace {
 
 constexpr std::string_view kUuidPrefix = "gpu-";
-constexpr std::size_t kShortestUuid = 8;  // in digits
+constexpr std::size_t kShortestUuid = 8;  // number of digits
 
 std::optional<int> parse_index(std::string_view text) {
   int index = -1;

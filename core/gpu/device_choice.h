@@ -24,7 +24,7 @@ struct DeviceChoice {
   /// The value of CUDA_VISIBLE_DEVICES, if set: the visible NVIDIA GPUs in order, by CUDA's index or by UUID. As in
   /// CUDA, entries after an invalid one are ignored. GPUs of other vendors follow.
   std::optional<std::string> cuda_visible{};
-  /// The folder for kernels as the driver has compiled them (kernel_files.h); empty: none.
+  /// The folder for kernels as the driver has compiled them (KernelFiles); empty: none.
   std::string kernel_folder{};
   /// The number of this worker: among several suitable GPUs, worker k takes number k first, modulo their count.
   int worker = 0;
@@ -35,12 +35,11 @@ struct GlDevice {
   int egl_index = 0;              ///< index in EGL's own list
   bool software = false;          ///< according to EGL; the renderer may still turn out to be software
   std::string name;               ///< driver file, or EGL's extension names; only for people
-  std::optional<int> cuda_index;  ///< for NVIDIA devices (EGL_NV_device_cuda)
-  std::string uuid;               ///< in CUDA's notation, "GPU-8a2d1c5e-..."; empty if EGL does not report it
+  std::optional<int> cuda_index;  ///< index of NVIDIA devices (EGL_NV_device_cuda)
+  std::string uuid;               ///< UUID in CUDA's notation, "GPU-8a2d1c5e-..."; empty if EGL does not report it
   std::string pci;                ///< "0000:3b:00.0"; empty if the system does not report it
 };
 
-/// A device to try.
 struct DeviceAttempt {
   GlDevice device;
   bool hardware_only = false;  ///< true if a software renderer is to be rejected

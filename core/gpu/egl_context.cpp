@@ -122,7 +122,7 @@ void KernelFiles::save(std::uint32_t program, const std::string& name, std::stri
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
     if (!file.flush()) failed = std::make_error_code(std::errc::io_error);
   }
-  // Not synced: damage by a crash of the machine is found by the checksum.
+  // The file is not synced, because the checksum finds damage by a crash of the machine.
   if (!failed) std::filesystem::rename(temporary, path, failed);
   if (failed) std::filesystem::remove(temporary, ignored);
 }
@@ -243,7 +243,7 @@ bool EglContext::try_device(const DeviceAttempt& attempt, const std::string& ker
   const std::array<EGLint, 3> config_attributes{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint config_count = 0;
-  // Surfaceless: any config with OpenGL is suitable, and none is needed if EGL_KHR_no_config_context is offered.
+  // Without a surface any config with OpenGL is suitable, and none is needed if EGL_KHR_no_config_context is offered.
   if (!eglChooseConfig(display, config_attributes.data(), &config, 1, &config_count) || config_count == 0)
     config = nullptr;
   // If the driver notifies of resets, work that a reset destroyed is known to be lost.

@@ -16,8 +16,8 @@ namespace meniscus {
 /// older ones.
 class KernelFiles {
  public:
-  /// For the context current on this thread. The folder is made with its first file. Nothing is kept if the driver
-  /// provides no binaries.
+  /// Keeps the kernels of the context current on this thread. The folder is made with its first file. Nothing is kept
+  /// if the driver provides no binaries.
   explicit KernelFiles(std::filesystem::path folder);
   ~KernelFiles();
   KernelFiles(const KernelFiles&) = delete;

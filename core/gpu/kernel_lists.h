@@ -21,7 +21,6 @@ class AppendList {
   /// Returns an upper limit of the number of records: their count, or, while that is open, the capacity.
   std::uint32_t most() const { return open_ ? capacity_ : count_; }
   std::uint32_t capacity() const { return capacity_; }  ///< records that the buffer has room for, once make_room() ran
-  /// Removes all records.
   void clear() { count_ = 0, open_ = false; }
   /// Makes the buffer as large as the capacity, and keeps the records. Throws CapacityError.
   void make_room();
@@ -29,8 +28,8 @@ class AppendList {
   bool fits(std::uint32_t counted);
   /// Sets the count that a kernel reported; it must fit.
   void set_count(std::uint32_t counted) { last_ = count_ = counted, open_ = false; }
-  /// Marks the count as open: a kernel appends, and the host reads the count later; it may be as last time and somewhat
-  /// more.
+  /// Marks the count as open: a kernel appends, and the host reads the count later, which may be somewhat above that of
+  /// last time.
   void leave_open() {
     capacity_ = last_ + last_ / 8 + 64;
     open_ = true;
@@ -75,7 +74,7 @@ void append_later(std::initializer_list<AppendList*> lists, Buffer& counters, st
 /// Sets the counts from the words of `counters` that were read back; false if some record had no place.
 bool take_list_counts(std::initializer_list<AppendList*> lists, std::span<const std::uint32_t> counted);
 
-/// How invocations share a sum; the result is the same.
+/// The way in which invocations share a sum; the result is the same.
 enum class ScanKind {
   serial,   ///< kernel "parallel/scan": each invocation adds up a chunk, faster on software GL
   parallel  ///< kernel "parallel/block_scan": groups add up together, faster on a GPU

@@ -22,7 +22,7 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// Sets a uniform block from one of the structs of kernel_parameters.h; it stays set until the next call. Throws
+  /// Sets a uniform block from one of the structs of kernel_records.h; it stays set until the next call. Throws
   /// GpuError if the kernel has no block at this binding, or one of another size.
   template <typename T>
   void set(const T& parameters, int binding = 0) const {
@@ -31,9 +31,8 @@ class Program {
   }
 
   /// Starts `group_count` groups. Counts above the driver's limit along x are folded into a rectangle, so kernels must
-  /// use linear_group_index() of gpu_shaders/shared/dispatch.glsl and ignore indices past the end. A full barrier
-  /// for storage follows. `longest_row` is for tests: 0 means the driver's limit. Throws GpuError if a block was never
-  /// set.
+  /// use linear_group_index() of gpu_shaders/shared/dispatch.glsl and ignore indices past the end. A full barrier for
+  /// storage follows. longest_row: for tests; 0: the driver's limit. Throws GpuError if a block was never set.
   void dispatch(std::size_t group_count, std::uint32_t longest_row = 0) const;
   /// Starts groups in a plane, without folding.
   void dispatch_2d(std::uint32_t x, std::uint32_t y) const;
@@ -45,7 +44,7 @@ class Program {
   struct Block {
     std::uint32_t binding = 0;
     std::uint32_t buffer = 0;        ///< GL name; 0 if it was never set
-    std::vector<std::byte> content;  ///< as long as the kernel's block
+    std::vector<std::byte> content;  ///< its length is that of the kernel's block
   };
 
   void compile(const ShaderSource& source);

@@ -15,7 +15,7 @@ namespace meniscus {
 /// Name and value of a preprocessor symbol.
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
-/// Returns the text of a path such as "gpu_shaders/geometry/ray_torus.glsl"; nothing if there is no such file.
+/// A function that returns the text of a path such as "gpu_shaders/geometry/ray_torus.glsl"; nothing if it is unknown.
 using ShaderFinder = std::function<std::optional<std::string_view>(std::string_view path)>;
 
 /// A shader with its includes expanded.
@@ -38,11 +38,11 @@ ShaderSource expand_embedded_shader(std::string_view path, const ShaderDefines& 
 std::string translate_shader_log(std::string_view log, const std::vector<std::string>& files);
 
 struct EmbeddedShader {
-  std::string_view path;  ///< from the repository root: "gpu_shaders/..."
+  std::string_view path;  ///< path from the repository root: "gpu_shaders/..."
   std::string_view text;
 };
 
-/// All shaders, sorted by path.
+/// Returns all shaders, sorted by path.
 std::span<const EmbeddedShader> embedded_shaders();
 
 }  // namespace meniscus

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that the GPU did its work: compares the groups that were started with those that reached the end of their
-// kernel.
+// Proves that the GPU did its work: compares the groups that were started with the groups that reached their end.
 #pragma once
 
 #include <cstddef>

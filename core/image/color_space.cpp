@@ -30,7 +30,7 @@ const std::array<float, 8>& chromaticities(Primaries primaries) {
 }
 
 glm::vec3 from_rec709(const glm::vec3& color, Primaries primaries) {
-  // Computed from the chromaticities above and Lam & Rigg's "Bradford" adaptation from D65; OpenColorIO's
+  // This matrix follows from the chromaticities above and Lam & Rigg's "Bradford" adaptation from D65; OpenColorIO's
   // configurations for ACES have the same numbers. Columns are red, green and blue.
   static const glm::mat3 kAp1(0.6130974024f, 0.0701937225f, 0.0206155929f, 0.3395231462f, 0.9163538791f, 0.1095697729f,
                               0.0473794514f, 0.0134523985f, 0.8698146342f);
@@ -125,7 +125,7 @@ void layout_bytes(std::span<const glm::vec4> pixels, std::uint8_t* bytes) {
   const auto is_partly_covered = [](const glm::vec4& pixel) { return !(pixel.w <= 0.0f || pixel.w >= 1.0f); };
   for (auto pixel = pixels.begin(); pixel != pixels.end();) {
     const auto end = std::find_if(pixel, pixels.end(), is_partly_covered);
-    display_bytes({pixel, end}, {}, 4, bytes);  // for most pixels both are alike
+    display_bytes({pixel, end}, {}, 4, bytes);  // both are alike for most pixels
     bytes += 4 * (end - pixel);
     for (pixel = end; pixel != pixels.end() && is_partly_covered(*pixel); ++pixel) {
       const glm::vec4 color = layout_color(*pixel);

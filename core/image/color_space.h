@@ -52,7 +52,7 @@ glm::vec4 layout_color(const glm::vec4& pixel);
 /// Converts a channel in [0, 1] to the nearest byte, 0 to 255, as in PNG files.
 std::uint8_t display_byte(float channel);
 
-/// Writes the bytes of display_color() of pixels, with or without alpha: 4 or 3 channels. Uses a table instead of
+/// Writes the bytes of display_color() of pixels, with or without alpha: 4 or 3 channels. It uses a table instead of
 /// powers.
 void display_bytes(std::span<const glm::vec4> pixels, const std::optional<glm::vec3>& background, std::size_t channels,
                    std::uint8_t* bytes);

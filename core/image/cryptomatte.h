@@ -16,7 +16,7 @@ namespace meniscus {
 std::uint32_t murmur_hash(std::string_view bytes);
 
 /// Returns the bits of the float that encodes a name: its hash, with the lowest bit of the exponent flipped if the
-/// float would be denormal, infinite or not a number. Never 0.
+/// float would be denormal, infinite or not a number. The result is never 0.
 std::uint32_t matte_id(std::string_view name);
 
 /// A layer of mattes: the names by which a compositor picks chains, residues or atoms.

@@ -40,7 +40,7 @@ struct ImageToEncode {
   std::string scene;                            ///< the scene of the picture (JSON); "" for none
   std::string made_of;                          ///< PNG: kMadeOfNote; "" for none
   std::string date;                             ///< "YYYY:MM:DD HH:MM:SS", in EXR and TIFF; "" for none
-  double dots_per_inch = 0.0;                   ///< in EXR and TIFF; 0 for none
+  double dots_per_inch = 0.0;                   ///< resolution in EXR and TIFF; 0 for none
   std::span<const std::uint8_t> color_profile;  ///< ICC; empty for none
 
   // Further attributes of the header of EXR files.

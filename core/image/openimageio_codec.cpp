@@ -157,7 +157,7 @@ class OpenImageIOCodec final : public ImageCodec {
 extern "C" __attribute__((visibility("default"))) const meniscus::ImageCodec* meniscus_image_codec(
     const char* version, std::size_t image_size) {
   static const meniscus::OpenImageIOCodec codec;
-  OIIO::attribute("debug", 0);  // otherwise it prints on stderr what it omits
+  OIIO::attribute("debug", 0);  // it would print on stderr what it omits
   return version == std::string_view(MENISCUS_VERSION) && image_size == sizeof(meniscus::ImageToEncode) ? &codec
                                                                                                         : nullptr;
 }

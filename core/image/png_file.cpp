@@ -23,8 +23,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr int kUsualLevel = 4;  // takes half the time of 6, with files three per cent larger
 
-/// Returns a part of such a stream that ends at a whole byte; matches may refer to `before`, too. It uses zlib, because
-/// libdeflate makes only whole streams.
+/// Returns a part of a stream in zlib's format that ends at a whole byte; matches may refer to `before`, too. It uses
+/// zlib, because libdeflate makes only whole streams.
 Bytes compressed_part(std::span<const std::uint8_t> part, std::span<const std::uint8_t> before, bool is_last,
                       int level) {
   constexpr int kNoHeader = -15, kMostMemory = 9;
@@ -152,7 +152,7 @@ void add_resolution(Bytes& file, double dots_per_inch) {
 
 /// Appends the sizes, then the meaning of sRGB: its gamma and primaries.
 void add_header(Bytes& file, const ImageToEncode& image) {
-  constexpr std::array<std::uint8_t, 5> kColorType{0, 0, 4, 2, 6};  // by number of channels
+  constexpr std::array<std::uint8_t, 5> kColorType{0, 0, 4, 2, 6};  // one for each number of channels
   Bytes header;
   add_word(header, static_cast<std::uint32_t>(image.width));
   add_word(header, static_cast<std::uint32_t>(image.height));
@@ -203,7 +203,7 @@ std::size_t sum_of_differences(const Bytes& bytes) {
 struct Row {
   const std::uint8_t* bytes;
   const std::uint8_t* above;
-  std::size_t size, pixel;  // in bytes
+  std::size_t size, pixel;  // bytes
 };
 
 /// Takes the row by value, because written bytes might otherwise alias it.
@@ -368,7 +368,7 @@ bool ends_as_png(const std::filesystem::path& path) {
 
 std::optional<std::string> png_without_time(std::string_view file) {
   constexpr std::array<std::string_view, 4> kDropped{"tIME", "tEXt", "zTXt", "iTXt"};
-  constexpr std::size_t kAround = 12;  // bytes of a chunk besides its data: length, type, CRC
+  constexpr std::size_t kAround = 12;  // bytes of a chunk in addition to its data: length, type, CRC
   if (!file.starts_with(kSignature)) return {};
   std::string result(kSignature);
   file.remove_prefix(kSignature.size());

@@ -27,8 +27,8 @@ void add_chunk(std::vector<std::uint8_t>& file, std::string_view type, std::span
 class PngStream {
  public:
   using Write = std::function<void(std::span<const std::uint8_t> bytes)>;
-  /// size: of all rows in bytes. Up to `together` bytes are compressed as one stream, more in pieces. level: up to 9,
-  /// negative for the default. Throws CapacityError if there is not enough memory to compress.
+  /// size: size of all rows in bytes. Up to `together` bytes are compressed as one stream, more in pieces. level: up to
+  /// 9, negative for the default. Throws CapacityError if there is not enough memory to compress.
   PngStream(const Write& write, std::size_t size, std::size_t together, int level);
 
   /// Returns room for filtered rows, which must be written before the next call.
@@ -74,7 +74,7 @@ class PngEncoder {
   void filter(std::span<const std::uint8_t> rows);
 
   Write write_;
-  std::size_t pixel_, row_size_;  // in bytes
+  std::size_t pixel_, row_size_;  // bytes
   bool averages_;
   std::vector<std::uint8_t> last_row_;  // zeros above the first row
   std::unique_ptr<PngStream> stream_;

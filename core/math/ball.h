@@ -46,8 +46,7 @@ class BallGrid {
     build(centers.size(), spacing, [&](std::size_t n) { return centers[n]; });
   }
 
-  /// Calls visit(index) for every ball whose centre is within `reach` (Å) of `point`. A centre at exactly this distance
-  /// counts.
+  /// Calls visit(index) for every ball whose centre is within `reach` (Å) of `point`. This distance itself counts.
   template <typename Visit>
   void for_each_near(const glm::dvec3& point, double reach, Visit&& visit) const {
     any_near(point, reach, [&](std::uint32_t ball) {
@@ -83,8 +82,7 @@ class BallGrid {
       }
   }
 
-  /// The indices of the balls, cell by cell. Neighbours in this order are close to each other in space and in the
-  /// cache.
+  /// Returns the indices of the balls, cell by cell. Neighbours in this order are close in space and in the cache.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
  private:

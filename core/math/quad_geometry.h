@@ -80,9 +80,9 @@ class Binary128 {
     const Wide low_mask = ~std::uint64_t{0};
     const Wide a0 = a.fraction_ & low_mask, a1 = a.fraction_ >> 64, b0 = b.fraction_ & low_mask, b1 = b.fraction_ >> 64;
     const Wide low = a0 * b0, middle = a1 * b0 + (low >> 64), other = a0 * b1 + (middle & low_mask);
-    const Wide high = a1 * b1 + (middle >> 64) + (other >> 64);  // in units of 2^128; it has at most 98 bits
+    const Wide high = a1 * b1 + (middle >> 64) + (other >> 64);  // the unit is 2^128; the number has at most 98 bits
     const Wide rest = other << 64 | (low & low_mask);
-    constexpr int kUp = 29;  // after the shift 127 of the 128 bits are used
+    constexpr int kUp = 29;  // 127 of the 128 bits are used after the shift
     return rounded(negative, high << kUp | rest >> (128 - kUp), a.exponent_ + b.exponent_ + 128 - kUp,
                    rest << kUp != 0);
   }

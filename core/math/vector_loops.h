@@ -42,8 +42,7 @@ namespace meniscus {
 namespace detail {
 
 struct SetBits {
-  std::array<std::array<std::uint8_t, 8>, 256>
-      place{};  // for each byte the places of its bits that are set, in ascending order
+  std::array<std::array<std::uint8_t, 8>, 256> place{};  // ascending places of the bits that are set, for each byte
   std::array<std::uint8_t, 256> count{};
 };
 

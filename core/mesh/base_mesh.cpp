@@ -13,8 +13,7 @@
 namespace meniscus {
 namespace {
 
-/// The range of the tolerance (Å) of patch-aligned meshes, which are a scaffold: within it, it follows that of the
-/// result.
+/// Patch-aligned meshes are a scaffold. Their tolerance (Å) follows that of the result within this range.
 constexpr double kFinest = 1e-4, kCoarsest = 0.4;
 constexpr int kTries = 4;
 /// The angle (radian) of arcs that become one edge where contact faces become points.

@@ -13,7 +13,6 @@ struct BaseMesh {
   std::vector<std::uint32_t> vertex_face;  ///< per vertex: index into Surface::faces of a face that it lies on
 };
 
-/// The kinds of base meshes.
 enum class BaseMeshKind : std::uint8_t {
   contracted,  ///< contracted_mesh(): contact faces are contracted to points
   coarse,      ///< coarse_mesh(): the fewest triangles for all faces

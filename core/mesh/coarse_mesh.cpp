@@ -65,7 +65,7 @@ class CoarseMeshing {
 
  private:
   enum class Cut : std::uint8_t { none, triangle, diagonal, fan, filled };
-  /// How a face is cut, and where its rows begin.
+  /// The way in which a face is cut, and the places where its rows begin.
   struct Part {
     Cut cut = Cut::none;
     std::uint8_t diagonal = 0;  ///< the corner that the diagonal begins at
@@ -121,7 +121,7 @@ class CoarseMeshing {
     const FaceCorners corners = corners_of(face);
     Part part;
     part.corners = static_cast<std::uint32_t>(corners.size());
-    if (corners.size() < 3) return part;  // shrunk to a point or to one line
+    if (corners.size() < 3) return part;  // the face has shrunk to a point or to one line
     if (corners.size() == 3) {
       part.cut = Cut::triangle;
       return part;
@@ -140,8 +140,7 @@ class CoarseMeshing {
     return saddle_fan(f, part, at);
   }
 
-  /// Cuts a face on a sphere as a fan. Seen from the centre, the fan must turn around its middle, which must lie on the
-  /// face.
+  /// Cuts a face on a sphere as a fan. Seen from the centre, the fan must turn around its middle, a point of the face.
   std::optional<Part> sphere_fan(std::uint32_t f, Part part, std::vector<glm::dvec3>& at) const {
     const Face& face = surface_.faces[f];
     const bool convex = face.kind == PatchKind::convex;

@@ -16,7 +16,7 @@ constexpr int kMostPasses = 8;
 /// Cuts the triangles of one face along its colour lines.
 class ColorCutter {
  public:
-  /// scores: of each point, one per contact; the largest wins.
+  /// `scores` has one score for each contact at each point; the contact with the largest score wins there.
   ColorCutter(FaceMesh& mesh, std::size_t contacts, std::vector<double> scores)
       : mesh_(mesh), contacts_(contacts), scores_(std::move(scores)) {
     for (const auto& edge : mesh.rim_edges)
@@ -44,8 +44,7 @@ class ColorCutter {
     const std::span<const double> s = scores(vertex);
     return s[contact] >= *std::max_element(s.begin(), s.end()) - kTie;
   }
-  /// Returns a contact that wins at all of these vertices, and so between them, as scores are linear on a flat
-  /// triangle.
+  /// Returns a contact that wins at all of these vertices, and so between them, because scores are linear.
   std::optional<std::size_t> shared_winner(std::initializer_list<std::uint32_t> vertices) const {
     for (std::size_t c = 0; c < contacts_; ++c) {
       if (std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return wins(v, c); })) return c;
@@ -63,7 +62,7 @@ class ColorCutter {
     }
     double best = sum[*tied.begin()];
     for (std::size_t c : tied) best = std::max(best, sum[c]);
-    for (std::size_t c : tied) sum[c] = best;  // equal but for rounding
+    for (std::size_t c : tied) sum[c] = best;  // they are equal except for rounding
     mesh_.points.push_back(
         mesh_.domain->between({&mesh_.points[v[0]], &mesh_.points[v[1]], &mesh_.points[v[2]]}, weight));
     return index;
@@ -74,7 +73,7 @@ class ColorCutter {
     const auto [at, fresh] = crossings_.try_emplace({a, b}, 0);
     if (fresh) {
       const std::span<const double> from = scores(a), to = scores(b);
-      std::size_t first = 0;  // of the contacts that win at a, the one that wins just after it
+      std::size_t first = 0;  // the contact that wins just after a; it wins at a, too
       for (std::size_t c = 1; c < from.size(); ++c) {
         if (wins(a, c) && (!wins(a, first) || to[c] > to[first])) first = c;
       }

@@ -17,8 +17,7 @@ namespace meniscus {
 /// `surface`; none are hidden.
 std::vector<std::string> differences(const Surface& surface, const TriangleMesh& mesh);
 
-/// The triangle nearest to a point, and its distance in Å. `triangle` is the number of triangles if none is near
-/// enough.
+/// The triangle nearest to a point, and its distance in Å. `triangle` is the number of triangles if none is near.
 struct NearestTriangle {
   std::uint32_t triangle;
   double distance;

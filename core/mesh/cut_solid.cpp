@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kAttempts = 9;
 constexpr double kNudge = 1e-6;     // Å by which the plane moves from one attempt to the next
-constexpr double kLargestCell = 8;  // the largest lattice cells around borders of parts, in the smallest ones
+constexpr double kLargestCell = 8;  // largest lattice cells around borders of parts, in units of the smallest
 constexpr int kBorderSteps = 40;    // bisections that locate a border
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -81,7 +81,7 @@ class PlaneGrid {
   double scale_ = 1.0;
 };
 
-/// Cuts by one plane what the earlier planes have left.
+/// Cuts the solid that earlier planes have left by one more plane.
 class Cutter {
  public:
   Cutter(const Solid& solid, const ClipPlane& plane, std::uint32_t number, const CapAtoms& atoms, double border_length)
@@ -170,7 +170,7 @@ class Cutter {
     }
   }
 
-  /// Merges the vertices at each grid point, and removes what has no area left.
+  /// Merges the vertices at each grid point, and removes the triangles and edges that this degenerates.
   void weld(const PlaneGrid& grid) {
     std::vector<std::tuple<std::int64_t, std::int64_t, std::uint32_t>> order;
     for (std::uint32_t v = first_cut(); v < result_.positions.size(); ++v) {
@@ -196,8 +196,7 @@ class Cutter {
     std::erase_if(result_.sharp_edges, [](const auto& edge) { return edge[0] == edge[1]; });
   }
 
-  /// Removes segments that are traversed in both directions, as these enclose nothing. Returns false if a segment
-  /// occurs twice.
+  /// Removes segments traversed in both directions, which enclose nothing. Returns false if a segment occurs twice.
   bool keep_single_segments() {
     std::ranges::sort(segments_);
     if (std::ranges::adjacent_find(segments_) != segments_.end()) return false;
@@ -216,7 +215,7 @@ class Cutter {
     std::vector<std::tuple<std::int64_t, std::int64_t, std::uint32_t>> order;
     for (const auto& [v, unused] : place) {
       const GridPoint at = grid.at(result_.positions[v]);
-      // Row by row, to and fro, so that each point is near the last.
+      // Points are inserted row by row, to and fro, so that each is near the last.
       order.emplace_back(at.y >> 23, (at.y >> 23) % 2 == 0 ? at.x : -at.x, v);
     }
     std::ranges::sort(order);
@@ -264,8 +263,7 @@ class Cutter {
     if (place && *place == static_cast<int>(vertex_.size())) vertex_.push_back(add_vertex(point, plane_.normal));
   }
 
-  /// Adds the triangles of the section, cut where parts are equally near, and cuts the triangles that share edges with
-  /// them.
+  /// Adds the triangles of the section, cut where parts are equally near, and cuts the adjacent triangles.
   void add_caps(const PlanarTriangulation& plane) {
     std::vector<std::uint32_t> atom(vertex_.size(), kNone);
     EdgeVertices borders;
@@ -369,7 +367,7 @@ class Cutter {
   Solid result_;
   std::vector<double> height_;  // per vertex of solid_: its height (Å) over the plane
   EdgeVertices cuts_;
-  // Directed: the solid is on their left, seen from where it was cut away.
+  // The directed edges of the section: the solid is on their left, seen from where it was cut away.
   std::vector<std::array<std::uint32_t, 2>> segments_;
   std::vector<std::uint32_t> vertex_;  // per vertex of the triangulation: its vertex in the result
 };

@@ -83,7 +83,7 @@ std::vector<std::uint32_t> triangles_of(const std::vector<PointAtTriangle>& poin
   return triangles;
 }
 
-/// Returns the ball that holds a triangle and what is as near to it as its longest edge is long.
+/// Returns a ball that contains a triangle and all points that are nearer to it than its longest edge is long.
 Ball ball_around(const PlacedTriangle& t) {
   const glm::dvec3 middle = (t.at[0] + t.at[1] + t.at[2]) / 3.0;
   double reach = 0.0, longest = 0.0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes a closed mesh of nearly equilateral triangles of an exact surface, at any density down to a few triangles
-// per atom.
+// Computes a closed mesh of nearly equilateral triangles of an exact surface, at any density.
 #pragma once
 
 #include "core/mesh/remesh_tuning.h"

@@ -17,7 +17,7 @@ namespace {
 /// Segments shorter than this (Å) are not halved further to untangle a rim.
 constexpr double kShortestSegment = 1e-6;
 constexpr int kRefinementRounds = 12;
-constexpr int kPartingRounds = 32;  // to split doubled edges: each round halves some, and one or two are usual
+constexpr int kPartingRounds = 32;  // greatest number of rounds that split doubled edges; one or two are usual
 constexpr int kManyRimPoints = 200;
 constexpr int kBoxCorners = 4;
 
@@ -237,7 +237,7 @@ void split_doubled_edges(FaceMesh& mesh) {
   int round = 0;
   for (bool again = true; again; ++round) {
     if (round == kPartingRounds) throw OpenSurfaceError("edges of the mesh coincide; give another tolerance");
-    std::map<Edge, Edge> seen;  // by the names of its ends: the first edge found
+    std::map<Edge, Edge> seen;  // key: names of its ends; value: the first edge found
     for (const auto& [a, b] : rim) seen.try_emplace(ordered(named(a), named(b)), Edge(a, b));
     std::set<Edge> doubled;
     for (const auto& t : mesh.triangles) {

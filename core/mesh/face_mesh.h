@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangulation of one face between samples of its borders: conformal maps to the plane, outlines, interior points
-// and triangles.
+// The triangulation of one face between samples of its borders: conformal maps, outlines, points and triangles.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -16,8 +15,7 @@ struct SphereLattice {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Returns the directions of an icosahedron with each edge divided into `frequency` >= 1 parts: 10 frequency^2 + 2 of
-/// them.
+/// Returns the directions of an icosahedron with each edge divided into `frequency` >= 1 parts: 10 frequency^2 + 2.
 SphereLattice sphere_lattice(int frequency);
 
 /// Returns the smallest frequency with edges of at most `angle` radian.
@@ -148,11 +146,9 @@ FaceOutline torus_outline(const Surface& surface, const Face& face, const Border
 /// Triangulates an outline to within the tolerance (Å).
 FaceMesh fill_outline(FaceOutline outline, double tolerance);
 
-/// Triangulates an outline of one loop as a fan about its middle: the last resort for rims that meet themselves within
-/// rounding.
+/// Triangulates an outline of one loop as a fan about its middle: the last resort for rims that nearly meet themselves.
 FaceMesh fan_outline(FaceOutline outline);
 
-/// Returns the triangles of a whole sphere.
 FaceMesh whole_sphere(const Surface& surface, const Face& face, const SphereLattice& lattice);
 
 /// Splits inner edges until no two of them, and no inner edge and the rim, join the same two named points. This is

@@ -242,7 +242,7 @@ class TorusRim {
   struct Sample {
     BorderPoint name;
     FacePoint point;
-    Segment segment;  ///< from here to the next sample, in walking order
+    Segment segment;  ///< the segment between this and the next sample, in walking order
   };
   /// Returns a full contact circle in walking order, from the sample nearest to `near_theta`, with falling or rising
   /// theta; the first point is repeated at the end.
@@ -276,8 +276,7 @@ class TorusRim {
     }
     return samples;
   }
-  /// Adds the inner points of the seam from a to b at the given shares of the way; both sides of a seam have the same
-  /// names.
+  /// Adds the inner points of the seam from a to b at the given shares of the way; a seam's sides have the same names.
   void add_seam(glm::dvec2 a, glm::dvec2 b, const std::vector<double>& shares) {
     for (std::uint32_t i = 0; i < shares.size(); ++i) {
       const glm::dvec2 angles = a + (b - a) * shares[i];
@@ -291,8 +290,7 @@ class TorusRim {
       add({kSeam, i}, domain_->at(angles.x, angles.y), {});
     }
   }
-  /// Returns the shares of a seam's inner points: at most an edge length apart, and one where the nearest contact
-  /// changes.
+  /// Returns the shares of a seam's inner points: at most an edge apart, and one where the nearest contact changes.
   std::vector<double> seam_shares(double from, double to) const {
     const double step = rule_.edge(surface_.probe_radius);
     const double change = (0.5 * (angles_[0] + angles_[1]) - from) / (to - from);

@@ -10,8 +10,7 @@
 
 namespace meniscus {
 
-/// Lists the corners (3 * triangle + 0..2) at each vertex, ascending. The triangles need not form a closed mesh or a
-/// manifold.
+/// Lists the corners (3 * triangle + 0..2) at each vertex, ascending. The triangles need not form a manifold.
 class CornerLists {
  public:
   CornerLists(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t vertex_count);

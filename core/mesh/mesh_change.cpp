@@ -169,8 +169,7 @@ std::uint32_t Remesher::collapse_short() {
   return done;
 }
 
-/// Merges the first vertex of an edge into the second if no edge becomes too long and no triangle poor; returns true if
-/// it did.
+/// Merges the first vertex of an edge into the second if no edge becomes too long and no triangle poor; true if it did.
 bool Remesher::try_collapse(std::uint32_t half) {
   const HalfEdges& links = mesh_.links();
   const auto& position = mesh_.positions();

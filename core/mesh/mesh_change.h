@@ -25,7 +25,6 @@ struct TriangleExchange {
   std::vector<PlacedTriangle> made;
   std::vector<std::uint32_t> removed;
 };
-/// Returns the triangles that a change makes and removes.
 TriangleExchange exchange_by(const MeshOnSurface& mesh, const MeshChange& change);
 
 /// Calls visit(PlacedTriangle) for each triangle that a change makes.
@@ -117,8 +116,7 @@ std::optional<SurfacePoint> edge_middle(const MeshOnSurface& mesh, std::uint32_t
 /// Returns the midpoint of the two neighbours of a crease vertex along its crease; nothing unless there are two.
 std::optional<glm::dvec3> crease_middle(const MeshOnSurface& mesh, std::uint32_t vertex);
 
-/// Returns the mean of the centroids of the triangles around a vertex, weighted by area: the target of Lloyd's
-/// algorithm.
+/// Returns the mean of the centroids of the triangles around a vertex, weighted by area (Lloyd's target).
 glm::dvec3 centroid_around(const MeshOnSurface& mesh, std::uint32_t vertex);
 
 /// Returns the place to which one step of relaxation moves a vertex: part of the way to the centroid around it or, on a

@@ -98,8 +98,8 @@ std::vector<Curvature> smoothed_curvatures(const TriangleMesh& mesh, double radi
 /// Returns sky_visibility() at each vertex of a mesh of the surface.
 std::vector<float> vertex_open_sky(const Surface& surface, const TriangleMesh& mesh);
 
-/// Returns for each of Surface::atoms the mean of that over its triangles, weighted by area; 0 for atoms without
-/// triangles.
+/// Returns for each of Surface::atoms the mean visibility of the sky over its triangles, weighted by area; 0 for atoms
+/// without triangles.
 std::vector<double> atom_open_sky(const Surface& surface, const TriangleMesh& mesh);
 
 }  // namespace meniscus

@@ -27,8 +27,8 @@ double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, con
   return glm::dot(a - d, glm::cross(b - d, c - d));
 }
 
-/// True if the segment from p to q meets the triangle. `at_p` and `at_q` tell by their signs on which side of it its
-/// ends are.
+/// True if the segment from p to q meets the triangle. The signs of `at_p` and `at_q` show on which sides of the
+/// triangle's plane p and q are.
 bool passes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm::dvec3, 3>& t, double at_p,
                     double at_q) {
   if ((at_p > 0.0 && at_q > 0.0) || (at_p < 0.0 && at_q < 0.0) || (at_p == 0.0 && at_q == 0.0)) return false;
@@ -52,7 +52,7 @@ bool is_flat_fan(const HalfEdges& links, std::span<const glm::dvec3> positions, 
   });
   if (!faces_one_way) return false;
   const glm::dvec3 side = glm::cross(direction, positions[links.to(links.leaving(vertex))] - x);
-  int turns = 0;  // how often the fan goes over to this side
+  int turns = 0;  // number of times that the fan goes over to this side
   links.for_each_leaving(vertex, [&](std::uint32_t half) {
     const bool before = glm::dot(positions[links.to(half)] - x, side) < 0.0;
     turns += before && !(glm::dot(positions[links.opposite(half)] - x, side) < 0.0);
@@ -64,7 +64,7 @@ bool passes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<g
   return passes_through(p, q, t, volume(t[0], t[1], t[2], p), volume(t[0], t[1], t[2], q));
 }
 
-/// Returns, as signs, on which sides of a triangle's plane the corners of another triangle are.
+/// Returns numbers whose signs show on which side of a triangle's plane each corner of another triangle is.
 std::array<double, 3> sides_of(const std::array<glm::dvec3, 3>& triangle, const std::array<glm::dvec3, 3>& other) {
   const auto side = [&](const glm::dvec3& x) { return volume(triangle[0], triangle[1], triangle[2], x); };
   return {side(other[0]), side(other[1]), side(other[2])};
@@ -94,7 +94,6 @@ class CrossingSearch {
                       [&](std::size_t t) { boxes_[t] = placed(static_cast<std::uint32_t>(t)).box(); });
   }
 
-  /// Returns all crossing pairs.
   std::vector<Pair> run() {
     if (triangles_.empty()) return {};
     make_grid(triangles_.size());

@@ -95,8 +95,7 @@ struct PlacedTriangle {
   Box box() const { return {glm::min(glm::min(at[0], at[1]), at[2]), glm::max(glm::max(at[0], at[1]), at[2])}; }
 };
 
-/// True if two triangles have a point in common other than a shared vertex or edge. Decided by signs of volumes in
-/// double precision.
+/// True if two triangles have a point in common other than a shared vertex or edge. Signs of volumes decide.
 bool triangles_cross(const PlacedTriangle& a, const PlacedTriangle& b);
 
 /// Returns for each vertex of a closed mesh true if, seen from some direction, its triangles form one closed fan, all
@@ -110,8 +109,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing_triangles(
     std::span<const glm::dvec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
     std::span<const std::uint8_t> flat = {});
 
-/// Returns the pairs among these that contain one of the triangles `some` (ascending); faster if there are few such
-/// triangles.
+/// Returns the pairs among these that contain one of the triangles `some` (ascending); faster if these are few.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(
     std::span<const std::uint32_t> some, std::span<const glm::dvec3> positions,
     std::span<const std::array<std::uint32_t, 3>> triangles);
@@ -151,7 +149,7 @@ class CrossingGuard {
   std::uint64_t work() const { return work_; }
 
  private:
-  /// Bits that tell how a vertex is guarded.
+  /// The bits of guards_: whether a vertex is guarded until release(), or permanently.
   static constexpr std::uint8_t kPermanent = 1, kTemporary = 2;
   static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
   void mark(std::span<const Ball> places, std::uint8_t bits);

@@ -41,8 +41,7 @@ bool MeshMender::is_too_short(std::uint32_t half) const {
 /// which would otherwise remain slivers forever.
 bool MeshMender::may_merge(std::uint32_t half) const { return is_mergeable(mesh_, half) || is_too_short(half); }
 
-/// Returns the quality of a triangle with a placed vertex. If `steep`, triangles may lean almost at a right angle to
-/// the surface.
+/// Returns a triangle's quality with a placed vertex. If `steep`, triangles may lean almost upright on the surface.
 double MeshMender::quality(const PlacedTriangle& t, const PlacedVertex& placed, bool steep) const {
   const glm::dvec3 normal = glm::cross(t.at[1] - t.at[0], t.at[2] - t.at[0]);
   const double size = glm::length(normal);
@@ -243,8 +242,7 @@ MeshMender::Candidates MeshMender::repairing_changes(std::uint32_t triangle) con
   return candidates;
 }
 
-/// Sorts candidates, the best first, and keeps the first Tuning::checked_candidates; all candidates of a sliver are
-/// kept.
+/// Sorts candidates, the best first, and keeps the first Tuning::checked_candidates, or all of a sliver.
 void MeshMender::sort_candidates(Candidates& candidates, bool sliver) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.fewer_faults != b.fewer_faults ? a.fewer_faults > b.fewer_faults : a.gain > b.gain;

@@ -28,8 +28,7 @@ class MeshMender {
   void mend(std::span<const std::uint32_t> triangles);
   /// Does the same for these triangles only, and for those that replace them.
   void mend_only(std::span<const std::uint32_t> triangles);
-  /// Inserts vertices at these points, or moves vertices there, where nothing comes to cross by that; these vertices
-  /// are pinned.
+  /// Inserts vertices at these points, or moves vertices there, where nothing comes to cross; they are pinned.
   void insert_points(std::span<const PointAtTriangle> points);
 
  private:
@@ -42,7 +41,7 @@ class MeshMender {
   };
 
   struct Candidate {
-    std::ptrdiff_t fewer_faults;  ///< how many fewer faults remain after the change
+    std::ptrdiff_t fewer_faults;  ///< number of faults that the change removes
     double gain;                  ///< increase of the score
     MeshChange change;
   };

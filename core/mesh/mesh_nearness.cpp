@@ -14,8 +14,7 @@ using Tuning = RemeshTuning;
 
 namespace {
 
-/// Returns a key of three corners in any order, which triangles keep while their indices and their vertices' indices
-/// change.
+/// Returns a key of three corners in any order, which a triangle keeps while its indices change.
 std::uint64_t key_of(std::span<const glm::dvec3> positions, const std::array<std::uint32_t, 3>& triangle) {
   std::uint64_t key = 0;
   for (const std::uint32_t v : triangle) {

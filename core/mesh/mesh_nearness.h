@@ -34,8 +34,8 @@ class MeshNearness {
   /// if that is known; triangles are in ascending order. Triangles that did not change since the last call are known to
   /// be near the surface.
   std::vector<PointAtTriangle> find_far_triangles(MeshOnSurface& mesh);
-  /// True if the mesh is also near the vertices of a fine one. Otherwise those that it is far from have to be reached
-  /// from now on.
+  /// True if the mesh is also near the vertices of a fine one. Otherwise, from now on, it has to reach the vertices
+  /// that it is far from.
   bool reaches_fine_vertices(const MeshOnSurface& mesh);
 
  private:

@@ -14,7 +14,7 @@ namespace meniscus {
 
 double tolerance_of(const MeshRequest& request, glm::ivec2 size, const Camera& camera, std::span<const Ball> balls) {
   if (request.tolerance_pixels == 0.0) return request.tolerance;
-  // A pixel is 2 * half height / rows: of the plane at distance 1 (perspective), or in Å anywhere (orthographic).
+  // A pixel's height is measured on the plane at distance 1 (perspective), or is the same everywhere (Å, orthographic).
   double pixel = 2.0 * half_extent(camera, double(size.x) / size.y).y / size.y;
   if (camera.projection == Projection::perspective) {
     double nearest = std::numeric_limits<double>::infinity();
@@ -246,7 +246,7 @@ ShapeObject shape_object(std::span<const Atom> atoms, const ColoredShapes& shape
 ShapeObject joined(const SurfaceObject& object, TriangleMesh mesh, const ShapeObject& second) {
   ShapeObject whole{object, std::move(mesh)};
   SurfaceObject& both = whole.object;
-  if (both.coloring.kind) {  // three atoms for each, one per kind
+  if (both.coloring.kind) {  // each atom becomes three, one per kind
     const auto count = static_cast<std::uint32_t>(both.atom.size());
     for (std::size_t t = 0; t < whole.mesh.triangles.size(); ++t)
       whole.mesh.atom[t] += count * static_cast<std::uint32_t>(whole.mesh.kind[t]);
@@ -277,7 +277,7 @@ ShapeObject joined(const SurfaceObject& object, TriangleMesh mesh, const ShapeOb
   append(both.surface.atoms, second.object.surface.atoms);
   append(both.surface.components, second.object.surface.components);
   append(both.coloring.atom, second.object.coloring.atom);
-  both.coloring.hidden.clear();  // what is hidden is not in the mesh
+  both.coloring.hidden.clear();  // the mesh does not contain the hidden triangles
   return whole;
 }
 

@@ -15,7 +15,7 @@ struct Camera;
 /// The tolerance (pixels) of meshes that are made for a camera: nothing finer can be seen.
 inline constexpr double kPixelsOfACamera = 0.5;
 
-/// How far a mesh may be from the surface.
+/// The distance that a mesh may have from the surface.
 struct MeshRequest {
   double tolerance = 0.01;        ///< Å
   double tolerance_pixels = 0.0;  ///< above 0: in pixels of a picture, instead of `tolerance`

@@ -13,7 +13,6 @@
 namespace meniscus {
 namespace {
 
-/// The crease at a vertex.
 struct CreaseAt {
   std::uint32_t border = kNone;  ///< a border that edges at the vertex run along, or kNone
   bool ends = false;  ///< true if creases end or meet here: the crease edges are not just two along one border
@@ -72,7 +71,7 @@ std::array<glm::dvec3, 2> crease_normals(const Surface& surface, const Border& b
     for (int side = 0; side < 2; ++side)
       normal[side] = glm::normalize(surface.concave[surface.faces[border.face[side]].patch].center - x);
   } else if (border.kind == BorderKind::contact && surface.probe_radius == 0.0) {
-    for (int side = 0; side < 2; ++side) {  // tori have no faces here
+    for (int side = 0; side < 2; ++side) {  // only balls have faces here
       const ConvexPatch& patch = surface.convex[surface.faces[border.face[side]].patch];
       normal[side] = glm::normalize(x - surface.atoms[patch.atom].center);
     }
@@ -120,7 +119,6 @@ void mark_creases(const Surface& surface, const SurfaceWalk& walk, const Triangl
   }
 }
 
-/// Returns the crease at each vertex.
 std::vector<CreaseAt> creases_at_vertices(const HalfEdges& links) {
   std::vector<CreaseAt> found(links.vertex_count());
   std::vector<std::uint32_t> count(found.size(), 0);

@@ -68,7 +68,7 @@ int PlanarTriangulation::locate(GridPoint point) const {
       return last_ = int(i);
     }
   }
-  refuse();  // outside of the grid, or not a number
+  refuse();  // the point is outside of the grid, or not a number
 }
 
 void PlanarTriangulation::set(int triangle, std::array<int, 3> vertex, std::array<int, 3> neighbor,
@@ -108,7 +108,7 @@ void PlanarTriangulation::split_edge(Edge edge, int vertex) {
   const Triangle a = triangles_[t];
   const int u = a.neighbor[k];
   const int p = a.vertex[k], q = a.vertex[next(k)], r = a.vertex[previous(k)];
-  if (u < 0) {  // the rim of the box, where no point is inserted
+  if (u < 0) {  // this edge is on the rim of the box, where no point is inserted
     split_triangle(t, vertex);
     return;
   }
@@ -157,7 +157,7 @@ std::vector<int> PlanarTriangulation::star(int vertex) const {
     t = triangles_[t].neighbor[next(i)];
   } while (t >= 0 && t != first);
   if (t == first) return triangles;
-  t = first;  // a corner of the box: walk the other way too
+  t = first;  // the vertex is a corner of the box: walk the other way, too
   while (true) {
     int i = 0;
     while (triangles_[t].vertex[i] != vertex) ++i;
@@ -169,7 +169,7 @@ std::vector<int> PlanarTriangulation::star(int vertex) const {
 
 std::optional<PlanarTriangulation::Edge> PlanarTriangulation::find_edge(int a, int b) const {
   const int first = triangle_of_[a];
-  for (int turn = 0, t = first; turn < 2; ++turn) {  // counter-clockwise; from the box's rim clockwise as well
+  for (int turn = 0, t = first; turn < 2; ++turn) {  // first counter-clockwise; from the box's rim clockwise, too
     do {
       int i = 0;
       while (triangles_[t].vertex[i] != a) ++i;

@@ -17,10 +17,10 @@ struct GridPoint {
 };
 inline constexpr std::int64_t kGridLimit = std::int64_t{1} << 28;
 
-/// Returns twice the signed area of a, b, c: positive when counter-clockwise. Exact.
+/// Returns twice the signed area of a, b, c, exactly: positive when counter-clockwise.
 std::int64_t orientation(GridPoint a, GridPoint b, GridPoint c);
 
-/// True if d lies strictly inside the circle through the counter-clockwise a, b, c. Exact.
+/// True if d lies strictly inside the circle through the counter-clockwise a, b, c. The decision is exact.
 bool inside_circle(GridPoint a, GridPoint b, GridPoint c, GridPoint d);
 
 /// An incremental Delaunay triangulation (Lawson 1977) with constrained edges recovered by flips (Sloan 1993). Vertices

@@ -10,12 +10,11 @@ namespace meniscus {
 /// The constants of remeshing. The quality of a triangle is 4 sqrt(3) area / sum of squared edges: 1 for an equilateral
 /// triangle, 0 for a degenerate one. Edges are measured in units of the length wanted at their ends.
 struct RemeshTuning {
-  // --- Passes over the mesh (remesher.h)
+  // --- Passes over the mesh (mesh_change.h)
   /// Longer edges are split, shorter ones collapsed: either change brings edges nearer to the wanted length (Botsch &
   /// Kobbelt 2004).
   static constexpr double longest_edge = 4.0 / 3.0, shortest_edge = 4.0 / 5.0;
-  /// Edges between triangles of at least this quality are not flipped; the smallest angles of such triangles are some
-  /// 35 degrees.
+  /// Edges between triangles of at least this quality are not flipped; their smallest angles are some 35 degrees.
   static constexpr double fine_quality = 0.82;
   /// Collapses and moves of vertices make no triangles below this quality, unless one was no better before.
   static constexpr double poor_quality = 0.3;
@@ -24,8 +23,7 @@ struct RemeshTuning {
   /// The largest valence: two vertices with more edges together are not merged, and no flip adds an edge to a vertex
   /// with this many. This prevents stars of long triangles.
   static constexpr std::uint32_t largest_valence = 24;
-  /// While a coarse mesh is refined, no vertex is inserted nearer to an existing one than this share of the edge that
-  /// is split.
+  /// While a coarse mesh is refined, no vertex is inserted nearer to an existing one than this share of the split edge.
   static constexpr double nearest_new_vertex = 0.2;
   /// A foot that is farther below the midpoint of an edge than this share of its length lies on another sheet.
   static constexpr double deepest_foot = 0.35;
@@ -35,11 +33,10 @@ struct RemeshTuning {
   /// The share of the way to the centroid of its neighbourhood that a vertex moves; with the whole way, vertices would
   /// oscillate about it.
   static constexpr double relaxation = 0.8;
-  /// Steps shorter than this share of the wanted edge length are not made: they would change nothing that is worth the
-  /// walk.
+  /// Steps shorter than this share of the wanted edge length are not made: they are not worth the walk.
   static constexpr double shortest_step = 0.01;
-  /// Refinement shortens the wanted edges no further below this share of their first length, as that would not help
-  /// either.
+  /// Refinement shortens the wanted edges no further than to this share of their first length, because even shorter
+  /// edges would not help.
   static constexpr float finest_scale = 0.25f;
 
   // --- The slope of triangles (mesh_on_surface.h): cosines between their normals and that of the surface at a vertex
@@ -50,8 +47,7 @@ struct RemeshTuning {
   static constexpr double on_crease = 1e-6;
 
   // --- Local changes where passes left bad triangles (mesh_mender.h)
-  /// Triangles of at least this quality are left as they are; if isosceles, their smallest angles are 20 degrees or
-  /// more.
+  /// Triangles of at least this quality are left as they are; isosceles ones have angles of 20 degrees or more.
   static constexpr double good_quality = 0.55;
   /// For triangles below this quality all changes are tried, and the triangles around them may lean.
   static constexpr double sliver_quality = 0.25;
@@ -73,12 +69,11 @@ struct RemeshTuning {
   /// The radius around a triangle, in units of its longest edge, within which mending checks for crossings.
   static constexpr double mending_radius = 2.5;
 
-  // --- Wanted edges (even_sizes.h)
+  // --- Wanted edges (EvenSizes)
   /// The number of vertices per Å² times the squared edge length. It is 2 / sqrt(3) = 1.155 for equilateral triangles;
   /// splitting and collapsing leave edges a little shorter.
   static constexpr double vertices_per_square = 1.34;
-  /// The fewest vertices of a component, however small it is: the inner side of a cavity of four triangles cannot be
-  /// recognised.
+  /// The fewest vertices of a component, however small it is: the inside of four triangles cannot be recognised.
   static constexpr std::uint32_t fewest_vertices = 12;
   /// The share of the tolerance that the middle of an equilateral triangle with the wanted edges may use up, since
   /// edges of up to 4/3 of that length remain.
@@ -157,8 +152,7 @@ struct EvenMeshOptions {
   /// 25 %, and at least about 12 vertices per component. 0: the tolerance decides.
   double density = 0.0;
   double tolerance = 0.05;  ///< Å, used without a density: no point of the mesh is farther from the surface
-  /// The tolerance (Å) at a point, a smooth function. If set, it is used instead of `tolerance`, which is its smallest
-  /// value.
+  /// The tolerance (Å) at a point, a smooth function. If set, it replaces `tolerance`, its smallest value.
   std::function<double(const glm::dvec3&)> tolerance_at;
 };
 
@@ -172,15 +166,13 @@ class EvenSizes {
   EvenSizes(const Surface& surface, const EvenMeshOptions& options);
 
   bool by_density() const { return options_.density > 0.0; }
-  /// Returns the tolerance (Å); with a density, about the distance of equilateral triangles of that density from the
-  /// surface.
+  /// Returns the tolerance (Å); with a density, about the distance of equilateral triangles from the surface.
   double tolerance() const;
   /// Returns the tolerance (Å) at a point; only for options without a density.
   double tolerance_at(const glm::dvec3& x) const;
   /// Returns the edge length (Å) wanted at a point of the surface.
   double edge_at(const SurfacePoint& point) const;
-  /// Returns the edge length (Å) wanted along creases, where spheres of the probe meet, or balls if the probe radius is
-  /// 0.
+  /// Returns the edge length (Å) wanted along creases, where spheres of the probe meet, or balls without a probe.
   double crease_edge_at(const glm::dvec3& x) const { return edge_at(x, probe()); }
 
  private:
@@ -191,7 +183,7 @@ class EvenSizes {
   const EvenMeshOptions& options_;
   double smallest_ball_;  ///< smallest radius (Å) of a ball: the radius of curvature if the probe radius is 0
   double edge_of_density_;
-  /// Per component, Å, with a density: short enough for the fewest vertices that a component needs.
+  /// Per component, with a density: an edge length (Å) short enough for the fewest vertices that a component needs.
   std::vector<double> longest_edge_;
 };
 

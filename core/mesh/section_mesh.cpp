@@ -196,8 +196,7 @@ CapMesh section_caps(std::span<const SurfaceObject> objects, std::span<const Cli
 
 namespace {
 
-/// Adds the positions of caps as vertices of the mesh, which has those on rims already; returns the vertex of each
-/// position.
+/// Adds the positions of caps as vertices of the mesh, which has those on rims already; returns their vertices.
 std::vector<std::uint32_t> add_vertices(TriangleMesh& mesh, const CapMesh& caps, std::span<const ClipPlane> planes) {
   std::vector<std::uint32_t> vertex = caps.rim;
   for (std::size_t t = 0; t < caps.triangles.size(); ++t)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts the solid of a closed mesh by planes: the rest of its surface, the caps that close it again, and both as one
-// mesh.
+// Cuts the solid of a closed mesh by planes: the rest of its surface, the caps that close it, and both as one mesh.
 #pragma once
 
 #include "core/mesh/mesh_colors.h"

@@ -12,11 +12,9 @@
 namespace meniscus {
 namespace {
 
-/// A point that is less than this (Å) beyond a wall counts as on it: the faces on both sides have one tangent plane
-/// there.
+/// A point that is less than this (Å) beyond a wall counts as on it: both faces have one tangent plane there.
 constexpr double kOnWall = 1e-9;
-/// A point that is less than this (Å) beyond a plane of a patch counts as on it: planes and borders come from different
-/// formulas.
+/// A point that is less than this (Å) beyond a plane of a patch is on it: planes and borders follow two formulas.
 constexpr double kOffPatch = 1e-8;
 /// The most faces that one walk visits.
 constexpr int kLongestWalk = 40;
@@ -165,7 +163,7 @@ std::optional<SurfacePoint> SurfaceWalk::below(const glm::dvec3& x, std::uint32_
       return on_patch(projection.foot, face) ? std::optional(SurfacePoint{projection.foot, face}) : std::nullopt;
     const Side& side = *projection.crossed;
     if (barred_[side.border]) return std::nullopt;
-    if (side.beyond == before) {  // over a shallow cusp, where both spheres point to each other
+    if (side.beyond == before) {  // x is over a shallow cusp, where both spheres point to each other
       const auto at = on_border(x, side.border);
       if (!at) return std::nullopt;
       return SurfacePoint{*at, face};
@@ -217,7 +215,7 @@ glm::dvec3 SurfaceWalk::normal(const SurfacePoint& point) const {
   const glm::dvec3 across = from_center - glm::dot(from_center, torus.axis) * torus.axis;
   const double away = glm::length(across);
   const glm::dvec3 outward = away > 1e-12 ? across / away : arc_direction(torus, 0.5 * torus.sweep);
-  if (surface_.probe_radius == 0.0) return outward;  // where two balls of one size would meet
+  if (surface_.probe_radius == 0.0) return outward;  // two balls of one size meet here
   return glm::normalize(torus.center + torus.radius * outward - point.position);
 }
 

@@ -48,7 +48,7 @@ FaceMesh FaceFilling::filled(std::uint32_t f) const {
   const Face& face = surface_.faces[f];
   if (face.loop_count == 0) return whole_sphere(surface_, face, lattices_.at(frequency(face)));
   FaceOutline rim = outline(f);
-  if (rim.edges.size() < 3) return {};  // shrunk to a point or to one line
+  if (rim.edges.size() < 3) return {};  // the face has shrunk to a point or to one line
   return fill_outline(std::move(rim), tolerance_of(rule_, surface_, face));
 }
 
@@ -71,7 +71,7 @@ void FaceFilling::fill(std::vector<std::uint32_t> todo, std::vector<FaceMesh>& m
       for (const Segment& s : meshes[f].too_coarse) segments.insert({s.border, s.index});
     }
     std::set<std::uint32_t> dirty;
-    for (auto s = segments.rbegin(); s != segments.rend(); ++s) {  // from the back, so that indices remain valid
+    for (auto s = segments.rbegin(); s != segments.rend(); ++s) {  // the last ones first, so that indices remain valid
       samples_.split(s->first, s->second);
       for (std::uint32_t f : surface_.borders[s->first].face)
         if (is_requested_[f]) dirty.insert(f);
@@ -91,8 +91,7 @@ constexpr std::uint32_t kSeamNames = 1024;
 constexpr double kSharpAngle = 1e-4;
 /// The number of faces with rows that are made at the same time.
 constexpr std::uint32_t kFacesTogether = 1 << 12;
-/// How often, and after how many faces at least, the memory of finished faces is returned: each time the whole heap is
-/// walked.
+/// The number of times that freed memory is returned, and the least number of faces between two: each walks the heap.
 constexpr std::uint32_t kTimesFreed = 16, kFacesFreed = 1 << 14;
 
 /// Returns the memory of small blocks that were freed to the system; otherwise the allocator keeps it.
@@ -338,8 +337,7 @@ class Tessellation {
     std::vector<glm::dvec3> normals;
   };
 
-  /// Moves the rows of faces into the mesh and frees them: for a large molecule, keeping both would need twice the
-  /// memory.
+  /// Moves the rows of faces into the mesh and frees them: keeping both would need twice the memory.
   void append_faces(std::uint32_t first, std::uint32_t last) {
     std::vector<FacePlace> places;
     FacePlace next{static_cast<std::uint32_t>(mesh_.positions.size()),
@@ -449,7 +447,7 @@ TriangleMesh tessellate(const Surface& surface, const MeshOptions& options) {
 
 namespace {
 
-constexpr std::array kTolerances{0.1, 0.03, 0.01};  // Å, the finer ones after the others have failed
+constexpr std::array kTolerances{0.1, 0.03, 0.01};  // Å; each is tried after the coarser ones have failed
 
 }  // namespace
 

@@ -27,8 +27,7 @@ void add(double area, double volume, MeshSums& sums) {
   sums.volume += volume;
 }
 
-/// The directed edges with their lower vertex in a range; all edges of a large mesh would take as much memory as the
-/// mesh.
+/// The directed edges with their lower vertex in a range; all edges of a mesh would take as much memory as the mesh.
 class EdgeLists {
  public:
   static constexpr std::uint32_t kVertices = 1u << 21;

@@ -11,7 +11,7 @@ struct Coloring;
 /// The limits of the fineness that may be requested. With a smaller tolerance the mesh of a protein no longer fits into
 /// memory, and single-precision coordinates cannot hold it.
 inline constexpr double kSmallestTolerance = 1e-5, kLargestTolerance = 1.0;  // Å
-inline constexpr double kSmallestDensity = 0.005, kLargestDensity = 1000.0;  // vertices per Å², of even meshes
+inline constexpr double kSmallestDensity = 0.005, kLargestDensity = 1000.0;  // vertices per Å²; for even meshes
 
 /// The fineness of the mesh that tessellate() makes.
 struct MeshOptions {

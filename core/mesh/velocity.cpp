@@ -38,7 +38,6 @@ constexpr double kOpen = 1e-12;
 /// The weight by which vertices at cusps are pulled to the mean of their faces, so that thin wedges do not shoot off.
 constexpr double kCuspPull = 1e-5;
 
-/// Returns the mean velocity of these atoms.
 glm::dvec3 mean(const std::vector<glm::dvec3>& velocity, std::span<const std::uint32_t> atoms) {
   glm::dvec3 sum(0.0);
   for (const std::uint32_t a : atoms) sum += velocity[a];

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes how the points of a surface move when its atoms do, for motion blur, although each frame has a mesh of its
-// own.
+// Computes how the points of a surface move when its atoms do, for motion blur, although each frame has its own mesh.
 #pragma once
 
 #include <cstdint>

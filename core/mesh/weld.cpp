@@ -49,8 +49,7 @@ class Welder {
     put_back_triangles();
   }
 
-  /// Flips the longest edges of flat triangles in rounds. Calls changed(t, from) if triangle t now covers what `from`
-  /// did.
+  /// Flips the longest edges of flat triangles in rounds. Calls changed(t, from) if triangle t now covers `from`.
   template <typename Changed>
   void flip_flat_triangles(const Changed& changed) {
     for (int round = 0; round < kRounds; ++round) {
@@ -216,7 +215,7 @@ class Welder {
     result_.fins += tips;
     result_.into[drop] = keep;
     ++result_.joined;
-    // Edges that were short at the dropped vertex are so at the other one from now on.
+    // Edges that were short at the dropped vertex are short at the other one from now on.
     for (auto& [one, other] : short_) {
       if (one == drop) one = keep;
       if (other == drop) other = keep;
@@ -257,7 +256,7 @@ class Welder {
     if (had_area && (glm::dot(normal(first), normal(before)) <= 0.0 || glm::dot(normal(second), normal(before)) <= 0.0))
       return false;
     links_->flip(half);
-    // Corners in the order of `first` and `second`: what is written depends on it.
+    // The corners follow the order of `first` and `second`, because the written file depends on it.
     links_->put_first(HalfEdges::last(half));
     links_->put_first(HalfEdges::next(other));
     changed(part_[t], part_[other / 3]);

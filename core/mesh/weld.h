@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Removes edges that are too short and triangles that are too flat for the numbers of a file, and keeps the mesh
-// closed.
+// Removes edges that are too short and triangles that are too flat for a file's numbers, and keeps the mesh closed.
 #pragma once
 
 #include <array>

@@ -74,7 +74,7 @@ class PocketFinder {
   }
 
   /// Computes the surface with closed mouths. It has the balls that can touch a probe in a pocket, or a probe that
-  /// overlaps such a one; all others change nothing about the pockets.
+  /// overlaps one in a pocket; all others change nothing about the pockets.
   void close_mouths() {
     const double r = request_.probe_radius;
     std::vector<Ball> balls;
@@ -173,7 +173,7 @@ class PocketFinder {
   std::span<const Ball> atoms_;
   const PocketRequest& request_;
   const ComputeSurface& compute_;
-  double clearance_;  // Å, of the small probe's centre from the large one's
+  double clearance_;  // Å; distance of the small probe's centre from the large one's
   Hull hull_;
   ProbeCells cells_;
   std::uint32_t first_probe_ = 0;
@@ -435,8 +435,7 @@ class CellFinder {
     for (int n = 0; n < 8; ++n) divide(eighth_of(corner, edge, n), edge / 2, region.near, regions);
   }
 
-  /// Returns the region of a range with `edge` cubes along each axis, with the atoms that are no farther than `away`
-  /// from it.
+  /// Returns the region of a range with `edge` cubes along each axis, with the atoms within `away` of it.
   Region region_of(std::span<const std::uint32_t> atoms, const CubeRange& corner, int edge, double away) const {
     Region region{corner.middle(glm::dvec3(0.5 * edge)), kCoarsest * edge, {}};
     const double far = region.reach() + away + kRounding;
@@ -525,7 +524,7 @@ Box ProbeCells::bounds(double reach) const {
 
 bool ProbeCells::within(const glm::dvec3& point, double reach) const {
   bool found = false;
-  // The tree leaves out what is as far as its limit.
+  // The tree leaves out balls that are as far away as its limit.
   tree_.nearest(point, reach + 1.0, [&](std::uint32_t n, double wanted) {
     found = found || boxes_[n].squared_distance(point) <= reach * reach;
     return found ? 0.0 : wanted;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds pockets, tunnels and cavities of a molecule: the space that a small probe can fill in the solid that a large
-// one rolls over.
+// Finds pockets, tunnels and cavities of a molecule: spaces that a small probe fills in the solid below a large one.
 #pragma once
 
 #include <string>
@@ -18,7 +17,7 @@ struct PocketRequest {
   double probe_radius = kUsualProbe;
   double large_probe_radius = 4.0;  ///< above that of the small probe
   double trim = 1.0;                ///< depth below the large probe's surface at which pockets begin
-  double tolerance = 0.1;           ///< how far outside of its ideal place a mouth may lie
+  double tolerance = 0.1;           ///< greatest distance of a mouth outwards from its ideal place
   double min_volume = 30.0;         ///< smaller pockets are left out; a molecule of liquid water has 30 Å³
 };
 
@@ -31,8 +30,8 @@ struct Pocket {
   /// Volume, area, the places of the small probe at rest, and the indices of the given atoms that line the pocket.
   Cavity cavity;
   std::vector<double> mouth_areas;  ///< Å², the largest first. None: a cavity; two or more: a tunnel
-  double depth = 0.0;  ///< Å, below the large probe's surface, of the deepest place of the small probe at rest
-  Surface surface;     ///< closed; normals point into the pocket
+  double depth = 0.0;               ///< Å; deepest place of the small probe at rest, below the large probe's surface
+  Surface surface;                  ///< closed; normals point into the pocket
   std::vector<std::uint32_t> atom;  ///< per surface.atoms: index of the given atom; kNone: a large probe
 
   double mouth_area() const;
@@ -61,14 +60,14 @@ using ComputeSurface = std::function<Surface(std::span<const Ball> atoms, double
 
 /// Finds the pockets of a molecule.
 ///
-/// Let H be the hull of the large probe (hull.h) with `trim` taken off all around, and C the set of places where the
-/// small probe's centre can be so that the probe touches no atom and stays within H. The pockets are the connected
-/// components of the union of the probes in C: the part of the large probe's solid minus the small probe's that the
-/// small probe fills. Films in crevices, where it would extend out of H, are in no pocket. The two probes are those of
-/// Kawabata & Go (Proteins 68, 516, 2007) and of Voss & Gerstein (Nucleic Acids Res. 38, W555, 2010); the trimming is
-/// that of Oliveira et al. (BMC Bioinformatics 15, 197, 2014). H is closed by large probes at places where they touch
-/// the molecule, as densely as the tolerance requires (hull.h). The pockets are then cavities of one solvent-excluded
-/// surface, that of the atoms and of these probes, and have all properties of cavities in closed form.
+/// Let H be the Hull of the large probe with `trim` taken off all around, and C the set of places where the small
+/// probe's centre can be so that the probe touches no atom and stays within H. The pockets are the connected components
+/// of the union of the probes in C: the part of the large probe's solid minus the small probe's that the small probe
+/// fills. Films in crevices, where it would extend out of H, are in no pocket. The two probes are those of Kawabata &
+/// Go (Proteins 68, 516, 2007) and of Voss & Gerstein (Nucleic Acids Res. 38, W555, 2010); the trimming is that of
+/// Oliveira et al. (BMC Bioinformatics 15, 197, 2014). H is closed by large probes at places where they touch the
+/// molecule, as densely as the tolerance requires (probe_places()). The pockets are then cavities of one
+/// solvent-excluded surface, that of the atoms and of these probes, and have all properties of cavities in closed form.
 ///
 /// A mouth counts if it is larger than the tolerance alone can make it: 2 pi probe_radius tolerance, the cap of a probe
 /// that just ends there.
@@ -90,8 +89,7 @@ class PocketLocator {
   /// `pockets` must outlive this object and not change.
   explicit PocketLocator(const Pockets& pockets);
 
-  /// Returns the index into Pockets::pockets of the pocket that has a probe which covers the point (Å); nothing if
-  /// there is none.
+  /// Returns the index into Pockets::pockets of the pocket whose probes cover the point (Å), if any.
   std::optional<std::size_t> operator()(const glm::dvec3& point) const;
 
  private:

@@ -10,7 +10,6 @@
 
 namespace meniscus {
 
-/// The type of a value.
 enum class ValueType {
   flag,      ///< true or false; an option without a value
   number,    ///< a finite number from `lowest` to `highest`
@@ -45,7 +44,7 @@ inline constexpr double kUnlimited = 1e18;
 struct Property {
   ValueType type;
   std::string_view key;     ///< section and name, "look.silhouettes": unique; with in_scene, also in scene files
-  std::string_view option;  ///< in the form of CLI11: "--silhouettes", "-o,--output", "FILE"
+  std::string_view option;  ///< spelling of CLI11: "--silhouettes", "-o,--output", "FILE"
   std::string_view value;   ///< the name of the value in the help: "WIDTH"; empty for flags
   std::string_view help;    ///< begins with a capital letter, ends without a full stop; with_options() spells "@probe@"
   std::string_view heading{};
@@ -140,8 +139,7 @@ std::vector<std::string> parted(std::string_view list);
 /// Returns the help, followed by the default in brackets.
 std::string help_of(const Property& property);
 
-/// Returns the first sentence of such a text, up to a full stop or semicolon outside of parentheses, followed by its
-/// brackets.
+/// Returns the first sentence of a help text, up to a full stop or semicolon outside of parentheses, with its brackets.
 std::string first_sentence(std::string_view help);
 
 /// Returns all properties: sections in the order of scene files, the properties of a section in the order of the help.

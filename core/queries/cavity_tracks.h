@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Follows cavities from one surface to the next and tells which cavity is which.
+// Follows cavities from one surface to the next and identifies each of them.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ struct Cavity {
   double volume = 0.0;  ///< Å³, positive
   /// Indices into Surface::atoms of the atoms that a probe in the cavity can touch; ascending.
   std::vector<std::uint32_t> atoms;
-  /// Å, centres of the probes at rest in it, each of which touches three atoms or more.
+  /// The centres (Å) of the probes at rest in it, each of which touches three atoms or more.
   std::vector<glm::dvec3> probes;
 
   /// Returns the mean (Å) of the probes at rest.
@@ -39,7 +39,7 @@ const char* event_word(CavityEvent event);
 
 /// The history of a cavity from one frame to the next.
 struct CavityStep {
-  std::uint32_t id = 0;  ///< from 1, never reused
+  std::uint32_t id = 0;  ///< counts from 1 and is never reused
   CavityEvent event = CavityEvent::born;
   std::optional<std::uint32_t> other;  ///< the id of the cavity that it comes from or went into
   std::size_t cavity = kNone;          ///< its index among the cavities of the frame; kNone: it is gone

@@ -86,8 +86,7 @@ struct CopiedAtom {
 /// Returns the number of atoms of all copies together.
 std::size_t placed_count(std::span<const Instances> copies);
 
-/// Returns every atom of every copy: group by group, copy by copy, in the order in which merged() has the surfaces of
-/// the groups.
+/// Returns every atom of every copy: group by group, copy by copy, in the order of the surfaces in merged().
 std::vector<CopiedAtom> placed_atoms(std::span<const Instances> copies);
 
 /// Returns the balls of all copies in the order of placed_atoms(). balls: one per atom of the structure, at the place

@@ -84,8 +84,7 @@ Foot foot_on(const Surface& s, const ConvexPatch& patch, double radius, const gl
   return {distance, atom.center + radius * direction};
 }
 
-/// Returns the foot of x on a concave patch. There is none from the probe's centre itself: the patch's borders are as
-/// near.
+/// Returns the foot of x on a concave patch. There is none from the probe's centre: borders are as near.
 Foot foot_on(const Surface& s, const ConcavePatch& patch, const glm::dvec3& x, double limit) {
   const glm::dvec3 out = x - patch.center;
   const double length = glm::length(out), distance = std::abs(length - s.probe_radius);
@@ -149,8 +148,8 @@ struct Nearest {
   double operator()(const Foot& nearest) const { return nearest.distance; }
 };
 
-/// Returns the nearest foot of x on what a tree's boxes hold, as far as the search extends. `foot_of` has one function
-/// for each table, of an index into the table and of the distance beyond which no foot is wanted.
+/// Returns the nearest foot of x on the objects in a tree's boxes, as far as the search extends. `foot_of` has one
+/// function for each table, of an index into the table and of the distance beyond which no foot is wanted.
 template <typename Wanted, typename... FootOf>
 Foot nearest_foot(const glm::dvec3& x, const Search<Wanted>& search, const BoxTree& tree,
                   const Tables<sizeof...(FootOf)>& tables, const FootOf&... foot_of) {
@@ -182,8 +181,7 @@ struct SurfaceDistance::Index {
         parts(list_parts()),
         part_tree(parts.boxes) {}
 
-  /// Returns the largest SAS radius, except for a few that are far larger than all others; their atoms are listed in
-  /// `large`.
+  /// Returns the largest SAS radius, except for a few that are far larger than all others; `large` lists their atoms.
   double find_reach() {
     constexpr std::size_t kFew = 64;
     constexpr double kFarLarger = 4.0;
@@ -322,7 +320,7 @@ bool SurfaceDistance::is_within(const glm::dvec3& x, double limit) const {
 namespace {
 
 constexpr int kEdge = DistanceBand::kEdge;
-constexpr double kMostVoxels = 1 << 28;  // from the origin along an axis
+constexpr double kMostVoxels = 1 << 28;  // greatest distance from the origin along an axis
 
 /// Finds the blocks and cubes of a band.
 class BandFinder {
@@ -383,7 +381,7 @@ class BandFinder {
     if (static_cast<double>(count) * halvings * halvings > (size > kEdge ? 2.0 : 1.0) * kMostBandBlocks) refuse();
   }
 
-  /// Returns the place of a cube with respect to the band, as the distance of its middle tells it.
+  /// Returns the place of a cube with respect to the band, by the distance of its middle.
   Place place_of(const glm::ivec3& origin, int size) const {
     const glm::dvec3 middle = voxel_ * (glm::dvec3(origin) + 0.5 * (size - 1));
     const double to_corner = 0.5 * (size - 1) * voxel_ * std::numbers::sqrt3;

@@ -46,8 +46,7 @@ class SurfaceDistance {
   bool is_within(const glm::dvec3& point, double limit) const;
 
   /// Returns the distance (Å) from the point to the nearest place of a probe that touches an atom, on whichever side of
-  /// the SAS the point is. The places are given by the surface's patches, or, for a part of a surface (part.h), by the
-  /// patches of that part alone.
+  /// the SAS the point is. The places are given by the patches of the surface, or of a part of it alone (SurfacePart).
   double to_probe(const glm::dvec3& point) const;
 
   /// True if a probe at the point would overlap an atom; for a part of a surface, an atom of that part.

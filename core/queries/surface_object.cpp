@@ -8,7 +8,7 @@ namespace meniscus {
 namespace {
 
 constexpr double kLength = 1e-9;  // Å
-constexpr double kShare = 1e-9;   // relative, of areas, volumes and angles
+constexpr double kShare = 1e-9;   // relative difference of areas, volumes and angles
 
 bool near(double a, double b) { return std::abs(a - b) <= kShare * std::max({1.0, std::abs(a), std::abs(b)}); }
 bool near(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) <= kLength; }

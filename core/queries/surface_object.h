@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A surface and shapes as objects of a picture or an export, with their colours, and the comparison of two surfaces of
-// the same atoms.
+// A surface and shapes as objects of a picture or an export, with their colours, and the comparison of two surfaces.
 #pragma once
 
 #include "core/color/coloring.h"

@@ -47,8 +47,7 @@ std::vector<AtomPatch> atom_patches(const Surface& surface, const std::vector<bo
 /// whole, if one of its atoms is. The conditions of atom_patches() apply.
 std::vector<bool> atoms_of_patches(const Surface& surface, std::vector<bool> chosen, double least);
 
-/// The curvature by the principal curvatures k1, k2 with the normal towards the solvent, positive where the solid
-/// bulges.
+/// The curvature by the principal curvatures k1, k2 with the normal towards the solvent, positive on bulges.
 struct Curvature {
   double mean = 0.0;      ///< (k1 + k2) / 2, 1/Å
   double gaussian = 0.0;  ///< k1 k2, 1/Å²

@@ -261,7 +261,7 @@ class WholeSpheres {
     return doubtful ? Exposure::doubtful : Exposure::exposed;
   }
 
-  // True by the sign that decides whether two spheres have a circle at all.
+  // Returns whether the sphere meets another one, by the sign that decides whether two spheres have a circle at all.
   bool meets_another(std::uint32_t a) const {
     bool meets = false;
     const double radius = std::sqrt(weights_[a]);

@@ -35,13 +35,13 @@ struct RsArc {
 };
 
 /// All exposed arcs, sorted, and the atoms without arcs that are wholly exposed. Every method that computes the arcs
-/// (exhaustive enumeration, rolling probe, GPU) must give the same ones; the atoms follow from them (whole_spheres.h).
+/// (exhaustive enumeration, rolling probe, GPU) must give the same ones; find_whole_spheres() finds the atoms by them.
 struct ReducedSurface {
   std::vector<RsArc> arcs;
   std::vector<std::uint32_t> lone_atoms;  ///< SAS spheres that meet no other and lie in none, sorted
   std::vector<std::uint32_t> lost_atoms;  ///< atoms with missing arcs, sorted; none unless there is a fault
   double exact_within = 0.0;              ///< largest change of radii, Å, for which all decisions are right
-  std::vector<std::uint32_t> numbers;     ///< for atoms taken out of a larger set: their AtomNumbers there
+  std::vector<std::uint32_t> numbers;     ///< AtomNumbers of atoms taken out of a larger set
   bool operator==(const ReducedSurface&) const = default;
 };
 

@@ -146,7 +146,7 @@ class CoveredGround {
   std::vector<bool> cells_;
 };
 
-constexpr std::size_t kNotDrawn = std::numeric_limits<std::size_t>::max();  ///< of a label without a mark
+constexpr std::size_t kNotDrawn = std::numeric_limits<std::size_t>::max();  ///< index of a label without a mark
 
 /// Places texts in the corners, and labels next to the places that they name.
 class Writer {

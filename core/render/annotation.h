@@ -15,8 +15,8 @@ struct Camera;
 struct PlaceLabel {
   std::string text;
   glm::dvec3 position{0.0};  ///< Å
-  bool is_hidden = false;    ///< behind what the picture shows; its mark is hollow, or a length is not written
-  glm::dvec3 along{0.0};     ///< of a length: from the line's middle to its end, Å; 0 for others
+  bool is_hidden = false;    ///< true if something hides the place: its mark is hollow, or a length is not written
+  glm::dvec3 along{0.0};     ///< for a length: vector from the line's middle to its end, Å; 0 for others
 
   bool is_length() const { return along != glm::dvec3(0.0); }
 };
@@ -31,15 +31,15 @@ struct Curve {
 /// The texts and marks of a picture. Texts are drawn as they are given, so they must come from the user and never from
 /// a molecule file. Empty texts are not drawn.
 struct Annotations {
-  std::string panel;                 ///< at the top left
-  std::string title;                 ///< at the top, in the middle
-  std::string time;                  ///< at the top right
-  bool scale_bar = false;            ///< at the bottom left
+  std::string panel;                 ///< letter at the top left
+  std::string title;                 ///< title at the top, in the middle
+  std::string time;                  ///< time at the top right
+  bool scale_bar = false;            ///< true: there is a scale bar at the bottom left
   std::optional<double> bar_length;  ///< Å, > 0; nothing: a round number, at most a quarter of the picture's width
   std::vector<PlaceLabel> labels;
   bool labels_must_fit = true;  ///< false: labels are left out of a picture without room for them
   std::optional<Curve>
-      curve;  ///< at the bottom right, a third of the picture's width; faint after `now`, which has a mark
+      curve;  ///< curve at the bottom right, a third of the picture's width; faint after `now`, which has a mark
   std::vector<glm::vec4> atoms;  ///< centres and radii of the atoms, Å, which labels avoid where possible
   LetterStyle letters;
 
@@ -93,7 +93,7 @@ class AnnotationLayer {
   AnnotationLayer(const Annotations& annotations, const Camera& camera, glm::ivec2 picture_size,
                   const std::optional<glm::vec3>& background, const Strips& strips = {});
 
-  /// Draws its part of some whole rows of the picture. first_row: the number of the first of them in the whole picture.
+  /// Draws the annotations' part of some whole rows of the picture. first_row: number of the first row in the picture.
   void lay_over(Framebuffer& rows, int first_row) const;
 
   /// Makes the marks of hidden labels hollow, and removes hidden lengths. labels: the constructor's labels, with
@@ -105,7 +105,7 @@ class AnnotationLayer {
 
   /// Returns all strokes, in pixels of the picture; their colours, sRGB; and the width of the rim.
   std::span<const InkStroke> strokes() const { return strokes_; }
-  /// Returns what the stroke of this index belongs to: "title", "labels" and the like.
+  /// Returns the name of the group that the stroke of this index belongs to: "title", "labels" and so on.
   std::string_view group_of(std::size_t stroke) const;
   const Font& font_of(const InkText& text) const { return fonts_.of(text); }
   const Inks& inks() const { return inks_; }

@@ -89,8 +89,8 @@ class GlRenderer {
   /// Returns the last drawn picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.
   std::vector<std::uint8_t> rgba() const { return presenter_.rgba(); }
   glm::ivec2 size() const { return frame_.size; }
-  /// Returns what a pixel (column, row from the top) of the last drawn picture shows; nothing where no ray hit
-  /// anything.
+  /// Returns the point that a pixel (column, row from the top) of the last drawn picture shows; nothing where no ray
+  /// hit anything.
   std::optional<PickedPoint> pick(glm::ivec2 pixel) const;
 
   /// Returns the times of the stages of the last picture.
@@ -108,10 +108,10 @@ class GlRenderer {
 
   Counting counting_ = suitable_counting();
   RayCaster caster_;
-  SurfaceDrawable surface_;  // for pictures of computed surfaces
+  SurfaceDrawable surface_;  // the surface of pictures of computed surfaces
   Presenter presenter_;
   StageClock clock_;
-  PictureFrame frame_;              // of the last picture
+  PictureFrame frame_;              // frame of the last picture
   const GpuPack* scene_ = nullptr;  // scene of the last picture
 };
 

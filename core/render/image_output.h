@@ -23,7 +23,7 @@ struct ViewMatrices {
 /// The content of EXR files in addition to the layers of a picture.
 struct ExrContent {
   Primaries primaries = Primaries::rec709;           ///< primaries of the colours
-  std::optional<ViewMatrices> view;                  ///< for the header, and for layers seen from the camera
+  std::optional<ViewMatrices> view;                  ///< matrices for the header and for layers seen from the camera
   std::shared_ptr<const std::vector<Matte>> mattes;  ///< the mattes that Framebuffer::seen refers to
 };
 
@@ -70,13 +70,13 @@ struct ImageSettings {
   /// that blend in linear light. False: an alpha for which blending in sRGB makes the same edges as on white
   /// (layout_color()).
   bool linear_alpha = true;
-  double dots_per_inch = 0.0;  ///< for printing; 0: not written
+  double dots_per_inch = 0.0;  ///< resolution for printing; 0: not written
   bool names_program = true;   ///< the file names the program's version
   std::string command = {};    ///< the command that made the picture; empty: not written. Not in WebP files.
   std::string scene = {};      ///< the scene that the picture shows, JSON; empty: not written. Not in WebP files.
   ExrContent exr = {};         ///< content of EXR files
   TiffFormat tiff = {};
-  std::string made_of = {};  ///< of PNG files: identifies a picture of a run (kMadeOfNote); empty: not written
+  std::string made_of = {};  ///< text of PNG files that identifies a picture of a run (kMadeOfNote); empty: not written
 };
 
 /// True if the extension names a format that can hold AOVs (.exr).

@@ -8,17 +8,17 @@
 
 namespace meniscus {
 
-/// A label that has no place yet. Pixels.
+/// A label that has no place yet. Lengths are in pixels.
 struct UnplacedLabel {
   glm::dvec2 anchor;  ///< the point that it names
   glm::ivec2 extent;  ///< size of its text
 };
 
-/// The surroundings of labels. Pixels.
+/// The surroundings of labels. Lengths are in pixels.
 struct LabelGround {
-  PixelBox room;                ///< where labels may be; it contains the anchors
+  PixelBox room;                ///< box in which labels may be; it contains the anchors
   std::vector<PixelBox> taken;  ///< boxes of other texts
-  double gap = 4.0;             ///< between labels, and between a label and its line
+  double gap = 4.0;             ///< distance between labels, and between a label and its line
   double dot = 3.0;             ///< radius of the dots at anchors, which other labels and their lines avoid
   /// Returns the share of a box, in [0, 1], that the molecule covers.
   std::function<double(const PixelBox&)> covered = [](const PixelBox&) { return 0.0; };

@@ -8,7 +8,7 @@
 
 namespace meniscus {
 
-/// A text that begins at `place` and is vertically centred on it. Pixels.
+/// A text that begins at `place` and is vertically centred on it. Lengths are in pixels.
 struct LegendText {
   std::string text;
   glm::ivec2 place{0};

@@ -31,7 +31,7 @@ struct FontChoice {
   auto operator<=>(const FontChoice&) const = default;
 };
 
-/// A font file with what pages say of it. Lengths are in thousandths of the height of its letters.
+/// A font file with the properties that pages contain. Lengths are in thousandths of the height of its letters.
 struct FontProgram {
   std::string file, family, postscript_name;
   bool is_bold = false, is_cff = false;  ///< is_cff: its outlines are in the Compact Font Format
@@ -123,8 +123,8 @@ inline bool is_light(const glm::vec3& color) {
   return glm::dot(linear_from_srgb(color), glm::vec3(0.2126f, 0.7152f, 0.0722f)) > 0.179f;
 }
 
-/// Returns the colours for a background. color: of the letters; nothing: dark or light, depending on the background,
-/// and dark without one, as for paper.
+/// Returns the colours for a background. color: colour of the letters; nothing: dark or light, depending on the
+/// background, and dark without one, as for paper.
 inline Inks inks_on(const std::optional<glm::vec3>& background, const std::optional<glm::vec3>& color) {
   const bool is_dark = color ? !is_light(*color) : !background || is_light(*background);
   return {color.value_or(glm::vec3(is_dark ? 0.07f : 0.95f)), glm::vec3(is_dark ? 1.0f : 0.0f)};

@@ -70,7 +70,7 @@ class LightMaps {
   struct Raster {
     double texel;        // Å
     int edge;            // texels
-    double least_share;  // of the light, which a ball in these maps blocks at least
+    double least_share;  // least share of the light that a ball in these maps blocks
     float* along;        // texels
     float* against;      // nullptr: none
   };
@@ -84,9 +84,9 @@ class LightMaps {
   void place_sky(int axes);
   void draw(const View& view, const Raster& raster) const;
 
-  std::vector<Group> groups_, drawn_;                ///< of this picture, and of the maps of the sky
-  glm::dvec3 middle_{0.0};                           ///< of all balls, Å
-  std::vector<View> views_;                          ///< of the sky's axes, then of the lamp's places
+  std::vector<Group> groups_, drawn_;                ///< groups of this picture, and of the maps of the sky
+  glm::dvec3 middle_{0.0};                           ///< middle of all balls, Å
+  std::vector<View> views_;                          ///< views along the sky's axes, then from the lamp's places
   int sky_axes_ = 0, sky_edge_ = 0, lamp_edge_ = 0;  ///< edges: texels
   double sky_texel_ = 1.0, lamp_texel_ = 1.0;        ///< Å
   std::vector<float> texels_;

@@ -19,7 +19,7 @@ struct ColorScheme;
 /// The response of a surface to light. With ambient 1 and specular 0 a pixel has exactly the colour given.
 struct Material {
   float ambient = 0.0f;  ///< share in [0, 1] of light that comes evenly from all directions, which hides shapes
-  /// In [0, 1]. 0: light falls off early away from the lamp, as on wax; 1: it stays even, as on chalk.
+  /// Roughness in [0, 1]. 0: light falls off early away from the lamp, as on wax; 1: it stays even, as on chalk.
   float roughness = 0.0f;
   float specular = 0.10f;   ///< strength of the highlight, 0 to 1
   float shininess = 40.0f;  ///< exponent of Blinn and Phong, 1 to 1000; higher values make smaller highlights

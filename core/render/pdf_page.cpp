@@ -62,7 +62,7 @@ class PdfEncoder : public PageEncoder {
   /// A font of the page and its letters there.
   struct EmbeddedFont {
     std::shared_ptr<const FontProgram> program;
-    std::map<std::uint32_t, PlacedLetter> letters;  ///< by their numbers in the font
+    std::map<std::uint32_t, PlacedLetter> letters;  ///< key: number of the letter in the font
   };
   /// Names of the resources of the page, in the order of their numbers.
   struct Resources {
@@ -307,7 +307,7 @@ class PdfEncoder : public PageEncoder {
   /// Returns the scale with more decimals than coordinates have.
   std::string scale() const { return fmt::format("{:.9f}", points()); }
 
-  std::vector<std::size_t> offsets_ = std::vector<std::size_t>(kEnd);  ///< by the numbers of objects; 0: not written
+  std::vector<std::size_t> offsets_ = std::vector<std::size_t>(kEnd);  ///< one per number of an object; 0: not written
   std::size_t offset_ = 0, image_begin_ = 0;
   Deflater pixels_, alphas_;
   std::string mask_;

@@ -37,7 +37,7 @@ struct Framebuffer {
   static constexpr std::uint32_t kShape = 3, kCap = 4;
 };
 
-/// The layers of a picture besides colour.
+/// The layers of a picture in addition to colour.
 struct PictureLayers {
   PictureLayers(bool has_aovs = false, bool has_motion = false, int rays_of_seen = 0)
       : aovs(has_aovs), motion(has_motion), rays(rays_of_seen) {}
@@ -54,8 +54,8 @@ inline PictureLayers layers_of(const Framebuffer& picture) {
 
 /// A point that a ray has met.
 struct SeenPoint {
-  std::uint32_t object = 0, atom = 0;  ///< as in StillRenderer::render()
-  std::uint32_t kind = 0;              ///< as Framebuffer::kind
+  std::uint32_t object = 0, atom = 0;  ///< see StillRenderer::render()
+  std::uint32_t kind = 0;              ///< see Framebuffer::kind
   std::uint32_t patch = 0;             ///< index in the surface's table of that kind; undefined for shapes and caps
   glm::dvec3 position{0.0}, normal{0.0, 0.0, 1.0};
 };
@@ -72,8 +72,8 @@ struct RenderSettings {
   int block_edge = 2048;  ///< render(): larger pictures are cast in blocks of at most this edge, pixels
   Look look;              ///< draw() shows its background; render() leaves it transparent
   StageTiming timing = StageTiming::rough;
-  /// render() on the CPU calls it regularly on the calling thread with the finished share, from 0 to 1. If it throws,
-  /// the picture is not finished.
+  /// The function that render() on the CPU calls regularly on the calling thread with the finished share, from 0 to 1.
+  /// If it throws, the picture is not finished.
   std::function<void(double share)> progress{};
   /// render() passes the picture to it in bands of whole rows, from the top, so that it is never in memory as a whole.
   /// The picture that render() returns has its size and no pixels. A band is a picture of its own with rows from
@@ -118,8 +118,8 @@ inline constexpr float kHatchedLight = 0.35f;
 
 /// A surface or shapes with their colours. The data behind its pointers must exist until the picture is finished.
 struct PictureObject {
-  const Surface* surface = nullptr;  ///< a surface,
-  const Shapes* shapes = nullptr;    ///< or shapes
+  const Surface* surface = nullptr;  ///< the surface; nullptr if there are shapes
+  const Shapes* shapes = nullptr;    ///< the shapes; nullptr if there is a surface
   /// One colour for each of Surface::atoms, or, for shapes, of Structure::atoms.
   const Coloring* coloring = nullptr;
   /// The part before all of these planes is kept. Where they cut the solid there are caps.

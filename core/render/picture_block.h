@@ -99,11 +99,11 @@ struct HitSource {
   std::span<const ray_cast::Primitive> primitives;
 };
 
-/// The indices of what a ray hit.
+/// The indices of the point that a ray hit.
 struct HitNames {
-  std::uint32_t atom = kNone, component = kNone;  ///< in the tables of Hit::object
-  std::uint32_t kind = kNone;                     ///< as Framebuffer::kind
-  std::uint32_t patch = kNone;                    ///< as SeenPoint::patch
+  std::uint32_t atom = kNone, component = kNone;  ///< indices in the tables of Hit::object
+  std::uint32_t kind = kNone;                     ///< see Framebuffer::kind
+  std::uint32_t patch = kNone;                    ///< see SeenPoint::patch
 };
 
 /// Returns the names of a hit of some primitive at a point, Å. Any thread may call it.
@@ -130,7 +130,7 @@ class PictureCollector {
   /// Adds colours. sums: the sum of the samples of each of the block's pixels, linear and premultiplied.
   void add_colors(const PictureBlock& inner, const PictureBlock& block, std::span<const glm::vec4> sums);
   void add_hits(const PictureBlock& inner, const PictureBlock& block, std::span<const ray_cast::Hit> hits);
-  /// Stores what the rays of one sample of each pixel hit. hits: one for each pixel of the block.
+  /// Stores the hits of the rays of one sample of each pixel. hits: one for each pixel of the block.
   void add_seen(const PictureBlock& inner, const PictureBlock& block, std::span<const ray_cast::Hit> hits, int sample);
 
   /// Marks one of blocks() as finished.

@@ -236,7 +236,7 @@ class Packer {
   const RigidMotion* const motion_;
   const std::uint32_t first_atom_;
   RayCastPack& scene_;
-  std::vector<glm::dvec3> directions_;  // of a probe's contacts; a member for the sake of its memory
+  std::vector<glm::dvec3> directions_;  // directions of a probe's contacts; a member, so that its memory is reused
 };
 
 /// The place of a part of a scene in the whole scene.

@@ -20,8 +20,8 @@ struct PictureFrame {
   ViewBasis basis;
   glm::ivec2 size{0};         ///< pixels
   glm::dvec3 pivot{0.0};      ///< Å
-  double eye_distance = 0.0;  ///< from the camera's position to the pivot, Å
-  double pixel_size = 0.0;    ///< in the plane through the pivot, Å
+  double eye_distance = 0.0;  ///< distance from the camera's position to the pivot, Å
+  double pixel_size = 0.0;    ///< size of a pixel in the plane through the pivot, Å
 };
 
 /// A group of balls, possibly moved, so that copies need not be in memory at the same time.

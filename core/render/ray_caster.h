@@ -20,7 +20,7 @@ struct CastSample {
   const Buffer& colors;  ///< vec4 each
   const Buffer& hits;    ///< ray_cast::Hit each
   int index;
-  glm::vec2 offset;  ///< from the centres of pixels, pixels
+  glm::vec2 offset;  ///< offset from the centres of pixels, in pixels
 };
 
 /// Runs the kernels of gpu_shaders/look/ and owns their buffers. Needs a current GL context. The programs must outlive
@@ -33,7 +33,7 @@ class LookPass {
   void add(const CastSample& sample, const Look& look, const GpuPack& scene, const PictureFrame& frame,
            const PictureBlock& block, const Buffer& picture);
 
-  /// Makes the maps for the shade of a picture of these atoms. basis: of the camera.
+  /// Makes the maps for the shade of a picture of these atoms. basis: axes of the camera.
   void make_light_maps(std::span<const Ball> atoms, const GpuPack& scene, const Look& look, const ViewBasis& basis);
 
  private:
@@ -107,7 +107,7 @@ class TileLists {
   glm::ivec2 tiles_{0};
   Buffer counts_, entries_;
   std::uint32_t counted_ = 0, known_ = 0, trusted_ = 0;  // sizes of entries: read back, last counted, allocated
-  Buffer tile_order_, dispatches_;                       // for split_tiles.comp
+  Buffer tile_order_, dispatches_;                       // buffers of split_tiles.comp
   TexelBuffer primitive_texels_{TexelFormat::uint4}, slot_texels_{TexelFormat::uint1},
       entry_texels_{TexelFormat::uint1}, order_texels_{TexelFormat::uint1};
 };
@@ -169,7 +169,7 @@ class RayCaster {
   std::uint32_t longest_ = 0;           // longest list of an unfinished invocation
   bool long_lists_ = false;             // some sample had unfinished invocations
   Buffer unfinished_, states_;          // invocations whose loops the driver cut short
-  Buffer sample_colors_, sample_hits_;  // for looks with effects
+  Buffer sample_colors_, sample_hits_;  // buffers for looks with effects
 };
 
 }  // namespace meniscus

@@ -36,7 +36,7 @@ PageShape shape_of(const InkStroke& stroke, double around, const AnnotationLayer
 bool reaches_into(const InkStroke& stroke, int first_row, int end_row) {
   double low = 0.0, high = 0.0;
   if (const auto* const text = std::get_if<InkText>(&stroke)) {
-    const double half = 0.56 * text->height;  // with accents, or with what is below the line
+    const double half = 0.56 * text->height;  // includes accents, and parts of letters below the line
     low = text->place.y - half;
     high = text->place.y + half;
   } else if (const auto* const line = std::get_if<InkLine>(&stroke)) {

@@ -34,10 +34,10 @@ struct PageShape {
 /// The arrangement of a page, in pixels of the picture.
 struct PageLayout {
   glm::ivec2 low{0}, high{0};                    ///< borders of the page
-  glm::ivec2 picture_place{0}, picture_size{0};  ///< of the picture's pixels; 0: there are none
+  glm::ivec2 picture_place{0}, picture_size{0};  ///< place and size of the picture's pixels; 0: there are none
 };
 
-/// The common part of both kinds of pages: what is known of a page, and its file.
+/// The common part of both kinds of pages: the properties of a page, and its file.
 class PageEncoder {
  public:
   PageEncoder(const std::filesystem::path& path, const PageLayout& layout, const ImageSettings& settings)

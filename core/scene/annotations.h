@@ -15,7 +15,6 @@ struct LabelRequest {
   std::string text;
 };
 
-/// The requested legend.
 struct LegendRequest {
   bool within = false;  ///< true if the legend is drawn within the picture
   std::string file;     ///< path of a file with the legend alone; empty: none
@@ -50,8 +49,8 @@ LabelRequest parse_label(std::string_view text);
 /// nothing if there is no curve. Throws InputError.
 std::optional<Curve> curve_of(const AnnotationRequest& request, std::span<const std::uint64_t> frames);
 
-/// Returns the texts and marks in a picture of the structure, without the time. lengths: of its dashed lines, which
-/// follow the requested labels. Throws InputError for a label that selects no atoms.
+/// Returns the texts and marks in a picture of the structure, without the time. `lengths` are those of its dashed
+/// lines; they follow the requested labels. Throws InputError for a label that selects no atoms.
 Annotations annotations_of(const AnnotationRequest& request, const Structure& structure,
                            std::span<const PlaceLabel> lengths = {});
 

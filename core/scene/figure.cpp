@@ -34,8 +34,7 @@ glm::vec2 PointMotion::at(const SeenPoint& point) const {
 
 namespace {
 
-/// Pictures of copies with more atoms than this are made without all copies in memory. With fewer atoms that is not
-/// worthwhile.
+/// Pictures of copies with more atoms than this are made without all copies in memory. With fewer it is not worthwhile.
 constexpr std::size_t kMostMergedAtoms = 1'000'000;
 
 constexpr const char* kNothingShown = "the surface is not shown, and there is nothing beside it";

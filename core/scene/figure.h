@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A figure: a molecule with everything that is drawn with it, the meaning of its colours, and its motion to the next
-// frame.
+// A figure: a molecule with everything that is drawn with it, the meaning of its colours, and its motion.
 #pragma once
 
 #include "core/camera/camera.h"
@@ -88,7 +87,6 @@ struct FigureExtras {
   bool empty() const { return shapes.empty() && objects.empty(); }
   /// Returns balls around all of it, for framing.
   std::vector<Ball> balls() const;
-  /// Returns the lengths of all dashed lines.
   std::vector<PlaceLabel> lengths() const;
 };
 
@@ -97,8 +95,7 @@ struct Figure {
   Molecule molecule;
   FigureExtras extras;
 
-  /// Returns balls for framing: the atoms of the surface at all their places, and balls around everything else that is
-  /// drawn.
+  /// Returns balls for framing: the atoms of the surface at all their places, and balls around everything else.
   std::vector<Ball> balls() const;
 };
 

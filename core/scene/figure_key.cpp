@@ -65,7 +65,7 @@ ColorKey figure_key(const Structure& structure, const ColorScheme& scheme, Drawn
   drawn.atoms.resize(count, false);
   if (!extras.shapes.empty()) mark(extras.shapes, shapes);
   if (scheme.by == By::automatic)
-    for (const std::uint32_t atom : extras.shapes.shapes.mesh.atoms) {  // of bases, too, which are carbon
+    for (const std::uint32_t atom : extras.shapes.shapes.mesh.atoms) {  // these include the atoms of bases
       if (!shapes[atom] || all.atoms[atom].kind != AtomClass::polymer) continue;
       backbones[atom] = true;
       shapes[atom] = false;

@@ -20,8 +20,8 @@ namespace meniscus {
 struct FigureObjectRequest {
   Selection atoms;
   std::optional<RepresentationRequest::Kind> shapes{};  ///< nothing: the surface of these atoms, as if they were alone
-  std::optional<Selection> partners{};  ///< of dashed lines: the atoms at their other ends; nothing: all that are drawn
-  std::optional<ColorScheme> color{};   ///< nothing: the molecule's colours, or kDashColor
+  std::optional<Selection> partners{};   ///< atoms at the other ends of dashed lines; nothing: all that are drawn
+  std::optional<ColorScheme> color{};    ///< nothing: the molecule's colours, or kDashColor
   std::vector<OpacityRule> opacities{};  ///< opacities of this object; the molecule's opacities do not apply to it
   MaterialRequest material{};
   std::optional<double> radius{};  ///< radius of sticks, backbones and dashes, Å; nothing: the default radius
@@ -29,7 +29,7 @@ struct FigureObjectRequest {
   // These members apply to surfaces only.
   SurfaceKind kind = SurfaceKind::ses;
   double probe_radius = kUsualProbe;  ///< Å
-  std::optional<Selection> show{};    ///< the atoms, of the object's, whose part of the surface is drawn; nothing: all
+  std::optional<Selection> show{};    ///< atoms of the object whose part of the surface is drawn; nothing: all
   std::vector<Cut> cuts{};
   CapStyle cap{};
   bool thickens = false;  ///< PictureObject::thickens
@@ -83,8 +83,7 @@ std::vector<FigureObjectRequest> all_requests(std::span<const FigureObjectReques
 std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> objects, const Structure& structure,
                                        std::size_t first_mark, const ColorScheme& scheme);
 
-/// Updates the colours, opacities and shown parts of objects made by make_objects(). Their atoms, surfaces and shapes
-/// stay.
+/// Updates the colours, opacities and shown parts of objects made by make_objects(). Their surfaces and shapes stay.
 void color_objects(std::span<const FigureObjectRequest> requests, const Structure& structure, const ColorScheme& scheme,
                    std::vector<FigureObject>& objects);
 
@@ -95,8 +94,7 @@ ColorScheme scheme_of(const FigureObjectRequest& request, const Structure& struc
 /// Returns balls that enclose the object, for framing.
 std::vector<Ball> balls_of(const FigureObject& object);
 
-/// Returns the object for a picture. balls: as for clip_plane(). `object` and `request` must stay until the picture is
-/// made.
+/// Returns the object for a picture. balls: as for clip_plane(). `object` and `request` must outlive the drawing.
 PictureObject picture_object(const FigureObject& object, const FigureObjectRequest& request, const Camera& camera,
                              std::span<const Ball> balls);
 

@@ -374,15 +374,14 @@ void FrameRun::survey(const std::function<void(std::uint64_t, const Structure&)>
   }
 }
 
-/// Computes the differences that Velocities names, Å per frame of the run. A frame that cannot be read counts as
-/// missing.
+/// Computes the differences that Velocities names, Å per frame of the run. Unreadable frames count as missing.
 void FrameRun::read_velocities(ReadFrame& into) {
   const std::uint64_t place = place_.at(into.number);
   double steps = 0.0;
   // A damaged neighbour is an error of its own frame, not of this one.
   const auto read_neighbor = [&](std::uint64_t neighbor, Frame& frame) {
     try {
-      if (neighbor >= run_.size()) return read(into.number, frame);  // also for the frame before the first
+      if (neighbor >= run_.size()) return read(into.number, frame);  // no frame is before the first or after the last
       read(run_[neighbor], frame);
       steps += 1.0;
     } catch (const InputError&) {

@@ -24,11 +24,11 @@ enum class WholeBy {
 /// The frames of a trajectory in a run, and their preparation.
 struct RunRequest {
   std::vector<std::string> trajectories;      ///< joined in this order; empty: the models of the molecule's file
-  std::optional<Selection> trajectory_atoms;  ///< the atoms of the molecule's file that these have; nothing: all
+  std::optional<Selection> trajectory_atoms;  ///< atoms of the molecule's file that the trajectories have; nothing: all
   bool trust_atom_order = false;  ///< bonds of the first frame are not compared with bonds of the molecule's file
   std::string frames;             ///< a list for parse_frame_list; empty: all
   std::uint64_t stride = 1;
-  std::uint64_t repeat = 1;       ///< how many times in a row each selected frame comes
+  std::uint64_t repeat = 1;       ///< number of times in a row that each selected frame is in the run
   std::uint64_t interpolate = 1;  ///< number of frames made from each: itself, and frames on the way to the next
   std::string begin, end;         ///< a frame ("100", "-10", "last") or a time ("2.5ns", "300ps"); empty: no bound
   std::string only;               ///< the chunk of the run that is made, as a list of frames; empty: all of it
@@ -148,8 +148,8 @@ class FrameRun {
 std::vector<double> fluctuations(FrameRun& run);
 
 /// If RunRequest::select_once is set, replaces all selections of the scene that depend on positions by the atoms that
-/// they select in the first frame. Must be called before the scene is used. of_atoms: further selections, of atoms of
-/// the surface. Throws RequestError if no selection depends on positions; otherwise like FrameRun.
+/// they select in the first frame. Must be called before the scene is used. `of_atoms` are further selections, which
+/// select atoms of the surface. Throws RequestError if no selection depends on positions; otherwise like FrameRun.
 void freeze_selections(Scene& scene, const std::vector<Selection*>& of_atoms = {});
 
 }  // namespace meniscus

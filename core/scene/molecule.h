@@ -55,7 +55,7 @@ void open_book(Structure& structure, std::span<const AtomGroup> groups, const Op
 struct MoleculeRequest {
   std::string file;  ///< "-": standard input
   ReadOptions reading;
-  std::optional<Selection> show;  ///< the atoms, of those read, whose part of the surface is drawn and exported
+  std::optional<Selection> show;  ///< atoms whose part of the surface is drawn and exported; nothing: all
   SurfaceRequest surface;
   Division division;
   ColorScheme color;
@@ -74,7 +74,7 @@ struct MoleculeRequest {
 struct Molecule {
   Structure structure;
   ColorScheme color;                   ///< the requested scheme with the numbers of its file
-  std::vector<SurfaceObject> objects;  ///< at least one
+  std::vector<SurfaceObject> objects;  ///< there is at least one
   double beyond_map = 0.0;             ///< share of the surface, in [0, 1), that its volume map does not cover
   std::string device;                  ///< the device that computed the surfaces
   std::vector<StageTime> stages;       ///< times of the stages of all surfaces
@@ -141,8 +141,7 @@ class MoleculeBuilder {
 };
 
 /// Returns the share in [0, 1] of the area with a volume map's colours that lies where the map has no values, measured
-/// at points of all patches. It is exactly 0 if the atoms lie deep enough in the map, and 0 if nothing shows its
-/// colours.
+/// at points of all patches. It is exactly 0 if the atoms lie deep in the map, and 0 if nothing shows its colours.
 double share_beyond(const VolumePaint& map, std::span<const SurfaceObject> objects);
 
 /// The atoms in the surroundings of a molecule, and their effect on its areas.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws previews on the CPU, from computed surfaces and copies of them, copies as atoms by any renderer, and views on
-// GL.
+// Draws previews: computed surfaces and their copies on the CPU, copies as atoms by any renderer, and views on GL.
 #include <cassert>
 
 #include "core/base/progress.h"

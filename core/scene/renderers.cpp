@@ -55,8 +55,7 @@ PictureDevice::PictureDevice(const SurfaceRequest& request) : thread_limit_(requ
   renderer_ = context_ ? make_gl_still_renderer(*context_) : std::make_unique<StillRenderer>();
 }
 
-// The automatic choice is never software GL. A list of devices does not show which they are: only a context knows its
-// renderer.
+// The automatic choice is never software GL. A list of devices does not show it: only a context knows its renderer.
 void PictureDevice::find_gl(DeviceChoice choice) {
   if (choice.kind != DeviceChoice::Kind::automatic) {
     context_.emplace(choice);

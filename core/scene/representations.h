@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes in addition to a surface: atoms drawn as sticks, balls, spheres, a backbone, bases or sugars, and their
-// colours.
+// Shapes in addition to a surface: atoms drawn as sticks, balls, spheres, a backbone, bases or sugars; their colours.
 #pragma once
 
 #include "core/color/color_schemes.h"
@@ -37,7 +36,7 @@ constexpr bool draws_each_atom(RepresentationRequest::Kind kind) {
 
 /// Radii of shapes, Å; nothing: the default radii.
 struct ShapeRadii {
-  std::optional<double> stick_radius;  ///< of bases, too; default: kStickRadius, with balls kThinStickRadius
+  std::optional<double> stick_radius;  ///< applies to bases, too; default: kStickRadius, with balls kThinStickRadius
   std::optional<double> tube_radius;   ///< default: kTubeRadius
 };
 

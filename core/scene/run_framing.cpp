@@ -307,7 +307,7 @@ std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme&
   const auto add = [&](const glm::vec3& color) {
     if (std::ranges::find(colors, color) == colors.end()) colors.push_back(color);
   };
-  for (const ColorRule& rule : scheme.rules)  // with any atoms that rules may select in other frames
+  for (const ColorRule& rule : scheme.rules)  // rules may select any atoms in other frames
     for (const glm::vec3& color : run_colors(structure, rule.paint)) add(color);
   if (scheme.by == ColorScheme::By::component) {
     for (std::size_t n = 0; n < kCategoricalCount; ++n) add(categorical_color(n));

@@ -41,7 +41,7 @@ class ShownFrames {
 
   const MoleculeRequest& molecule_;
   FrameRun& frames_;
-  std::vector<std::optional<OpenPages>> pages_;   ///< by place in the run
+  std::vector<std::optional<OpenPages>> pages_;   ///< one for each place in the run
   std::optional<Structure> first_, first_shown_;  ///< set for an interface only
   double most_buried_ = 0.0;
 };
@@ -49,7 +49,7 @@ class ShownFrames {
 /// The motion of the camera over a run.
 struct CameraMotionRequest {
   std::string path_file;  ///< empty: one camera, from a file or framing all frames
-  double turns = 0.0;     ///< over the run, about the camera's up axis through the middle of the framed atoms
+  double turns = 0.0;     ///< turns during the run about the camera's up axis through the middle of the framed atoms
   std::optional<Selection> follow;
 
   bool moves() const { return !path_file.empty() || turns != 0.0 || follow.has_value(); }
@@ -96,8 +96,7 @@ RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motio
 /// can be read, and RequestError if the atoms change from frame to frame (fluctuations).
 void measure_colors(ColorScheme& color, ShownFrames& frames);
 
-/// Returns FrameRun::possible_structure() with the number of the first frame, because a file may have numbers for that
-/// frame.
+/// Returns FrameRun::possible_structure() with the number of the first frame, whose numbers a file may have.
 Structure numbered_structure(const FrameRun& frames);
 
 /// Returns all colours that a frame of the run may have, in the order of the atoms; for components, all their colours.

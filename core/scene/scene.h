@@ -31,8 +31,7 @@ struct Scene {
   RendererOutput renderer;
   std::string output;  ///< path of the output; empty: not given
 
-  /// Lengths on paper as they were given ("85mm", "0.5pt"), by the key of their property. The members themselves are in
-  /// pixels.
+  /// Lengths on paper as they were given ("85mm", "0.5pt"), by the key of their property. Members have them in pixels.
   std::map<std::string, std::string, std::less<>> lengths;
 };
 

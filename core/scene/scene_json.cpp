@@ -432,7 +432,7 @@ std::string scene_text(const Scene& scene, const std::string& folder, std::span<
   for (const std::string& json : value_texts(scene, property_of("figure.object")))
     objects.push_back(Json::parse(json, nullptr, false));
   Json ordered{{kVersionKey, kVersion}};
-  for (const char* section : {"molecule", "frames"})  // what is drawn comes before how it is drawn
+  for (const char* section : {"molecule", "frames"})  // the content of a scene comes before its look
     if (sections.contains(section)) ordered[section] = sections[section];
   ordered["objects"] = std::move(objects);
   for (const auto& [section, keys] : sections.items())

@@ -21,7 +21,7 @@ struct SceneTrust {
   std::vector<std::string> named{};  ///< words of an earlier command line
   bool is_whole = false;             ///< --trust-scene
   bool replaces = false;             ///< --force
-  std::string advice{};              ///< how the user can allow a file outside of the folder: the end of a sentence
+  std::string advice{};              ///< end of a sentence about how to allow a file outside of the folder
 
   /// Returns a path of the scene relative to the working folder. A path to read is searched in the scene's folder, then
   /// in the working folder, then among the words of the earlier command line. place: the place of the path in the
@@ -52,7 +52,6 @@ struct ObjectKey {
   bool of_surfaces, of_shapes;
 };
 
-/// Returns the keys in the order of their table.
 const std::vector<ObjectKey>& object_keys();
 
 /// Reads {"representation": "surface" | "sticks" | "balls" | "spheres" | "tube", "selection": EXPR, ...};
@@ -65,7 +64,7 @@ nlohmann::ordered_json figure_object_json(const FigureObjectRequest& object);
 /// A value that a scene file sets.
 struct SceneSetting {
   const Property* property = nullptr;
-  std::vector<std::string> texts;  ///< in the form of set_value(); paths as in the file
+  std::vector<std::string> texts;  ///< the form is that of set_value(); paths as in the file
   std::string place;               ///< place in the file, for messages: "objects[0].clip"
 };
 

@@ -31,8 +31,7 @@ std::string SceneTrust::path(const Property& property, const std::string& text, 
   if (text == "-") fail(file, place, "is \"-\", standard input or output; a scene names files");
   std::error_code ignored;
   std::string path = text_of_path(given.is_absolute() ? given : path_of_text(file).parent_path() / given);
-  // A picture in a folder of its own names its molecule as the command that made it did: relative to the working
-  // folder.
+  // A picture in a folder of its own names its molecule as its command did: relative to the working folder.
   const bool reads = property.type != ValueType::new_file;
   if (reads && !fs::exists(path_of_text(path), ignored) && fs::exists(given, ignored)) path = text;
   // Pictures and pages have the names of files without folders.

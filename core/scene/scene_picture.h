@@ -34,8 +34,7 @@ struct PictureLayout {
 /// Returns the strips above and below the molecule in a picture of this size, without its legend.
 Strips scene_strips(const Scene& scene, glm::ivec2 size);
 
-/// Returns the margin of a picture that ends at its molecule (ViewRequest::fits), in pixels. At the sides it has room
-/// for labels.
+/// Returns the margin of a picture that ends at its molecule (ViewRequest::fits), in pixels. It has room for labels.
 glm::ivec2 fitted_margin(const Scene& scene, glm::ivec2 size);
 
 /// Returns the request for the surfaces of a picture, with the device on which pictures are made.

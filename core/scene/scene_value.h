@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the values of a scene are bound to its members: each row has the member of a property, how it is read from text,
-// and how it is written; and lengths, in pixels or in millimetres, inches and points on paper.
+// Rows that bind the values of a scene to its members: each reads the member of a property from text and writes it as
+// text; and lengths, in pixels or in millimetres, inches and points on paper.
 #pragma once
 
 #include <concepts>
@@ -24,8 +24,8 @@ struct SceneValue {
   void (*reset)(const Property& property, Scene& scene) = nullptr;
 };
 
-/// Gives a value the one that the texts say, in the form of set_value(), or without texts that of Scene{}. The property
-/// must be one that previews change (Trait::live). Throws like set_value().
+/// Sets a value from texts in the form of set_value() or, without texts, to the value of Scene{}. The property must be
+/// one that previews change (Trait::live). Throws like set_value().
 void replace_value(Scene& scene, const Property& property, Texts texts);
 
 /// Return the rows of one subject.
@@ -204,8 +204,7 @@ Written written_length(const Property& property, const Scene& scene, const std::
 /// Gives all lengths on paper their values in pixels. Throws ValueError for lengths that the properties cannot have.
 void complete_lengths(Scene& scene);
 
-/// Returns the size in pixels that lengths of sides give. If only one side is given, the picture has the default aspect
-/// ratio.
+/// Returns the size in pixels that lengths of sides give. With a single side, the picture has the default aspect ratio.
 glm::ivec2 size_by_lengths(const Scene& scene);
 /// True if the size of the picture is size_by_lengths(), except for a height that follows from the molecule.
 bool has_lengths_of_sides(const Scene& scene);

@@ -24,7 +24,7 @@ class ValueError : public RequestError {
   std::string key_;
 };
 
-/// True if scenes have a value of this property. Properties of a command alone, such as overwriting files, are none.
+/// True if scenes have a value of this property. Properties of a command alone, such as overwriting, do not count.
 bool is_scene_value(const Property& property);
 
 /// Returns the name of a property in programs: its option without leading dashes, and with "_" for other dashes:
@@ -40,8 +40,7 @@ const Property& scene_property(std::string_view name);
 /// SelectionError.
 void set_value(Scene& scene, const Property& property, std::span<const std::string> texts);
 
-/// Returns the texts from which set_value() reads the scene's value, to the last bit; empty if it is the value of
-/// Scene{}.
+/// Returns the texts from which set_value() reads the scene's value, to the last bit; empty if it is that of Scene{}.
 std::vector<std::string> value_texts(const Scene& scene, const Property& property);
 
 /// The looks that follow the lights of LookPreset in the table of presets.
@@ -63,7 +62,7 @@ void complete(Scene& scene);
 /// with an interface.
 Scene prepared_scene(Scene scene);
 
-/// A scene, and a function that tells which of its values were given.
+/// A scene, and a function that says which of its values were given.
 struct GivenScene {
   const Scene& scene;
   std::function<bool(std::string_view key)> is_given;

@@ -79,8 +79,7 @@ SurfaceComputer::SurfaceComputer(const SurfaceRequest& request, const EglContext
   if (!request.cpu && request.gl.kind == DeviceChoice::Kind::automatic) on_cpu_ = !find_hardware();
 }
 
-// The automatic choice is never software GL. A list of devices does not show which they are: only a context knows its
-// renderer.
+// The automatic choice is never software GL. A list of devices does not show it: only a context knows its renderer.
 bool SurfaceComputer::find_hardware() {
   if (context_) return !context_->is_software();
   DeviceChoice hardware = request_.gl;

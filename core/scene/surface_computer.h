@@ -36,7 +36,6 @@ class ThreadLimit {
   std::unique_ptr<tbb::global_control, End> limit_;
 };
 
-/// The kind of a surface of atoms.
 enum class SurfaceKind {
   ses,  ///< solvent-excluded: the boundary of the volume that the probe cannot reach
   sas,  ///< solvent-accessible: the boundary of the balls of radius r + probe radius, where the probe's centre can be
@@ -135,7 +134,6 @@ class SurfaceComputer {
 /// SurfaceComputer::compute() throws.
 ComputedSurface compute_surface(std::span<const Ball> balls, const SurfaceRequest& request);
 
-/// Returns the sum of the times of all stages, ms.
 double total_ms(const std::vector<StageTime>& stages);
 
 }  // namespace meniscus

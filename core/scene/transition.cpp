@@ -86,7 +86,6 @@ void blend(Framebuffer& from, const Framebuffer& to, double share) {
   for (std::size_t n = 0; n < from.color.size(); ++n) from.color[n] = between(from.color[n], to.color[n], share);
 }
 
-/// The annotations of two pictures.
 struct PartedAnnotations {
   Annotations common, of_first, of_second;
 };

@@ -43,15 +43,13 @@ RenderSettings settings_of(const Shot& shot);
 Framebuffer picture_of(const Shot& shot, Framebuffer molecule);
 
 /// Returns the camera after a `share` (0 to 1) of the way from one to the other along a CameraPath. It has the
-/// projection of the first; if the second has another one, the way ends with the second's view of the plane of its
-/// target.
+/// projection of the first; if the second has another one, the way ends with its view of the plane of its target.
 Camera camera_between(const Camera& from, const Camera& to, double share);
 
 /// Returns a radius in Å between two; `from` unless both are above 0, because a radius must not grow from nothing, or
 /// from a default.
 double radius_between(double from, double to, double share);
 
-/// Returns the planes as cuts.
 std::vector<Cut> cuts_at(std::span<const ClipPlane> planes);
 
 /// Returns planes on the way from some to others. The first plane becomes the first of the others, and so on. A plane

@@ -35,7 +35,7 @@ std::vector<RigidMotion> copy_motions(const Structure& structure) {
   std::vector<RigidMotion> motions;
   for (const Instances& instances : structure.instances)
     if (instances.motions.size() > motions.size()) motions = instances.motions;
-  std::unordered_map<std::uint32_t, glm::dvec3> first;  // by place in the file
+  std::unordered_map<std::uint32_t, glm::dvec3> first;  // key: place in the file
   std::map<std::uint32_t, std::vector<const Atom*>> copies;
   for (const Atom& atom : structure.atoms) {
     if (atom.copy == 0) first.emplace(atom.index, atom.position);
@@ -166,7 +166,7 @@ std::vector<Ball> ViewAim::framed(const Structure& structure) const {
 PictureFit picture_fit(Camera camera, glm::ivec2 size, int height, std::span<const Ball> balls, glm::ivec2 margin) {
   const ViewBasis basis = view_basis(camera);
   const double focus = glm::distance(camera.position, camera.target);
-  glm::dvec2 reach(0.0);  // from the middle of the picture, Å at the target
+  glm::dvec2 reach(0.0);  // distance from the middle of the picture, Å at the target
   for (const Ball& ball : balls) {
     const glm::dvec3 to = ball.center - camera.position;
     const auto edge = [&](double side, double depth) {

@@ -39,7 +39,7 @@ class ViewAim {
   /// drawn in addition to the surface.
   std::vector<Ball> shown(const Structure& structure) const;
   std::vector<Ball> framed(const Structure& structure) const;
-  /// Returns the balls with what else decides a view of them.
+  /// Returns the balls together with everything else that decides a view of them.
   ViewedBalls viewed_balls(std::span<const Ball> shown, std::span<const Ball> framed) const {
     return {shown, framed, symmetry_, forward_};
   }
@@ -64,8 +64,8 @@ struct PictureFit {
   int height;
 };
 
-/// Returns the fit of a picture in which the balls leave a margin, in pixels, at each side. camera: of a picture of
-/// this size, whose middle is that of the balls. height: of the new picture, which has the same width.
+/// Returns the fit of a picture in which the balls leave a margin, in pixels, at each side. camera: the camera of a
+/// picture of this size, with the balls in its middle. height: the height of the new picture, which has the same width.
 PictureFit picture_fit(Camera camera, glm::ivec2 size, int height, std::span<const Ball> balls, glm::ivec2 margin);
 
 /// True if it is certain, before any surface is computed, that a picture by this camera shows nothing of the structure.

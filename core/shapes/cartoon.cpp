@@ -336,7 +336,7 @@ constexpr double kLongestRung = 10.0;     // Å; C1' is 4 to 6 from the middle l
 
 /// The atoms that a base is drawn from, as indices into Structure::atoms.
 struct Base {
-  std::array<std::optional<std::uint32_t>, 10> ring;  ///< by the number in the atom's name; the first entry is not used
+  std::array<std::optional<std::uint32_t>, 10> ring;  ///< index: number in the atom's name; the first entry is not used
   std::array<std::string_view, 10> name;
   std::optional<std::uint32_t> sugar;  ///< C1'
   std::uint32_t residue = 0, copy = 0;

@@ -97,8 +97,7 @@ struct MiddlePoint {
   std::uint32_t atom;   ///< index into Structure::atoms of the atom of the nearer residue
 };
 
-/// Returns the middle lines of all nucleotides of the structure, piece by piece, with eight points from one residue to
-/// the next.
+/// Returns the middle lines of all nucleotides of the structure, piece by piece, with eight points per residue.
 std::vector<MiddlePoint> nucleic_middle_lines(const Structure& structure);
 
 /// Returns the indices of the atoms, copy by copy, in the order of their file.

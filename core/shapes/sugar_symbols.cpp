@@ -257,7 +257,7 @@ std::vector<Symbol> symbols_of(const Structure& structure, const std::vector<boo
   return symbols;
 }
 
-/// Adds sticks from each symbol to what its anomeric carbon is bonded to beyond its residue.
+/// Adds sticks from each symbol to the partner that its anomeric carbon is bonded to in another residue.
 void add_links(const Structure& structure, const std::vector<Symbol>& symbols, double radius, Shapes& shapes) {
   std::map<std::uint32_t, std::size_t> symbol_of;
   for (std::size_t n = 0; n < symbols.size(); ++n)

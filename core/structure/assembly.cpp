@@ -17,7 +17,7 @@ namespace {
 
 /// Files have six decimals or fewer. A matrix that is farther from a rotation than this was not meant as one.
 constexpr double kRotationTolerance = 1e-3;
-constexpr std::size_t kMostFactors = 16;  // of a product; capsids have two
+constexpr std::size_t kMostFactors = 16;  // A product has at most this many factors; capsids have two.
 
 double farthest_from_identity(const glm::dmat3& m) {
   double farthest = 0.0;

@@ -11,7 +11,7 @@ struct Atom;
 struct RigidMotion;
 struct Structure;
 
-/// How the copies of an assembly are represented.
+/// The representation of the copies of an assembly.
 enum class CopyMode {
   atoms,     ///< every copy has atoms of its own, and all of them together have one surface
   instances  ///< the atoms exist once; Structure::instances has the motions of the copies
@@ -20,7 +20,6 @@ enum class CopyMode {
 /// The greatest number of atoms of an assembly with CopyMode::atoms. A larger one is an error of the file, or too large
 /// for any machine; it can still be drawn with instances.
 inline constexpr std::size_t kMostAssembledAtoms = 10'000'000;
-/// The greatest number of operators of an assembly.
 inline constexpr std::size_t kMostOperators = 100'000;
 
 /// Returns the motion of three rows (r1 r2 r3 t), which files have rounded. The rotation is replaced by the nearest

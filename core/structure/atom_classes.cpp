@@ -79,8 +79,7 @@ bool is_of_organic_residues(gemmi::Element element) {
   }
 }
 
-/// True for CA, CB, CG, CD, CE, CZ, NE1, OG, SG, HG21 and so on: an element and a Greek letter, which only amino acids
-/// have.
+/// True for CA, CB, CG, CD, CE, CZ, NE1, OG, SG, HG21 and so on: an element and a Greek letter, as in amino acids.
 bool is_amino_acid_atom_name(std::string_view name) {
   return name.size() >= 2 && std::string_view("CNOSH").find(name[0]) != std::string_view::npos &&
          std::string_view("ABGDEZH").find(name[1]) != std::string_view::npos &&
@@ -107,7 +106,7 @@ gemmi::Element lone_ion_element(const Atom& atom) {
 /// standard ones. Returns X if there is none.
 gemmi::Element element_of_two_letters(const Atom& atom, bool of_polymer) {
   constexpr std::string_view kHalogens = " CL BR ",
-                             kOthers = " FE ZN MG MN SI SE CU PT IR RU RH RE AU AS AL TE ";  // not in polymers
+                             kOthers = " FE ZN MG MN SI SE CU PT IR RU RH RE AU AS AL TE ";  // ignored in polymers
   const std::size_t letter = std::min(atom.name.find_first_not_of("0123456789"), atom.name.size());
   const std::string two = upper_case(atom.name.substr(letter, 2)), word = " " + two + " ";
   const bool known = two.size() == 2 && (kHalogens.find(word) != std::string_view::npos ||
@@ -299,7 +298,7 @@ class Classifier {
 
   /// True if the previous or next residue in the file is in the same chain and has a lower or higher number.
   bool in_chain(std::size_t r, std::size_t neighbor) const {
-    if (neighbor >= begins_.size() - 1) return false;  // for the first residue r - 1 is the largest number
+    if (neighbor >= begins_.size() - 1) return false;  // r - 1 is the largest number if r is the first residue
     const Atom &here = head(r), &there = head(neighbor);
     return is_polymer_name(there.residue_name) && !hint(begins_[neighbor]).is_heteroatom && there.chain == here.chain &&
            there.segment == here.segment && there.model == here.model &&

@@ -21,7 +21,7 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 bool is_missing(std::string_view word) { return word == "nan" || word == "NaN" || word == "?" || word == "-"; }
 
-/// True for a missing number, also as spreadsheets and R write it.
+/// True for a missing number, including the ways in which spreadsheets and R write it.
 bool is_missing_cell(std::string_view cell) {
   return cell.empty() || cell == "NA" || cell == "N/A" || is_missing(cell);
 }
@@ -119,8 +119,7 @@ class NumberReader {
     return cell;
   }
 
-  /// Parses the number of a residue: "12", "-3", "52A", or "12.0", as programs write integers in a column with missing
-  /// ones.
+  /// Parses the number of a residue: "12", "-3", "52A", or "12.0", as in a column of integers with missing ones.
   static bool parse_place(std::string_view word, ResidueName& residue) {
     residue.insertion_code = ' ';
     if (word.ends_with(".0")) word.remove_suffix(2);

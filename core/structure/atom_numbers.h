@@ -28,7 +28,7 @@ struct ResidueName {
 struct NumberFile {
   std::string path;
   std::vector<double> numbers{};              ///< one for each atom, in the order of atoms
-  std::map<std::uint32_t, double> by_atom{};  ///< by the place in the molecule's file, from 0
+  std::map<std::uint32_t, double> by_atom{};  ///< key: the atom's place in the molecule's file, from 0
   std::map<ResidueName, double> by_residue{};
   bool without_chains = false;  ///< true if by_residue has no chains, because the molecule has one
   std::string column{};         ///< name of the column; empty if columns have no names

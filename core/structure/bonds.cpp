@@ -58,7 +58,7 @@ glm::dmat3 reduced(glm::dmat3 v) {
 
 std::optional<PeriodicCell> PeriodicCell::of(const glm::dmat3& vectors) {
   const double volume = std::abs(glm::determinant(vectors));
-  // Other edges are no box of atoms, and their squares would leave the range of double precision.
+  // No box of atoms has shorter or longer edges, and their squares may leave the range of double precision.
   constexpr double kShortestEdge = 1e-6, kLongestEdge = 1e9;
   double lengths = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -214,7 +214,7 @@ class BondFinder {
   void join_hydrogens(std::size_t r) {
     constexpr double kLongestToHydrogen = 1.6;
     for (std::uint32_t h = begins_[r]; h < begins_[r + 1]; ++h) {
-      if (atoms_[h].element > 1) continue;  // also for sites without an element, such as the fourth of water models
+      if (atoms_[h].element > 1) continue;  // sites have the element 0, such as the fourth of water models
       std::uint32_t nearest = h;
       double least = kLongestToHydrogen * kLongestToHydrogen;
       for (std::uint32_t n = begins_[r]; n < begins_[r + 1]; ++n) {
@@ -268,7 +268,7 @@ class MoleculeBonds {
 
   void add_listed(std::span<const Bond> listed) {
     if (listed.empty()) return;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> places;  // by copy and place in the file
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> places;  // keys: copy and place in the file
     std::vector<std::uint32_t> copies;
     for (std::uint32_t n = 0; n < atoms_.size(); ++n) {
       places.try_emplace({atoms_[n].copy, atoms_[n].index}, n);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tables of van der Waals radii by element, and of hydropathy and greatest accessible area by residue, with their
-// sources.
+// Tables of van der Waals radii by element, and of hydropathy and greatest accessible area by residue, with sources.
 #pragma once
 
 #include <cstdint>

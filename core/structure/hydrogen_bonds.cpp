@@ -12,8 +12,7 @@ namespace {
 
 constexpr std::uint8_t kProton = 1, kNitrogen = 7, kOxygen = 8, kSulfur = 16;
 constexpr double kReach = 3.9;  // Å; S-H is 1.35 Å long
-// Lengths in Å. C=O is shorter than the first, S=O than the second, bonds of planar N than the third, C≡N than the
-// last.
+// Lengths in Å. C=O is shorter than the first, S=O than the second, planar N's bonds than the third, C≡N than the last.
 constexpr double kCarbonyl = 1.30, kSulfonyl = 1.60, kConjugated = 1.42, kNitrile = 1.20;
 
 double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
@@ -21,7 +20,6 @@ double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
   return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
 }
 
-/// Atoms with their covalent bonds.
 class BondedAtoms {
  public:
   explicit BondedAtoms(std::span<const Atom> atoms) : atoms_(atoms), neighbours_(atoms.size()) {
@@ -127,7 +125,7 @@ std::vector<Bond> hydrogen_bonds(const Structure& structure, const std::vector<b
   const BondedAtoms bonded(atoms);
   std::vector<glm::dvec3> centers;
   for (const Atom& atom : atoms) centers.push_back(atom.position);
-  std::set<Bond> found;  // by ascending atoms
+  std::set<Bond> found;  // in ascending order of atoms
   std::vector<Bond> bonds;
   if (atoms.empty()) return bonds;
   const BallGrid grid(centers, kReach);
@@ -146,11 +144,11 @@ std::vector<Bond> hydrogen_bonds(const Structure& structure, const std::vector<b
 
 std::optional<Bond> closest_pair(std::span<const Atom> atoms, const std::vector<bool>& one,
                                  const std::vector<bool>& other) {
-  std::vector<std::pair<double, std::uint32_t>> right;  // by ascending x
+  std::vector<std::pair<double, std::uint32_t>> right;  // in ascending order of x
   for (std::uint32_t n = 0; n < atoms.size(); ++n)
     if (other[n]) right.emplace_back(atoms[n].position.x, n);
   std::ranges::sort(right);
-  std::pair best{HUGE_VAL, Bond{}};  // squared distance
+  std::pair best{HUGE_VAL, Bond{}};  // squared distance and pair
   for (std::uint32_t a = 0; a < atoms.size(); ++a) {
     if (!one[a]) continue;
     const glm::dvec3& place = atoms[a].position;

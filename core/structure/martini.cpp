@@ -24,8 +24,7 @@ struct ResidueRow {
   std::string_view version3;
 };
 
-// Beads of martinize and martinize2 (vermouth 0.15), force fields martini22 and martini3001. BB of version 2 is left
-// out.
+// Beads of martinize and martinize2 (vermouth 0.15), force fields martini22 and martini3001, without BB of version 2.
 constexpr ResidueRow kProtein[] = {
     {"GLY", "", "BB SP1"},
     {"ALA", "", "BB SP2 SC1 TC3"},

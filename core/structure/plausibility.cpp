@@ -131,7 +131,7 @@ void warn_of_wrong_unit(Structure& structure) {
 }
 
 void warn_of_overlaid_models(Structure& structure) {
-  constexpr double kShortestContact = 1.5;  // Å, of atoms that are not bonded
+  constexpr double kShortestContact = 1.5;  // Å; atoms that are not bonded are farther apart
   if (structure.atoms.empty() || median_nearest(structure.atoms, Neighbors::of_other_models) >= kShortestContact)
     return;
   structure.report.warnings.emplace_back(

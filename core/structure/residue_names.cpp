@@ -204,8 +204,7 @@ bool is_named_by_letters(std::string_view name) {
   return name.size() == 4 && among(kTailLetters, name.substr(0, 2)) && among(kHeadLetters, name.substr(2));
 }
 
-/// True if the residue has ten carbon atoms or more, as a residue with a tail has. Other residues may have the same
-/// short names.
+/// True if the residue has ten carbon atoms or more, as a residue with a tail has. Others may have the same names.
 bool has_tail(std::span<const Atom> residue) {
   return std::ranges::count_if(residue, [](const Atom& atom) { return atom.element == 6; }) >= 10;
 }

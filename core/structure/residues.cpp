@@ -139,7 +139,7 @@ class AlternateResidue {
   const std::vector<Atom>& atoms_;
   std::vector<bool>& kept_;
   std::vector<Conformer> conformers_;
-  std::set<std::string_view> names_;  ///< of the atoms that are kept
+  std::set<std::string_view> names_;  ///< names of the atoms that are kept
 };
 
 }  // namespace
@@ -269,7 +269,7 @@ class LinkFinder {
 
   std::span<const Atom> atoms_;
   std::size_t residues_ = 0;
-  std::vector<End> ends_;  ///< of each atom
+  std::vector<End> ends_;  ///< role of each atom
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
   std::vector<bool> linked_;
 };
@@ -324,13 +324,13 @@ std::vector<Residue> residues_of(std::span<const Atom> atoms) {
   return residues;
 }
 
-/// Returns, per residue, true if it is a sugar that is bound to a polymer.
+/// Returns for each residue whether it is a sugar that is bound to a polymer.
 std::vector<bool> bound_sugars(std::span<const Atom> atoms, std::span<const Residue> residues,
                                std::span<const Bond> listed) {
   constexpr std::uint32_t kPolymer = 0xffffffffu;  // the place of all residues of polymers together
   std::vector<bool> bound(residues.size());
   std::vector<Atom> near;              // the atoms of sugars, then the atoms of polymers that may be bound to them
-  std::vector<std::uint32_t> residue;  // of each atom in `near`
+  std::vector<std::uint32_t> residue;  // residue of each atom in `near`
   std::vector<glm::dvec3> positions;
   for (std::uint32_t r = 0; r < residues.size(); ++r) {
     const std::span<const Atom> own = atoms.subspan(residues[r].first, residues[r].last - residues[r].first);

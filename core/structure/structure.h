@@ -36,7 +36,7 @@ enum class SecondaryStructure : std::uint8_t { unknown, coil, helix, strand };
 /// An atom. Its texts are as in the file and must never be inserted into the source code of another program.
 struct Atom {
   glm::dvec3 position{0.0};  ///< Å
-  double radius = 0.0;  ///< van der Waals radius in Å, from the file (PQR, XYZR) or from a set of radii; 0 until then
+  double radius = 0.0;  ///< van der Waals radius in Å, from the file (PQR, XYZR) or a set of radii; 0 until it is set
   std::uint8_t element = 0;  ///< atomic number; 0: unknown
   AtomClass kind = AtomClass::unclassified;
   char insertion_code = ' ';
@@ -94,10 +94,10 @@ struct ReadReport {
   /// Number of atoms for each reason, one of kExcludedModel and the following; an atom counts for the first reason that
   /// applies.
   std::map<std::string, std::size_t> excluded;
-  /// As `excluded`, but only atoms that have a partial charge and occupy space. Atoms that are excluded as
-  /// kExcludedAltloc, kExcludedVirtual or kExcludedRadius occupy none.
+  /// Like `excluded`, but it counts only atoms that have a partial charge and occupy space. Atoms that are excluded as
+  /// kExcludedAltloc, kExcludedVirtual or kExcludedRadius do not occupy any.
   std::map<std::string, std::size_t> charged;
-  /// For kExcludedLigand and kExcludedLipid the number of residues by their name.
+  /// The number of residues by their name, for kExcludedLigand and kExcludedLipid.
   std::map<std::string, std::map<std::string, std::size_t>> residues;
   std::size_t used = 0;
   std::size_t models = 1;  ///< number of models in the file
@@ -114,30 +114,30 @@ std::string reasons_text(const std::map<std::string, std::size_t>& excluded,
                          const std::map<std::string, std::map<std::string, std::size_t>>& residues = {});
 
 /// The reasons of ReadReport::excluded, in the order in which they are tried.
-inline constexpr const char* kExcludedModel = "other_model";  ///< in a model that is not read
-/// Not in the trajectory, which has fewer atoms than the file.
+inline constexpr const char* kExcludedModel = "other_model";  ///< the atom's model is not read
+/// The atom is not in the trajectory, which has fewer atoms than the file.
 inline constexpr const char* kExcludedTrajectory = "not_in_trajectory";
-inline constexpr const char* kExcludedAltloc = "altloc";  ///< at an alternate location that was not chosen
-/// A place without an atom, such as a lone pair or dummy atom.
+inline constexpr const char* kExcludedAltloc = "altloc";  ///< the atom is at an alternate location that was not chosen
+/// The place has no atom, such as that of a lone pair or dummy atom.
 inline constexpr const char* kExcludedVirtual = "virtual_site";
-inline constexpr const char* kExcludedSelection = "not_selected";  ///< not in the selection
+inline constexpr const char* kExcludedSelection = "not_selected";  ///< the selection does not contain the atom
 /// The element is unknown, and such atoms are to be skipped.
 inline constexpr const char* kExcludedElement = "unknown_element";
-inline constexpr const char* kExcludedRadius = "zero_radius";  ///< a radius of 0 in the file
-/// Hydrogen, if radii are of united atoms or the user leaves it out.
+inline constexpr const char* kExcludedRadius = "zero_radius";  ///< the radius in the file is 0
+/// The atom is a hydrogen, and radii are those of united atoms, or the user leaves it out.
 inline constexpr const char* kExcludedHydrogen = "hydrogen";
 inline constexpr const char* kExcludedWater = "water";  ///< water that was not requested
 inline constexpr const char* kExcludedIon = "ion";      ///< a free ion that was not requested
-/// In a ligand or lipid that no polymer has bound, where no atoms are selected and the file has a polymer.
+/// The atom is in a ligand or lipid that no polymer has bound; no atoms are selected, and the file has a polymer.
 inline constexpr const char* kExcludedLigand = "ligand";
 inline constexpr const char* kExcludedLipid = "lipid";
-inline constexpr const char* kExcludedAssembly = "not_in_assembly";  ///< in a chain that is not in the assembly
+inline constexpr const char* kExcludedAssembly = "not_in_assembly";  ///< the assembly does not contain the atom's chain
 
 /// Atoms that have the same radius for the same reason.
 struct RadiusClass {
   std::string label;   ///< bonding class, force-field type, or element
   double radius;       ///< Å
-  std::string source;  ///< where the radius is from: a paper, a file or an option, as text for people
+  std::string source;  ///< origin of the radius: a paper, a file or an option, as text for people
   std::size_t atoms;
 };
 
@@ -151,12 +151,12 @@ struct Instances {
 /// Chains that have the same motions in an assembly.
 struct AssemblyPart {
   std::vector<std::string> chains;   ///< values of Atom::subchain; empty: all chains
-  std::vector<RigidMotion> motions;  ///< from the positions in the file to each copy, at least one
+  std::vector<RigidMotion> motions;  ///< motions from the positions in the file to each copy, at least one
 };
 
 /// A biological assembly as described in a file.
 struct Assembly {
-  std::string id;           ///< as in the file: "1"
+  std::string id;           ///< identifier in the file, such as "1"
   std::string description;  ///< "tetrameric"; may be empty
   std::vector<AssemblyPart> parts;
 };
@@ -236,8 +236,7 @@ std::string chain_of_file(const Atom& atom);
 /// Returns the distinct chains of some atoms as they are named in the file, in order of appearance.
 std::vector<std::string> chains_of(std::span<const Atom> atoms);
 
-/// Returns the location of an atom in its file: "chain A 35B LEU CD1", or "atom 12" (from 1) if the format has no
-/// names.
+/// Returns the location of an atom in its file: "chain A 35B LEU CD1", or "atom 12" (from 1) without names.
 std::string atom_place(const Atom& atom);
 
 }  // namespace meniscus

@@ -44,7 +44,6 @@ struct SugarRing {
   std::array<std::uint32_t, 6> atoms{};
   std::uint32_t count = 0;  ///< 5 or 6; 0 if the ring is incomplete
 };
-/// Returns the ring of a residue.
 SugarRing ring_of(std::span<const Atom> residue);
 
 }  // namespace meniscus

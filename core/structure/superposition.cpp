@@ -72,7 +72,6 @@ void pair_residues(std::span<const Atom> reference, const std::vector<std::uint3
       for (std::size_t n = 0; n < both.first.size(); ++n) pairs.push_back({both.first[n], both.second[n]});
 }
 
-/// Two aligned chains.
 struct ChainPair {
   std::size_t reference = 0, moved = 0;
   int score = 0;

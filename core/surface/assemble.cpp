@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the stages from a reduced surface to the finished surface, and repeats them with grown radii where ties require
-// it.
+// Runs the stages from a reduced surface to the finished surface, and repeats them with grown radii to resolve ties.
 #include "core/surface/compute_surface.h"
 
 #include <fmt/format.h>

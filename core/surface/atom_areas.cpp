@@ -44,7 +44,7 @@ struct DividerScratch {
     double from, to;
   };
   bool keeps_lines = false;
-  std::vector<Line> lines;                                // on all borders of the patch
+  std::vector<Line> lines;                                // parts of all borders of the patch
   std::vector<std::array<std::uint32_t, 2>> bisected_by;  // pairs of contacts with a common line on their bisector
 };
 

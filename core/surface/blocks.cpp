@@ -23,9 +23,9 @@ namespace {
 
 constexpr std::size_t kMostAtOnce = 400'000;  // atoms whose tables are made together
 constexpr std::size_t kMostInBlock = 150'000;
-constexpr double kMostHalo = 1.7;  // of the atoms; with more work than that tables of all are made
-constexpr double kHaloRoom = 0.1;  // Å for a probe of no size: far above what merged probes move, and radii grow by
-constexpr std::size_t kMostOpen = 1000;  // atoms, in one attempt
+constexpr double kMostHalo = 1.7;        // greatest number of atoms of all blocks with halos, in units of all atoms
+constexpr double kHaloRoom = 0.1;        // Å, for a probe of radius 0: far more than merged probes move or radii grow
+constexpr std::size_t kMostOpen = 1000;  // greatest number of open atoms in one attempt
 
 double largest_radius(std::span<const Ball> atoms) {
   double largest = 0;
@@ -110,7 +110,7 @@ class BlockRun {
 
   BlockPart compute(std::uint32_t b) { return compute(blocks_[b], patches_.empty() ? nullptr : &patches_[b], clock_); }
 
-  // own: rising.
+  // `own` is in ascending order.
   BlockPart compute(std::span<const std::uint32_t> own, BlockPatches* patches, StageClock& clock) const {
     const std::vector<std::uint32_t> number = with_halo(given_, own, reach_);
     std::vector<Ball> balls;
@@ -122,8 +122,8 @@ class BlockRun {
     return compute_block(std::move(balls), number, std::move(is_own), p_, origin_, patches, clock);
   }
 
-  // Radii of all atoms that may have to do with the open ones. False: they have grown as often as they may, or those
-  // that are open are too many for a tie.
+  // Grows the radii of all atoms near open ones. Returns false if the radii have grown as often as they may, or if too
+  // many atoms are open for a tie.
   bool grow_around(std::span<const std::uint32_t> open, int attempts) {
     if (open.size() > kMostOpen) return false;
     std::vector<std::uint32_t> grown;
@@ -157,8 +157,8 @@ class BlockRun {
     }
   }
 
-  // The attempt that a small block of those atoms alone asks for, so that large ones are computed again but once; the
-  // first, if none closes it.
+  // Returns the first attempt that closes a block of these atoms alone, so that large blocks are computed again only
+  // once. Returns `first` if none closes it.
   int first_that_closes(std::span<const std::uint32_t> these, int first, int attempts) {
     StageClock unused;
     for (int attempt = first; attempt < attempts; ++attempt) {
@@ -169,7 +169,7 @@ class BlockRun {
   }
 
   std::span<const Ball> given_;
-  std::vector<Ball> atoms_;  // with radii that have grown
+  std::vector<Ball> atoms_;  // some have grown radii
   double p_;
   std::span<const std::vector<std::uint32_t>> blocks_;
   double reach_;
@@ -177,9 +177,9 @@ class BlockRun {
   glm::dvec3 origin_;
   std::vector<std::uint32_t> block_of_;
   std::vector<BlockPart> parts_;
-  std::vector<BlockPatches> patches_;  // by block, if they are wanted
+  std::vector<BlockPatches> patches_;  // one for each block, if they are requested
   std::vector<char> is_due_;
-  std::unordered_map<std::uint32_t, int> attempt_of_;  // of atoms whose radii have grown
+  std::unordered_map<std::uint32_t, int> attempt_of_;  // attempts of atoms with grown radii
   int most_attempt_ = 0;
 };
 
@@ -260,10 +260,10 @@ std::uint64_t key_of(const glm::dvec3& vertex) {
   return key.value();
 }
 
-// One block, while its tables are there. Faces whose lowest atom is of the block are its own.
+// One block while its tables exist. A face is the block's own if its lowest atom belongs to the block.
 class Block {
  public:
-  // atoms: its own and its halo, of the whole's `number`s; is_own: by atom of the block.
+  // atoms: the block's own atoms and its halo; number: their numbers in the whole; is_own: 1 for each own atom.
   Block(std::vector<Ball> atoms, std::span<const std::uint32_t> number, std::vector<char> is_own)
       : atoms_(std::move(atoms)), number_(number), is_own_(std::move(is_own)) {}
 
@@ -285,7 +285,7 @@ class Block {
     add_open(unsound_atoms(s_, measured.doubts, planes), false);
     number_pieces();
     part_.farthest = farthest_of_components(s_, planes);
-    part_.farthest.pop_back();  // of what is not the block's own
+    part_.farthest.pop_back();  // the last one is that of all other faces
     part_.euler.resize(pieces_, 0);
     add_faces(measured.flux);
     add_borders();
@@ -308,7 +308,7 @@ class Block {
       if (is_own_[a] || of_halo_too) part_.open_atoms.push_back(number_[a]);
   }
 
-  // Pieces are the block's faces that are connected through one another; all others come behind, as if they were one.
+  // Pieces are connected sets of the block's own faces. All other faces count as one piece, the last.
   void number_pieces() {
     std::vector<char> own(s_.faces.size());
     SharedUnionFind joined(s_.faces.size());
@@ -343,12 +343,12 @@ class Block {
       part_.euler[piece_of(f)] += 2 - static_cast<int>(face.loop_count);
     }
     for (std::vector<FaceSum>& kind : sums) {
-      std::ranges::stable_sort(kind, {}, &FaceSum::atom);  // they are, but for merged probes
+      std::ranges::stable_sort(kind, {}, &FaceSum::atom);  // they are sorted already, except for merged probes
       kind.shrink_to_fit();
     }
   }
 
-  // Vertices - borders with ends, as in components.cpp. Who sees a vertex at no seam has all faces around it.
+  // Counts vertices - borders with ends, as in components.cpp. A vertex at no seam has all its faces in this block.
   void add_borders() {
     std::vector<std::uint32_t> piece(s_.vertices.size(), kNone);
     std::vector<char> at_seam(s_.vertices.size(), 0);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Computes surfaces too large for memory block by block: their numbers and, on request, their patches.
 //
-// The faces that an atom takes part in depend on atoms within 2 R + 4 p of it alone (R: the largest radius, p: the
-// probe's): a fixed probe that touches it is within R + p, a probe that cuts that one within 2 p more, and what that
-// one touches or is blocked by within R + p more. So the surface of a block's atoms and of all within that reach, its
-// halo, has the block's faces as the whole surface has them, to the last bit. Each face belongs to the block of the
-// lowest atom that it touches. Borders between faces of two blocks, the seams, are found by both: each must match one
-// of another block, bit by bit, or the surface is not closed there. Seams join pieces to components.
+// The faces that touch an atom depend only on atoms within 2 R + 4 p of it (R: the largest radius, p: the probe's
+// radius). A fixed probe that touches the atom is within R + p of it, a probe that cuts this one is within 2 p more,
+// and the atoms that the second probe touches, or that block it, are within R + p more. So the surface of a block and
+// its halo, which are all atoms within that reach, has the block's faces as the whole surface has them, to the last
+// bit. Each face belongs to the block of the lowest atom that it touches. Borders between faces of two blocks are
+// seams. Both blocks find them, and the two must match bit by bit, or the surface is not closed there. Seams join
+// pieces to components.
 #pragma once
 
 #include "core/surface/components.h"
@@ -19,7 +20,7 @@ namespace meniscus {
 /// ascending indices.
 std::vector<std::vector<std::uint32_t>> divide_into_blocks(std::span<const Ball> atoms, std::size_t most);
 
-/// Returns the width of the halo around a block's atoms, Å: as above, and slightly more for rounding.
+/// Returns the width of the halo around a block's atoms, Å: 2 R + 4 p, and slightly more for rounding.
 double halo_reach(std::span<const Ball> atoms, double probe_radius);
 
 /// Returns ascending indices of a block's own atoms and its halo, which are all atoms within `reach` of the box around
@@ -46,7 +47,7 @@ struct BlockPatches;
 
 /// The contribution of a face to its component. Each block numbers its own pieces.
 struct FaceSum {
-  std::uint32_t atom = 0;  ///< the lowest that it touches
+  std::uint32_t atom = 0;  ///< the lowest atom that the face touches
   std::uint32_t piece = 0;
   double area = 0.0;
   double flux = 0.0;
@@ -60,7 +61,7 @@ struct SeamBorder {
   auto operator<=>(const SeamBorder&) const = default;
 };
 
-/// An end of such a border.
+/// An end of a SeamBorder.
 struct SeamVertex {
   std::uint64_t key = 0;
   std::uint32_t piece = 0;
@@ -69,18 +70,18 @@ struct SeamVertex {
 
 /// The part of a block's surface that is kept.
 struct BlockPart {
-  std::array<std::vector<FaceSum>, 3> faces;  ///< by kind, of rising atoms
-  std::vector<Farthest> farthest;             ///< by piece
-  std::vector<int> euler;                     ///< by piece, without the vertices at seams
+  std::array<std::vector<FaceSum>, 3> faces;  ///< one list for each kind, by ascending atoms
+  std::vector<Farthest> farthest;             ///< one for each piece
+  std::vector<int> euler;                     ///< one for each piece, without the vertices at seams
   std::vector<SeamBorder> borders;
   std::vector<SeamVertex> vertices;
   SurfaceCounts counts;
-  std::vector<double> atom_surface, atom_accessible;  ///< of its own atoms
+  std::vector<double> atom_surface, atom_accessible;  ///< areas of its own atoms
   std::vector<std::uint32_t> open_atoms;
   double exact_within = 0.0;
 };
 
-/// The place of a kind's faces in BlockPart::faces.
+/// Returns the place of a kind's faces in BlockPart::faces.
 inline std::size_t place_of(PatchKind kind) { return static_cast<std::size_t>(kind); }
 
 /// Computes the surface of a block's atoms and its halo, and keeps the faces that belong to the block because their
@@ -97,28 +98,29 @@ struct OutsideEnd {
   glm::dvec3 probe{0.0};  ///< Å
 };
 
-/// The block's own patches: those whose lowest atom is. Atoms have the numbers of the whole; `planes`, `contacts` and
-/// ToroidalPatch::probe are of this block.
+/// The block's own patches, whose lowest atom belongs to the block. Atoms have their numbers in the whole surface;
+/// `planes`, `contacts` and ToroidalPatch::probe are those in the block.
 struct BlockPatches {
   std::vector<ConvexPatch> convex;
   std::vector<ToroidalPatch> toroidal;
-  std::vector<ConcavePatch> concave;  ///< of rising first contacts
+  std::vector<ConcavePatch> concave;  ///< by ascending first contacts
   std::vector<Plane> planes;
   std::vector<std::uint32_t> contacts;
   std::vector<OutsideEnd> outside;
 };
 
-/// surface: of a block and its halo, with clip planes; number: of its atoms in the whole; is_own: of each.
+/// Takes the block's own patches from the surface of the block and its halo, which must have clip planes. number:
+/// numbers of the surface's atoms in the whole; is_own: 1 for each atom of the block itself.
 BlockPatches take_patches(const Surface& surface, std::span<const std::uint32_t> number, std::span<const char> is_own);
 
-/// Gives the whole surface the patches of all blocks, in the order in which it would have them, and takes them from
-/// there. Returns the atoms at which a toroidal patch ends at no probe of any block: none, if the seams of all blocks
-/// match. block_of: the block of each atom. Throws CapacityError.
+/// Moves the patches of all blocks to the whole surface, in the order in which it would have them. Returns the atoms at
+/// which a toroidal patch ends at no probe of any block: none, if the seams of all blocks match. block_of: the block of
+/// each atom. Throws CapacityError.
 std::vector<std::uint32_t> join_patches(std::span<const std::uint32_t> block_of, std::span<BlockPatches> blocks,
                                         Surface& whole);
 
 /// Calls visit(block, place) for the rows of all blocks in the order of their atoms. block_of: the block of each atom;
-/// rows: the member of a block that has its rows, of rising atom_of(block, row).
+/// rows: the member of a block that has its rows, in ascending order of atom_of(block, row).
 template <typename Blocks, typename Rows, typename AtomOf, typename Visit>
 void for_each_by_atom(std::span<const std::uint32_t> block_of, const Blocks& blocks, const Rows& rows,
                       const AtomOf& atom_of, const Visit& visit) {

@@ -76,7 +76,7 @@ void LoopChainer::group_loops() {
       left_[m * count + k] = lies_left_of(arcs_of(m), arcs_of(k));
       one_piece = one_piece && left_[m * count + k];
     }
-  if (one_piece) return;  // as a rule; the search below takes the cube of the number of loops
+  if (one_piece) return;  // this is the rule; the search below takes the cube of the number of loops
   const auto left = [&](std::size_t m, std::size_t k) { return left_[m * count + k] != 0; };
   UnionFind same(count);
   for (std::size_t m = 0; m < count; ++m)

@@ -70,8 +70,7 @@ class LoopChainer {
 
 /// Computes surface.vertices, borders, half_borders, loops, faces and components (without kinds and areas, which
 /// measure_surface adds) and the face ranges of the patches. `surface` holds atoms, toroidal and concave patches;
-/// `probes` and `cusps` are the tables that they were made from. Adds atoms to the certificate where borders do not
-/// close.
+/// `probes` and `cusps` are the tables that they were made from. Adds atoms to the certificate where borders are open.
 void build_boundary(Surface& surface, const FixedProbes& probes, const CuspParts& cusps, const ReducedSurface& rs);
 
 }  // namespace meniscus

@@ -10,8 +10,7 @@
 
 namespace meniscus {
 
-/// Finds reduced surfaces on one device, frame after frame. All engines find the same ones. One thread uses it at a
-/// time.
+/// Finds reduced surfaces on one device, frame after frame. All engines find the same. One thread uses it at a time.
 class ReducedSurfaceEngine {
  public:
   virtual ~ReducedSurfaceEngine() = default;
@@ -51,8 +50,7 @@ Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const
 Surface build_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs, StageClock& clock,
                       CuspTracer& tracer, ClipPlanes planes, const ReducedComponents* cut_within = nullptr);
 
-/// Returns the planes of a surface that was built with this choice. Surface and reduced surface must outlive the
-/// result.
+/// Returns the planes of a surface that was built with this choice. Both surfaces must outlive the result.
 std::unique_ptr<ConvexPlanes> planes_for(ClipPlanes planes, const Surface& surface, const ReducedSurface& rs);
 
 /// Lists the planes that ClipPlanes::deferred has put off, so that the surface equals one with ClipPlanes::listed. Does
@@ -85,8 +83,7 @@ Surface compute_surface_cpu(std::span<const Ball> atoms, double probe_radius);
 /// larger in proportion.
 inline constexpr int kTieAttempts = 15;
 
-/// Returns the largest growth in an attempt, Å: 0 for attempt 0, then 1e-8 Å, and three times the previous one from
-/// there on.
+/// Returns the largest growth in an attempt, Å: 0 for attempt 0, then 1e-8 Å, and then three times the previous one.
 double tie_growth(int attempt);
 
 /// Returns the radius that the ball with this index has in an attempt.

@@ -14,7 +14,7 @@ struct CuspSide {
   bool touching = false;          ///< the circle is exactly as large as the probe: its two cusps are one point
   std::uint32_t partner = kNone;  ///< the probe across the covered gap of that circle
   std::uint32_t apart = kNone;    ///< the probe at the other end of the side's arc, if neither can cut the other
-  glm::dvec3 gap_direction{0.0};  ///< from the circle's centre to the middle of that gap, unit length
+  glm::dvec3 gap_direction{0.0};  ///< unit vector from the circle's centre to the middle of that gap
   glm::dvec3 circle_center{0.0};
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places fixed probes and toroidal patches: sorts arc ends by atom triple, solves for positions, merges n-fold
-// contacts.
+// Places fixed probes and toroidal patches: sorts arc ends by atoms, solves for positions, merges n-fold contacts.
 #include "core/surface/fixed_probes.h"
 
 #include <iterator>

@@ -53,7 +53,7 @@ class Taking {
     std::vector<std::uint32_t> own;
     for (std::uint32_t c = 0; c < place_.size(); ++c)
       if (is_own_[first_atom(s_, s_.concave[c])]) own.push_back(c);
-    // They are in this order, but for merged probes.
+    // They are in this order already, except for merged probes.
     std::ranges::stable_sort(own, {}, [this](std::uint32_t c) { return first_atom(s_, s_.concave[c]); });
     for (const std::uint32_t c : own) {
       ConcavePatch patch = s_.concave[c];
@@ -84,7 +84,7 @@ class Taking {
   const Surface& s_;
   std::span<const std::uint32_t> number_;
   std::span<const char> is_own_;
-  std::vector<std::uint32_t> place_;  // of each of the surface's probes among the block's own
+  std::vector<std::uint32_t> place_;  // place of each of the surface's probes among the block's own
   BlockPatches taken_;
 };
 
@@ -163,7 +163,7 @@ class Joining {
     for (BlockPatches& block : blocks_) block.toroidal = {};
   }
 
-  // Probes that touch atoms of several blocks, by their centres.
+  // Finds the probes that touch atoms of several blocks, by their centres.
   void find_outside() {
     const auto center = [this](std::uint32_t c) {
       const glm::dvec3& x = whole_.concave[c].center;
@@ -193,7 +193,7 @@ class Joining {
   std::span<const std::uint32_t> block_of_;
   std::span<BlockPatches> blocks_;
   Surface& whole_;
-  std::vector<std::vector<std::uint32_t>> place_;  // of each block's probes in the whole
+  std::vector<std::vector<std::uint32_t>> place_;  // place of each block's probes in the whole
   std::vector<std::uint32_t> open_;
 };
 
@@ -276,7 +276,7 @@ class BlockSum {
     return all;
   }
 
-  // A border is there twice, with a face of one block on its left and of another on its right.
+  // Each border is there twice, with a face of one block on its left and of another on its right.
   void join_borders() {
     const std::vector<SeamBorder> borders = gather(&BlockPart::borders);
     for (std::size_t n = 0; n < borders.size();) {
@@ -347,9 +347,9 @@ class BlockSum {
   double p_;
   std::span<const std::uint32_t> block_of_;
   std::span<const BlockPart> parts_;
-  std::vector<std::uint32_t> first_piece_;  // of each block, and one past the last
+  std::vector<std::uint32_t> first_piece_;  // first piece of each block; one past the last closes the list
   mutable UnionFind joined_;
-  std::vector<std::uint32_t> component_of_;  // by piece that represents others
+  std::vector<std::uint32_t> component_of_;  // component of each piece that represents others
   std::vector<std::uint32_t> open_;
   SurfaceSums sums_;
 };

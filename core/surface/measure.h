@@ -14,8 +14,7 @@ struct MeasurementDoubts {
   std::vector<std::uint32_t> disputed;  ///< the doubtful faces for which the two closed forms disagree
 };
 
-/// Returns the point half-way between the outermost centres, Å. Volumes are measured from there, where rounding is
-/// least.
+/// Returns the point half-way between the outermost centres, Å. Volumes are measured from it, with least rounding.
 glm::dvec3 middle_of(std::span<const Ball> atoms);
 
 /// The contributions of faces to their components, in addition to Face::area.
@@ -112,7 +111,7 @@ double divided_area(const Surface& surface, const ConcavePatch& patch);
 /// One derivative per Surface::atoms; zero for buried atoms.
 using Gradient = std::vector<glm::dvec3>;
 
-/// Returns the gradient of the solvent-accessible area, the sum over atoms of weight * area (atom_areas.h), in Å² *
+/// Returns the gradient of the solvent-accessible area, the sum over atoms of weight * area (atom_areas()), in Å² *
 /// weight / Å. Empty weights are 1 for all atoms. Only arcs move the borders of accessible patches, so the gradient is
 /// a sum over saddle patches (Perrot et al. 1992, equations 10 to 19; Edelsbrunner & Koehl 2003, weighted area
 /// theorem). It is continuous wherever no two spheres touch in one point from inside or outside. For a probe of radius

@@ -43,7 +43,7 @@ void resize_large(std::vector<Row>& table, std::size_t size) {
   table.resize(size);
 }
 
-/// How many rows before its use a row is prefetched.
+/// The number of rows by which a row is prefetched before its use.
 inline constexpr std::size_t kPrefetchAhead = 12;
 
 /// Prefetches a row that will soon be read, because neighbours in space may lie far apart in a table. Does nothing for
@@ -62,8 +62,7 @@ template <typename Table>
 template <typename Sum>
 class RowNumbers {
  public:
-  /// `count(n)` returns the number of items of row n, for n from 0 to `rows` - 1. The numbers of the first row begin at
-  /// `first`.
+  /// `count(n)` returns the number of items of row n, for n from 0 to `rows` - 1. Numbers begin at `first`.
   template <typename Count>
   RowNumbers(std::size_t rows, const Sum& first, const Count& count) : rows_(rows), before_(chunks() + 1, Sum{}) {
     tbb::parallel_for(std::size_t{0}, chunks(), [&](std::size_t chunk) {

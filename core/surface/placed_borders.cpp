@@ -143,8 +143,7 @@ class BorderPlacer {
     }
   }
 
-  // Returns the shorter great-circle arc of the probe's sphere from vertex a to vertex b, in the plane of the patch's
-  // axis.
+  // Returns the shorter great-circle arc of the probe's sphere from vertex a to vertex b, in the plane of its axis.
   Border edge_border(const glm::dvec3& probe, const ToroidalPatch& patch, std::uint32_t a, std::uint32_t b) const {
     const glm::dvec3 d0 = s_.vertices[a] - probe, d1 = s_.vertices[b] - probe;
     Border border;

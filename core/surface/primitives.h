@@ -25,9 +25,9 @@ struct ReducedSurface;
 
 /// The choice when a surface lists the clip planes of its convex patches (ConvexPatch::planes), a fifth of the work.
 enum class ClipPlanes {
-  listed,    ///< at once: the surface can be drawn, exported and divided
-  deferred,  ///< when list_convex_planes() is called; until then as with `left_out`
-  left_out   ///< never: for numbers, borders and areas; the certificate is as strict
+  listed,    ///< listed at once, so that the surface can be drawn, exported and divided
+  deferred,  ///< listed when list_convex_planes() is called; until then `left_out`
+  left_out   ///< never listed: for numbers, borders and areas; the certificate is as strict
 };
 
 /// A half-space: a point x (Å) is inside where dot(normal, x) <= offset.
@@ -63,7 +63,7 @@ struct ToroidalPatch {
   double sweep = 0.0;                                ///< radians, in (0, 2 pi]; exactly 2 pi for a free edge
   std::uint32_t first_face = 0;
   std::uint32_t face_count = 0;  ///< 1, or 2 for a spindle (the piece of atom[0], then that of atom[1])
-  /// For a spindle: which of its two pieces exist. Both exist except in a part of a surface (part.h).
+  /// For a spindle: which of its two pieces exist. Both exist except in a part of a surface (SurfacePart).
   std::array<bool, 2> has_piece{true, true};
   bool free() const { return probe[0] == kNone; }
   /// Returns the piece of a spindle that its n-th face is.
@@ -84,7 +84,7 @@ inline bool crosses_axis(const ToroidalPatch& t, std::span<const Ball> atoms, do
 
 /// Re-entrant patch: the sphere of one fixed probe (an RS face) inside all its planes. First come `side_count` planes
 /// through the probe and two neighbouring contacts, then `cut_count` bisectors towards the probes in `cuts`, then
-/// `parting_count` planes that separate it from faces that are not in a part of a surface (part.h).
+/// `parting_count` planes that separate it from faces that are not in a part of a surface (SurfacePart).
 struct ConcavePatch {
   glm::dvec3 center{0.0};           ///< centre of the probe, Å
   std::uint32_t first_contact = 0;  ///< into Surface::contacts: touched atoms, counter-clockwise seen from the probe
@@ -103,7 +103,7 @@ struct ConcavePatch {
 enum class BorderKind : std::uint8_t {
   contact,  ///< contact circle: convex | toroidal
   edge,     ///< side of a concave patch: toroidal | concave
-  cusp      ///< where two fixed probes intersect: concave | concave
+  cusp      ///< intersection of two fixed probes: concave | concave
 };
 
 /// An arc of a circle where exactly two faces meet.
@@ -205,8 +205,7 @@ struct Surface {
   Certificate certificate;
   double area = 0.0;    ///< Å²
   double volume = 0.0;  ///< Å³ of the solid: outer components minus cavities
-  /// The sums, if the tables from `cuts` to `faces` were released; then patches refer to none of these tables. Else
-  /// null.
+  /// The sums, if the tables from `cuts` to `faces` were released; patches then refer to none of them. Else null.
   std::shared_ptr<const SurfaceSums> sums;
   /// The reduced surface, which list_convex_planes() needs, if the surface was computed with ClipPlanes::deferred and
   /// has no planes yet. Else null.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joins fixed probes along arcs, and arcs across contact faces: the places that the probe reaches by rolling, not its
-// cusps.
+// Joins fixed probes along arcs, and arcs across contact faces: the places that the probe reaches by rolling.
 #include "core/surface/reduced_components.h"
 
 #include "core/math/union_find.h"

@@ -195,8 +195,7 @@ bool lies_left_of(std::span<const SphereArc> inner, std::span<const SphereArc> l
   double clearest = 0;
   double nearest = std::numeric_limits<double>::infinity();  // cosine of the distance of the clearest point
   bool left = false;
-  // True if the point is as near to a corner of the loop as the clearest point is to the whole loop: then it is not
-  // clearer.
+  // True if the point is as near to a corner of the loop as the clearest point is to the whole loop, so not clearer.
   const auto near_corner = [&](const glm::dvec3& point) {
     return std::ranges::any_of(loop,
                                [&](const SphereArc& arc) { return !arc.whole && glm::dot(arc.to, point) >= nearest; });

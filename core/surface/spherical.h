@@ -62,12 +62,10 @@ SphereCircle circle_of(const SphereArc& arc);
 /// not have.
 double area_swept_from(const glm::dvec3& pole, const SphereCircle& circle, double from, double to);
 
-/// Returns the same integral along closed loops, with the small steps from the end of an arc to the beginning of the
-/// next.
+/// Returns the same integral along closed loops, with the small steps from the end of each arc to the next.
 double area_swept_from(const glm::dvec3& pole, std::span<const SphereArc> loop);
 
-/// Returns the integral of the unit vector u over the region on the left of the loops: half the sum of integrals of u x
-/// du.
+/// Returns the integral of the unit vector u over the region left of the loops: half the sum of integrals of u x du.
 glm::dvec3 moment_left_of(std::span<const SphereArc> loop);
 
 /// Returns the contribution of the steps between the arcs of a loop that does not quite close to moment_left_of().

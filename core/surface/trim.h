@@ -22,8 +22,7 @@ void list_concave_patches(Surface& surface, const FixedProbes& probes, const Cus
 /// these leave more of the sphere than the patch.
 class ConvexTrimmer {
  public:
-  /// Keeps references: surface and reduced surface must outlive the trimmer. The surface must have its atoms and convex
-  /// patches.
+  /// Keeps references: surface and reduced surface must outlive the trimmer. The surface has atoms and convex patches.
   ConvexTrimmer(const Surface& surface, const ReducedSurface& rs);
   ~ConvexTrimmer();
 
@@ -42,8 +41,7 @@ class ConvexTrimmer {
   std::unique_ptr<const Search> search_;
 };
 
-/// Clip planes found on request, by a trimmer that the first request makes. Several threads may call all members at
-/// once.
+/// Clip planes found on request, by a trimmer that the first request makes. Several threads may use it at once.
 class PlanesOnDemand final : public ConvexPlanes {
  public:
   /// Keeps references: surface and reduced surface must outlive this object.

@@ -10,8 +10,7 @@
 
 namespace meniscus {
 
-/// The greatest number of frames in a list. No trajectory has as many, while a list of a few letters could request any
-/// number.
+/// The greatest number of frames in a list. No trajectory has as many, but a few letters could request any number.
 inline constexpr std::size_t kMostListedFrames = 10'000'000;
 
 /// Parses a list of frames and returns them in the order written. The list is "all", or parts joined by commas: "7",

@@ -214,8 +214,7 @@ double volume_of(const BondNetwork::Corner& corner, std::span<const glm::dvec3> 
   return glm::dot(x[corner[1]] - from, glm::cross(x[corner[2]] - from, x[corner[3]] - from));
 }
 
-/// Moves the atoms of a corner along the gradients of its volume, as SHAKE does along bonds. Returns the length of the
-/// move, Å.
+/// Moves the atoms of a corner along the gradients of its volume, like SHAKE along bonds. Returns the move's length, Å.
 double correct_corner(const BondNetwork::Corner& corner, double target, std::vector<glm::dvec3>& x) {
   const glm::dvec3 one = x[corner[1]] - x[corner[0]], two = x[corner[2]] - x[corner[0]],
                    three = x[corner[3]] - x[corner[0]];

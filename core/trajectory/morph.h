@@ -19,7 +19,7 @@ class BondNetwork {
   BondNetwork(std::size_t atoms, std::vector<Bond> pairs);
 
   std::span<const Bond> bonds() const { return bonds_; }
-  /// The two outer atoms of each angle between two bonds.
+  /// Returns the two outer atoms of each angle between two bonds.
   std::span<const Bond> angles() const { return angles_; }
   /// An atom and three of its neighbours, whose handedness has to stay.
   using Corner = std::array<std::uint32_t, 4>;
@@ -111,10 +111,10 @@ class Morph {
   std::vector<std::vector<glm::dvec3>> models(std::size_t stop, std::size_t steps) const;
 
   /// Returns the greatest overlap of two atoms of a model, Å: by how much they are nearer than they may be. Returns 0
-  /// if none overlap. stop: where the path of the model begins.
+  /// if none overlap. stop: the stop at which the path of the model begins.
   double overlap(std::size_t stop, const std::vector<glm::dvec3>& positions) const;
 
-  /// The bonds whose lengths are constrained.
+  /// Returns the bonds whose lengths are constrained.
   std::span<const Bond> bonds() const { return bonds_.bonds(); }
 
  private:

@@ -428,8 +428,7 @@ class FrameDistances {
     shortest_jump_ = glm::max(0.5 * (high - low), glm::dvec3(kShortestJump));
   }
 
-  /// Returns the distance (Å) of two atoms, or nothing if they may be on opposite sides of a box that the frame does
-  /// not have.
+  /// Returns the distance (Å) of two atoms, or nothing if they may be on two sides of a box that the frame lacks.
   std::optional<double> between(std::uint32_t a, std::uint32_t b) const {
     const glm::dvec3 d = positions_[a] - positions_[b];
     if (cell_) return glm::length(cell_->shortest(d));

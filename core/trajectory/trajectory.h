@@ -35,14 +35,14 @@ class Trajectory {
   Trajectory(const Trajectory&) = delete;
   Trajectory& operator=(const Trajectory&) = delete;
 
-  const std::string& path() const { return path_; }      ///< as the user wrote it
+  const std::string& path() const { return path_; }      ///< path as the user wrote it
   const std::string& format() const { return format_; }  ///< "DCD", "XTC", ...
   std::size_t atom_count() const { return atom_count_; }
-  /// The number of complete frames, at least one.
+  /// Returns the number of complete frames, at least one.
   std::uint64_t frame_count() const { return frame_count_; }
-  /// Warnings that prevent nothing, such as a frame count in the header that differs from that of the file.
+  /// Returns warnings that prevent nothing, such as a frame count in the header that differs from that of the file.
   const std::vector<Warning>& warnings() const { return warnings_; }
-  /// Empty, or a sentence about what follows the last complete frame: "the file ends within frame 42; its 42 whole
+  /// Returns an empty text, or a sentence about an incomplete last frame: "the file ends within frame 42; its 42 whole
   /// frames are used".
   const std::string& cut_short() const { return cut_short_; }
 
@@ -74,11 +74,10 @@ class Trajectory {
 /// Returns the sentence "the file ends within frame 42; its 42 whole frames are used".
 std::string cut_short_sentence(std::uint64_t whole_frames);
 
-/// How a trajectory is opened.
+/// Options for opening a trajectory.
 struct TrajectoryOptions {
   /// The folder for frame indices of formats whose frames are found only by walking through the file (XTC, TRR). It is
-  /// made if missing. Empty: no index is stored. An index is used only while its file has the same size and time of
-  /// change.
+  /// made if missing. Empty: no index is stored. An index is valid only for the same size and time of change.
   std::string index_folder{};
   /// Returns the number of atoms of the structure, for a format without this number (mdcrd). It may throw. Null: there
   /// is no structure.

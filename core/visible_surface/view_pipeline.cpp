@@ -10,7 +10,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kProbeWord = 3 * kWord;  // in GpuPack::counters (append_primitive.glsl)
+constexpr std::size_t kProbeWord = 3 * kWord;  // byte offset of probe_count in GpuPack::counters
 
 }  // namespace
 
@@ -25,7 +25,7 @@ void ViewPipeline::take_atoms(std::vector<Ball> atoms) {
   atoms_ = std::move(atoms);
   swallowed_ = swallowing_.of(atoms_);
   const BallExtent box = extent_of(atoms_);
-  middle_ = 0.5 * (box.low + box.high);  // as in GpuNeighbors
+  middle_ = 0.5 * (box.low + box.high);  // the same middle as in GpuNeighbors
   extent_of_atoms_ = {box.low - middle_, box.high - middle_, box.largest_radius};
   uploaded_ = false;
 }

@@ -118,7 +118,7 @@ class ViewPipeline final : public Drawable {
   TexelBuffer arc_texels_{TexelFormat::uint4}, atom_arc_first_texels_{TexelFormat::uint1},
       atom_arc_texels_{TexelFormat::uint4}, marked_arc_texels_{TexelFormat::uint4};
   std::uint32_t arc_count_ = 0;  // an upper limit
-  bool whole_spheres_ = false;   // drawn instead of convex patches
+  bool whole_spheres_ = false;   // true: they are drawn instead of convex patches
 };
 
 }  // namespace meniscus

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The atoms that can matter for a pixel of one view, found on the GPU (theorem 2), and the faces that the paper
-// selects.
-//
-// Selects the RS faces that the paper draws (Krone, Dachsbacher & Ertl 2010, section 3.3), to measure what it leaves
-// out.
+// The atoms that can matter for a pixel of one view, found on the GPU (theorem 2), and the RS faces that the paper
+// draws (Krone, Dachsbacher & Ertl 2010, section 3.3), to measure what it leaves out.
 #pragma once
 
 #include "core/gpu/buffer.h"

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads volume maps by their content: CCP4 and MRC, OpenDX and Gaussian cube.
+// Reads volume maps by their content: CCP4 and MRC (A. Cheng et al., J. Struct. Biol. 192, 146, 2015, and CCP4's
+// maplib), OpenDX and Gaussian cube.
 //
-// Cheng et al., J. Struct. Biol. 192, 146, 2015, and CCP4's maplib).
-//
-// gemmi reads them, too, but in the other byte order only floats, and it trusts the header's sizes.
+// gemmi reads CCP4 and MRC, too, but in the other byte order only floats, and it trusts the header's sizes.
 #include "core/volume/volume_grid.h"
 
 #include <bit>
@@ -301,8 +300,7 @@ class CubeReader {
     return line;
   }
 
-  /// Reads a line of the header: a whole number, which becomes `count`, and three numbers. `wanted` describes them in
-  /// messages.
+  /// Reads a line of the header: a whole number, which becomes `count`, and three numbers. `wanted` is for messages.
   glm::dvec3 count_and_vector(std::int64_t& count, const char* wanted) {
     const std::vector<std::string_view> fields = fields_of(next_line());
     glm::dvec3 vector(0.0);

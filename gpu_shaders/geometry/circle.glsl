@@ -2,14 +2,13 @@
 // The circle in which two spheres meet, and the parts of it that other balls cover: the predicates of the whole
 // program.
 //
-// Written in the common subset of GLSL and C++ with GLM. The includer defines `real`, `real2`, `real3` and
+// This file is written in the common subset of GLSL and C++ with GLM. The includer defines `real`, `real2`, `real3` and
 // `GEOMETRY` (inline in C++, nothing in GLSL). Decisions use + - * / and sqrt only, because GLSL bounds their errors,
 // but not the errors of trigonometric functions. Results still differ between devices: a*b + c may be fused, a quotient
 // is good to 2.5 units in the last place, and sqrt, computed by inversesqrt, to 4.5. half_plane_noise() covers all of
 // this; docs/explanation/theory.md derives it.
 //
-// All positions are relative to the centre of the circle's first ball. A ball is a centre and a weight (squared
-// radius).
+// Positions are relative to the first ball's centre. A ball is a centre and a weight (squared radius).
 #ifndef MENISCUS_GEOMETRY_CIRCLE_GLSL
 #define MENISCUS_GEOMETRY_CIRCLE_GLSL
 

@@ -2,8 +2,8 @@
 // Contour build-up: finds the arcs of a circle of two balls that other balls leave exposed.
 // Based on: Totrov & Abagyan 1996.
 //
-// Written in the common subset of GLSL and C++; to be included after circle.glsl. The exposed part of the circle is
-// kept in variables: globals of a kernel, or members of a C++ struct that has this file as its body
+// This file is written in the common subset of GLSL and C++, and is included after circle.glsl. The exposed part of the
+// circle is kept in variables: globals of a kernel, or members of a C++ struct that has this file as its body
 // (core/reduced_surface/contour/contour.h). The includer defines kUnitRoundoff and
 //   ExposedArc get_arc(uint n)            which returns an arc of a list, and
 //   bool set_arc(uint n, ExposedArc arc)  which stores an arc there or after the last one; false if there is no room.

@@ -2,8 +2,8 @@
 // The position of a fixed probe, which is the point at three SAS radii from three atoms, as accurately as its numbers
 // allow; and a test if two probes are in one place.
 //
-// Written in the common subset of GLSL and C++ with GLM (circle.glsl, which must be included first). Decimal fractions
-// are written as quotients of integers, which are rounded once in any precision; GLSL would take 1e-6 for a float.
+// This file is in the common subset of GLSL and C++ with GLM, and follows circle.glsl. Decimal fractions are written as
+// quotients of integers, which are rounded once in any precision; GLSL would take 1e-6 for a float.
 #ifndef MENISCUS_GEOMETRY_FIXED_PROBE_GLSL
 #define MENISCUS_GEOMETRY_FIXED_PROBE_GLSL
 
@@ -22,11 +22,10 @@ const real kSteep = real(1) / real(100);
 
 struct FixedProbe {
   real3 position;  // relative to the first atom
-  real height;     // over the plane of the atoms, Å
+  real height;     // height over the plane of the atoms, Å
 };
 
-// Improves the position of a probe by one Newton step on its three distances, which removes the errors of slim
-// triangles.
+// Improves the position of a probe by one Newton step on its three distances, to correct slim triangles.
 GEOMETRY real3 polished_probe(real3 x, real3 b, real3 c, real ra, real rb, real rc) {
   real3 eb = x - b;
   real3 ec = x - c;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The clips and bounds of patches: contact planes, the shape of a saddle, and bounding spheres.
 //
-// Written in the common subset of GLSL and C++ with GLM (circle.glsl).
+// This file is written in the common subset of GLSL and C++ with GLM (circle.glsl).
 #ifndef MENISCUS_GEOMETRY_PATCH_BOUNDS_GLSL
 #define MENISCUS_GEOMETRY_PATCH_BOUNDS_GLSL
 

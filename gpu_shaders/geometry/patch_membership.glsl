@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tests if a point of a sphere or a torus belongs to the surface, and finds the atom whose colour the point has.
 //
-// Written in the common subset of GLSL and C++ with GLM. The includer defines real, real2, real3, GEOMETRY,
-// GEOMETRY_OUT and GEOMETRY_INOUT. The types of reduced_surface/precision.glsl may be packets in C++. `slack` (Å, >= 0)
-// widens a patch past its borders, so that neighbouring patches overlap and no ray passes between them. The surface is
-// smooth across contact circles and edges, so the height of the overlap is only slack^2 / radius.
+// This file is written in the common subset of GLSL and C++ with GLM. The includer defines real, real2, real3,
+// GEOMETRY, GEOMETRY_OUT and GEOMETRY_INOUT. The types of reduced_surface/precision.glsl may be packets in C++. `slack`
+// (Å, >= 0) widens a patch past its borders, so that neighbouring patches overlap and no ray passes between them. The
+// surface is smooth across contact circles and edges, so the height of the overlap is only slack^2 / radius.
 #ifndef MENISCUS_GEOMETRY_PATCH_MEMBERSHIP_GLSL
 #define MENISCUS_GEOMETRY_PATCH_MEMBERSHIP_GLSL
 

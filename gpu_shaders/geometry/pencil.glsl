@@ -2,9 +2,9 @@
 // Finds the spindle circles that two fixed probes share. All probes of such a circle, a pencil, pass through its two
 // axis cusps, so their order about the axis decides there, not arithmetic (docs/explanation/theory.md, Orientation).
 //
-// Written in the common subset of GLSL and C++: variables and functions are those of a kernel, or members of a C++
-// struct that has this file as its body (core/surface/cusp_tracer.cpp). The sides of probe s have the numbers from
-// first_side(s) to before first_side(s + 1). The includer defines kNone and
+// This file is written in the common subset of GLSL and C++: variables and functions are those of a kernel, or members
+// of a C++ struct that has this file as its body (core/surface/cusp_tracer.cpp). The sides of probe s have the numbers
+// from first_side(s) to before first_side(s + 1). The includer defines kNone and
 //   uint first_side(uint probe), uint circle_of(uint side), uint partner_of(uint side)   the members of CuspSide
 //   pencil_sides                  a list of uint
 //   bool reserve_pencils(uint count) makes room for `count` entries; false if there is no room

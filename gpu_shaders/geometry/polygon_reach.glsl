@@ -2,7 +2,7 @@
 // Computes the extent of a spherical polygon in a direction, which determines if one fixed probe cuts the patch of
 // another.
 //
-// Written in the common subset of GLSL and C++ with GLM (circle.glsl).
+// This file is written in the common subset of GLSL and C++ with GLM (circle.glsl).
 #ifndef MENISCUS_GEOMETRY_POLYGON_REACH_GLSL
 #define MENISCUS_GEOMETRY_POLYGON_REACH_GLSL
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Intersects a ray with a sphere around the origin, the lateral surface of a cylinder, or a triangle.
 //
-// Written in the common subset of GLSL and C++ with GLM. The includer defines real, real2, real3, GEOMETRY,
-// GEOMETRY_OUT and the types of reduced_surface/precision.glsl, which may be packets in C++. Precision: if the ray
-// starts near the sphere, within a few radii, the error is a few roundings of the radius.
+// This file is written in the common subset of GLSL and C++ with GLM. The includer defines real, real2, real3,
+// GEOMETRY, GEOMETRY_OUT and the types of reduced_surface/precision.glsl, which may be packets in C++. Precision: if
+// the ray starts near the sphere, within a few radii, the error is a few roundings of the radius.
 #ifndef MENISCUS_GEOMETRY_RAY_SHAPES_GLSL
 #define MENISCUS_GEOMETRY_RAY_SHAPES_GLSL
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Intersects a ray with a torus around the z axis, by Newton's method on pieces of the ray where it cannot fail.
 //
-// Written in the common subset of GLSL and C++ with GLM. The includer defines real, real2, real3, GEOMETRY,
-// GEOMETRY_OUT and GEOMETRY_INOUT. The types of reduced_surface/precision.glsl may be packets in C++. Solving a quartic
-// by radicals in single precision loses roots. No quartic is formed here: the torus is one of its factors, |x|^2 + R^2
-// - p^2 - 2 R rho, which keeps all digits and has known inflection points along the ray.
+// This file is written in the common subset of GLSL and C++ with GLM. The includer defines real, real2, real3,
+// GEOMETRY, GEOMETRY_OUT and GEOMETRY_INOUT. The types of reduced_surface/precision.glsl may be packets in C++. Solving
+// a quartic by radicals in single precision loses roots. No quartic is formed here: the torus is one of its factors,
+// |x|^2 + R^2 - p^2 - 2 R rho, which keeps all digits and has known inflection points along the ray.
 #ifndef MENISCUS_GEOMETRY_RAY_TORUS_GLSL
 #define MENISCUS_GEOMETRY_RAY_TORUS_GLSL
 
@@ -100,7 +100,7 @@ GEOMETRY real torus_run(real3 o, real3 d, real major, real minor, real tolerance
     truth arrived = !ended && !(value > real(0));  // exactly on it, or a rounding past it
     root = select(arrived, t, root);
     ended = ended || arrived;
-    truth turns = !ended && !(slope < real(0));  // before it comes to zero
+    truth turns = !ended && !(slope < real(0));  // the slope turns before the factor comes to zero
     root = select(turns && sure, t, root);
     ended = ended || turns;
     real walked = -value / slope;

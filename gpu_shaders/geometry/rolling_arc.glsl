@@ -2,7 +2,7 @@
 // The toroidal patch of an arc: the circle on which the probe's centre rolls, and the begin and the end of the arc on
 // it.
 //
-// Written in the common subset of GLSL and C++ with GLM; to be included after circle.glsl and fixed_probe.glsl.
+// This file is in the common subset of GLSL and C++ with GLM, and follows circle.glsl and fixed_probe.glsl.
 #ifndef MENISCUS_GEOMETRY_ROLLING_ARC_GLSL
 #define MENISCUS_GEOMETRY_ROLLING_ARC_GLSL
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds all intersections of a ray with a torus around the z axis.
 //
-// Written in the common subset of GLSL and C++ with GLM (ray_torus.glsl). It does not work for packets.
+// This file is written in the common subset of GLSL and C++ with GLM (ray_torus.glsl). It does not work for packets.
 #ifndef MENISCUS_GEOMETRY_TORUS_HITS_GLSL
 #define MENISCUS_GEOMETRY_TORUS_HITS_GLSL
 #include "gpu_shaders/geometry/ray_torus.glsl"

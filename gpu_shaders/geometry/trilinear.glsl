@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Interpolates values between the points of a grid.
 //
-// Written in the common subset of GLSL and C++, where it is the body of a struct (core/volume/volume_grid.cpp). The
-// includer provides
+// This file is written in the common subset of GLSL and C++, where it is the body of a struct
+// (core/volume/volume_grid.cpp). The includer provides
 //   real grid_value(uint n)  the value of a point, with the last axis fastest.
 // place: position in steps from the first point; x_count, y_count, z_count: numbers of points along the axes, at least
 // two.

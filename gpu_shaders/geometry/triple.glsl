@@ -3,7 +3,7 @@
 // probes (balls = SAS balls of atoms) or ends of cusp curves (balls = fixed probes). It also names patches, for rays
 // that meet two of them at one distance.
 //
-// Written in the common subset of GLSL and C++; in C++ the includer provides uint.
+// This file is written in the common subset of GLSL and C++; in C++ the includer provides uint.
 #ifndef MENISCUS_GEOMETRY_TRIPLE_GLSL
 #define MENISCUS_GEOMETRY_TRIPLE_GLSL
 

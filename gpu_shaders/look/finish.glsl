@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Changes the colour of a sample by shade, depth cueing and silhouettes.
 //
-// Written in GLSL and, as the body of a struct, in C++ (view_space.glsl). The includer provides `params` of
-// FinishParameters and three functions for the sample whose shade this one uses: shade_depth_or_nothing() of a pixel,
-// which may be outside of the block; visibility_at() of a pixel that has a hit; and shade_seen_at(), which is seen_at()
-// of a pixel at that depth.
+// This file is written in GLSL and, as the body of a struct, in C++ (view_space.glsl). The includer provides `params`
+// of FinishParameters and three functions for the sample whose shade this one uses: shade_depth_or_nothing() of a
+// pixel, which may be outside of the block; visibility_at() of a pixel that has a hit; and shade_seen_at(), which is
+// seen_at() of a pixel at that depth.
 
-// Returns the mean visibility of the sky and of the lamp over 4 x 4 pixels, as a square of 5 x 5 whose rim has half the weight. Pixels of other
-// surfaces do not count, unless there are no others.
+// Returns the mean visibility of the sky and of the lamp over 4 x 4 pixels, as a square of 5 x 5 whose rim has half the
+// weight. Pixels of other surfaces do not count, unless there are no others.
 GEOMETRY real2 mean_visibility(pixel_row pixel, real depth) {
   real3 p = position_at(pixel, depth);
   real3 normal = turned_over(facing(hit_normal_at(pixel), to_viewer_at(p)));
@@ -85,7 +85,7 @@ GEOMETRY real step_ink(pixel_row a, real depth_a, pixel_row b, real depth_b) {
   real least = least_step(nearer);
   real jump = jump_between(a, depth_a, b, depth_b);
   real missing = 1.0 - smoothstep(least, least + step_range(nearer), jump);
-  real ink = 1.0 - missing * missing;  // as the eye sees it, about
+  real ink = 1.0 - missing * missing;  // approximately as strong as the eye perceives it
   ink = select(depth_a == real(kNothing) || depth_b == real(kNothing), real(1.0), ink);
   return select(depth_a == real(kNothing) && depth_b == real(kNothing), real(0.0), ink);
 }

@@ -7,7 +7,7 @@
 // covers, in 31sts, in 5 bits. For each axis of the sky there are two maps, one for each of its ends; for each place on
 // the lamp there is one. The sky's axes are fixed in the molecule, so its shade has no noise and does not flicker. A row
 // of pixels reads the maps of one phase of kLightPhases; the mean over neighbouring rows (finish.glsl) has all phases.
-// Written in GLSL and, as the body of a struct, in C++ (view_space.glsl). The includer provides `maps` of
+// This file is written in GLSL and, as the body of a struct, in C++ (view_space.glsl). The includer provides `maps` of
 // LightMapParameters, and light_texel() of an index in GLSL, two_light_texels() in C++.
 
 #ifndef __cplusplus
@@ -36,7 +36,7 @@ GEOMETRY real blocked(real3 p, real3 normal, int row, integer first, truth down,
   integer at = first + place.y * edge + place.x;
   real right = column - real(place.x);
   real below = line - real(place.y);
-  float steps = float(kLightSteps) / float(edge);  // of height, of a texel
+  float steps = float(kLightSteps) / float(edge);  // steps of height per side of a texel
   real slope = -steps / max(abs(dot(normal, vec3(to_height))), 0.17 / texel);
   real to_right = dot(normal, vec3(to_column)) * slope;
   real to_below = dot(normal, vec3(to_line)) * slope;
@@ -54,11 +54,10 @@ GEOMETRY real blocked(real3 p, real3 normal, int row, integer first, truth down,
 // Returns the first map that a row of pixels reads.
 GEOMETRY int light_phase(int row) { return (int(floor(view.first_offset.y)) + row) & (kLightPhases - 1); }
 
-// Returns the point from which light is looked for. p: a point; texel: of the maps, Å.
+// Returns the point from which light is looked for. p: a point; texel: side of a texel of the maps, Å.
 GEOMETRY real3 lifted(real3 p, real3 normal, float texel) { return p + normal * (kLightLift * texel); }
 
-// Adds the light around an axis of the sky that reaches a point, weighted by the cosine, to sky.x, and all of it to
-// sky.y.
+// Adds the light around an axis of the sky that reaches a point, weighted by the cosine, to sky.x, and all to sky.y.
 GEOMETRY void add_sky(int axis, real3 from, real3 normal, GEOMETRY_INOUT(real2) sky) {
   int texels = maps.sky_edge * maps.sky_edge;
   real cosine = dot(normal, vec3(maps.rows[3 * axis + 2]));
@@ -78,7 +77,7 @@ GEOMETRY real lamp_light(int n, real3 from, real3 normal) {
   return above * (1.0 - blocked(from, normal, first_row, first, truth(false), maps.lamp_edge, maps.lamp_texel));
 }
 
-// Returns the share of the lamp of which the light reaches a point.
+// Returns the share of the lamp whose light reaches a point.
 GEOMETRY real share_of_lamp(real light) { return light * (float(kLightPhases) / float(maps.lamp_places)); }
 
 #ifndef __cplusplus

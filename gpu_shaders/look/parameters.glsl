@@ -12,12 +12,12 @@ const int kMostSkyAxes = 128;
 const int kMostLampPlaces = 32;
 const int kLightPhases = 2;  // a row of pixels reads each second map, the next row the others
 const int kLightSteps = 8192;  // heights in a map are whole numbers below this
-const float kLightLift = 0.33;  // texels above the surface, from where light is looked for
+const float kLightLift = 0.33;  // height in texels above the surface from which light is looked for
 
 // The maps of light_maps.glsl.
 struct LightMapParameters {
-  // Three for each axis of the sky, then for each place on the lamp: they take a point in the camera's axes to columns
-  // and lines of texels and to the height, texels.
+  // Three rows for each axis of the sky, then for each place on the lamp. They take a point in the camera's axes to
+  // columns and lines of texels and to the height, texels.
   vec4 rows[3 * (kMostSkyAxes + kMostLampPlaces)];
   float sky_texel;  // Å
   float lamp_texel;
@@ -31,7 +31,7 @@ struct LightMapParameters {
 struct FinishParameters {
   vec3 key_direction;
   float key_strength;
-  vec3 key_color;  // this and the next numbers: as in RayCastParameters
+  vec3 key_color;  // this and the next numbers are those of RayCastParameters
   float key_share;
   vec3 fill_direction;
   float fill_share;
@@ -41,19 +41,19 @@ struct FinishParameters {
   float roughness;
   vec3 ground;
   float shadow;      // darkness of the shadows from maps
-  vec3 air;          // linear: what the farthest fades into,
-  uint keeps_alpha;  // or into nothing
+  vec3 air;          // linear colour that the farthest points fade into
+  uint keeps_alpha;  // 0: they fade into transparency instead
   vec3 patch_line_color;  // linear
   float patch_lines;      // width of lines around patches, in pixels
-  float specular;  // of highlights in the shade
+  float specular;  // strength of highlights in the shade
   float shininess;
   float ambient_occlusion;
-  float outer_lines;  // widths in pixels: around all,
-  float inner_lines;  // around what is in front of something else,
-  float part_lines;   // and between parts
+  float outer_lines;  // width of lines around everything, in pixels
+  float inner_lines;  // width of lines around what is in front of something else, in pixels
+  float part_lines;   // width of lines between parts, in pixels
   float widest_line;
-  float step_pixels;  // half an Å and so many pixels further back a line begins;
-  float fade_pixels;  // three Å and so many pixels later it is black
+  float step_pixels;  // lines begin at steps of depth of half an Å and this many pixels
+  float fade_pixels;  // lines are black at steps of another three Å and this many pixels
   float depth_cue;
   float first_depth;
   float last_depth;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Applies shade, depth cueing and lines of the first visible layer to the colours of all translucent layers.
-// Written in the common subset of GLSL and C++. Colours are linear and premultiplied unless a comment says otherwise.
+// This file is in the common subset of GLSL and C++. Colours are linear and premultiplied unless noted otherwise.
 
 // Returns the colours of all translucent layers with the first one finished. over: all translucent layers; first:
 // colour (not premultiplied) and opacity of the first layer, which `over` includes; finished: the colour of the first

@@ -2,8 +2,8 @@
 // Computes points of a cast block in the camera's axes: x right, y up, z towards the viewer, with the eye
 // (orthographic: its plane) at 0.
 //
-// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu), with the types of
-// reduced_surface/precision.glsl. To be included after the block `view` of BlockView. The sources that use it need
+// This file is written in GLSL and, as the body of a struct, in C++ (core/render/cpu), with the types of
+// reduced_surface/precision.glsl. It must be included after the block `view` of BlockView. The sources that use it need
 // depth_or_nothing() of a pixel, which may be outside of the block, and hit_normal_at() of a pixel that has a hit, from
 // the includer.
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A hash table with linear probing that finds the RS face of a triple of atoms.
-// To be included after triple.glsl.
+// This file must be included after triple.glsl.
 #include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/shared/parameters.glsl"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Completes primitives: computes the bound relative to the camera, and appends to the tables of the ray caster.
-// To be included where real is double. Numbers are computed in double precision and rounded once, like those of
-// core/render/ray_cast_scene.cpp on the host.
+// This file must be included where real is double. Numbers are computed in double precision and rounded once, as by
+// core/render/ray_cast_pack.cpp on the host.
 #include "gpu_shaders/geometry/patch_bounds.glsl"
 #include "gpu_shaders/ray_cast/records.glsl"
 #include "gpu_shaders/shared/parameters.glsl"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Computes the rectangle of pixels, and of tiles, that a bounding sphere may touch. It may be slightly too large, but
-// never too small. Written in GLSL and, as the body of a struct, in C++ (core/render/cpu). To be included after the
-// block `params` of TileListParameters.
+// never too small. This file is written in GLSL and, as the body of a struct, in C++ (core/render/cpu). It must be
+// included after the block `params` of TileListParameters.
 #ifndef MENISCUS_RAY_CAST_BOUND_FOOTPRINT_GLSL
 #define MENISCUS_RAY_CAST_BOUND_FOOTPRINT_GLSL
 #include "gpu_shaders/shared/constants.glsl"

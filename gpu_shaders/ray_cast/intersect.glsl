@@ -5,7 +5,7 @@
 // Both sides of a patch count, because the camera may be inside the solid.
 
 struct Rays {
-  vec3 p[4];  // on the plane through the pivot
+  vec3 p[4];  // points on the plane through the pivot
   vec3 d[4];  // unit length
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Computes the part of a ray that planes keep, and the opacity of a film along a ray.
 //
-// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where rays may be packets with common planes.
-// The includer provides plane_count(), plane() of a number below that (points with dot(xyz, x) < w are kept), and
-// patch_hits.glsl.
+// This file is written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where rays may be packets with
+// common planes. The includer provides plane_count(), plane() of a number below that (points with dot(xyz, x) < w are
+// kept), and patch_hits.glsl.
 
 const uint kNoPlane = 0xffffffffu;  // the camera; far away
 

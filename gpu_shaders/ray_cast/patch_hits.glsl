@@ -2,12 +2,12 @@
 // Intersects rays with patches, finds the atom whose colour a point has, and tests if that atom is shown, because points
 // of hidden atoms are not hits.
 //
-// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where rays may be packets with a common
-// patch. The includer provides row(), load_primitive(), `view`, `params`, shows() of an atom, and `some_hidden`, which
-// is false if all atoms are shown. Each ray is moved to its closest approach first. Numbers there are as small as the
-// primitive, and single precision is good to about 1e-6 Å. The hit of a ray on a primitive depends on these two only,
-// to the last bit: neither on earlier hits nor on the order of primitives. Therefore pictures with more or fewer hidden
-// primitives are equal.
+// This file is written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where rays may be packets with a
+// common patch. The includer provides row(), load_primitive(), `view`, `params`, shows() of an atom, and `some_hidden`,
+// which is false if all atoms are shown. Each ray is moved to its closest approach first. Numbers there are as small as
+// the primitive, and single precision is good to about 1e-6 Å. The hit of a ray on a primitive depends on these two
+// only, to the last bit: neither on earlier hits nor on the order of primitives. Therefore pictures with more or fewer
+// hidden primitives are equal.
 
 // Returns the atom of a point on a concave patch, which is the atom of the nearest contact. If two contacts are equally
 // near, it is the atom with the smaller number, in any order of the contacts. x: point relative to the probe's centre.

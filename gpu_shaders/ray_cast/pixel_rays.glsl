@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Computes the rays of a block's pixels.
 //
-// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu), with the types of
-// reduced_surface/precision.glsl. To be included after the block `view` of BlockView.
+// This file is written in GLSL and, as the body of a struct, in C++ (core/render/cpu), with the types of
+// reduced_surface/precision.glsl. It must be included after the block `view` of BlockView.
 
 // Returns the point where the ray through a place of the block meets the pivot's plane. place: pixels from the centre
 // of the first pixel of the block.

@@ -21,9 +21,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform usamplerBuffer primitive_texels;  // three texels each: struct Primitive
 layout(binding = 1) uniform usamplerBuffer row_texels;
-layout(binding = 2) uniform usamplerBuffer slot_ends;  // of tile_lists.comp: the end of each slice of each tile
+layout(binding = 2) uniform usamplerBuffer slot_ends;  // the end of each slice of each tile (tile_lists.comp)
 layout(binding = 3) uniform usamplerBuffer entries;
-layout(binding = 4) uniform usamplerBuffer tile_order;  // of split_tiles.comp: the tile of each group
+layout(binding = 4) uniform usamplerBuffer tile_order;  // the tile of each group (split_tiles.comp)
 // Linear colours of atoms, then of the three kinds; alpha: opacity, 0 if hidden.
 layout(std430, binding = 0) readonly buffer Colors { vec4 atom_color[]; };
 layout(std430, binding = 1) buffer Picture { vec4 picture[]; };             // sums of linear, premultiplied samples
@@ -54,8 +54,7 @@ Primitive load_primitive(uint index) {
 
 ivec2 tile_origin;  // first pixel of this group's tile
 
-// Returns pixel k of the four of this invocation. Consecutive invocations, which share a vector, fill squares, not
-// rows.
+// Returns pixel k of the four of this invocation. Consecutive invocations, which share a vector, fill squares.
 ivec2 pixel_of(int k) {
   int i = int(gl_LocalInvocationIndex);
   ivec2 quad = ivec2((i & 3) | (i >> 1 & 4), (i >> 2 & 1) | (i >> 3 & 6));
@@ -100,8 +99,7 @@ int next_candidate(Walk walk, int i, Nearest nearest) {
   do {
     ++i;
     uint index = texelFetch(entries, i).x;
-    // All later primitives begin no earlier than the slice of this one. Testing each of them would cost more than it
-    // saves.
+    // All later primitives begin no earlier than the slice of this one. Testing each would cost more than it saves.
     if (i < walk.end && ((i - walk.first) & 7) == 0 &&
         slice_begin(slices, slice_of(slices, nearest_of(index))) + walk.eye_t - walk.spread > farthest)
       i = walk.end;
@@ -187,7 +185,7 @@ struct State {
   uvec4 kind;
   uvec4 tie_key;
 };
-layout(std430, binding = 4) buffer States { State states[]; };  // by invocation, like `unfinished`
+layout(std430, binding = 4) buffer States { State states[]; };  // one per invocation, like `unfinished`
 
 // Traces one part of the list. Returns true if the invocation has traversed its whole list. An invocation that is cut
 // short again is resumed with shorter parts.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Data that the host and the ray caster exchange: a bound for each primitive, rows of four floats, and hits.
 //
-// Written in the common subset of GLSL and C++; in C++ the includer provides vec3, vec4 and uint.
-// All positions are relative to the pivot, a point in the middle of the picture and near the shown objects, so that
-// single precision keeps its digits there. Offsets of planes are relative to the centre of the primitive.
+// This file is written in the common subset of GLSL and C++; in C++ the includer provides vec3, vec4 and uint. All
+// positions are relative to the pivot, a point in the middle of the picture and near the shown objects, so that single
+// precision keeps its digits there. Offsets of planes are relative to the centre of the primitive.
 //
 // Rows of a convex patch:    centre, radius | plane_count x (normal, offset)
 // Rows of a toroidal patch:  centre, R | start, cos sweep | axis, sin sweep | z_low, z_high, clip z, clip radius |
@@ -18,19 +18,19 @@ struct Primitive {
   uint first_row;
   uint plane_count;   // toroidal: range of patch_membership.glsl
   uint kind;          // PatchKind
-  uint patch_index;   // into the table of its kind
+  uint patch_index;   // index into the table of its kind
   uint atom;          // convex: the atom; toroidal, cylinder: the first; concave: contact_count
   uint second_atom;   // toroidal; cylinder: the one that the axis points to
-  uint tie_key;       // triple.glsl: which of two patches of a kind a ray shows that meets both at once
+  uint tie_key;       // key (triple.glsl) that decides which of two patches a ray shows where it meets both
 };
 
 // The hit of the ray through a pixel's centre.
 struct Hit {
   vec3 normal;     // towards the solvent
-  float t;         // from the ray's point on the plane through the pivot, in Å
+  float t;         // distance from the ray's point on the plane through the pivot, in Å
   uint primitive;  // kNoPrimitive: nothing is hit
   uint atom;
-  uint object;     // in pictures of several: which of them
+  uint object;     // number of the object, in pictures of several
   uint unused;     // fills the record
 };
 
@@ -40,4 +40,4 @@ const uint kConcave = 2u;
 const uint kCylinder = 3u;  // this one and the next are not patches, but sticks and ribbons
 const uint kTriangle = 4u;
 const uint kNoPrimitive = 0xffffffffu;
-const uint kOnPlane = 0xfffffffeu;  // of a hit: where a plane cuts a solid
+const uint kOnPlane = 0xfffffffeu;  // primitive of a hit where a plane cuts a solid

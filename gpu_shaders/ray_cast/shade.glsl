@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Computes the normal and the atom of a hit, and applies studio light to its colour.
 //
-// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where points may be packets with a common
-// primitive. The includer provides patch_hits.glsl and studio_light.glsl.
+// This file is written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where points may be packets with
+// a common primitive. The includer provides patch_hits.glsl and studio_light.glsl.
 
 struct SurfacePoint {
   real3 normal;  // towards the solvent

@@ -2,9 +2,9 @@
 // Intersects rays with cylinders and triangles, which are drawn in addition to a surface, and computes normals and
 // atoms.
 //
-// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where rays and points may be packets with a
-// common shape. The includer provides row(), and includes patch_hits.glsl and shade.glsl before. Rays are moved to
-// their closest approach first, as in patch_hits.glsl.
+// This file is written in GLSL and, as the body of a struct, in C++ (core/render/cpu), where rays and points may be
+// packets with a common shape. The includer provides row(), and includes patch_hits.glsl and shade.glsl before. Rays
+// are moved to their closest approach first, as in patch_hits.glsl.
 
 struct CylinderMeeting {
   truth near_found;

@@ -2,17 +2,16 @@
 // Computes studio light on a surface with normal n. All directions are in the camera's axes (x right, y up, z towards
 // the camera).
 //
-// Written in GLSL and, as the body of a struct, in C++ (core/render/cpu). The includer provides `params` with the
-// numbers of the lamps, of RayCastParameters or FinishParameters.
+// This file is written in GLSL and, as the body of a struct, in C++ (core/render/cpu). The includer provides `params`
+// with the numbers of the lamps, of RayCastParameters or FinishParameters.
 
 // The part of the key light that reaches a point.
 struct KeyLight {
-  real diffuse;  // as much as the surface is turned towards it
+  real diffuse;  // share by which the surface is turned towards it
   real open;     // share of the lamp that nothing covers
 };
 
-// Returns the unoccluded key light at a point with normal n. Wrapped diffuse light makes a soft terminator like a large
-// lamp.
+// Returns the unoccluded key light at a point with normal n. Wrapped diffuse light makes the terminator soft.
 GEOMETRY KeyLight open_key_light(real3 n) {
   KeyLight key;
   key.diffuse = max((dot(n, params.key_direction) + 0.25) / 1.25, 0.0);

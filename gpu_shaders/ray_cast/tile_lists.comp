@@ -2,9 +2,8 @@
 // Lists the primitives that may be visible in each tile, by slices of depth. The order within a slice is arbitrary.
 // Pass 0: counts[slot of tile, kind and slice] += 1 for each tile that a primitive's bound touches.
 // Pass 1: counts contain their prefix sums; each primitive takes the next place of its slot, so that in the end each
-//         count is the end of its slot and the begin of the next one. Overflow: the scan and pass 1 stop at the
-// capacity;
-//         the host makes the frame again.
+//         count is the end of its slot and the begin of the next one.
+// Overflow: the scan and pass 1 stop at the capacity; the host makes the frame again.
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/dispatch.glsl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Computes the fixed probes at the ends of an arc in double precision. All arcs that end at a probe get the same
-// position. To be included where real is double.
+// position. This file must be included where real is double.
 #include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/geometry/circle.glsl"
 #include "gpu_shaders/geometry/fixed_probe.glsl"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arithmetic of a kernel variant: single precision first, and double precision for decisions that are then in
-// doubt.
+// The arithmetic of a kernel variant: single precision first, then double precision for decisions in doubt.
 #ifdef DOUBLE_PRECISION
 #define real double
 #define real2 dvec2

@@ -4,7 +4,7 @@
 #define MENISCUS_SHARED_CONSTANTS_GLSL
 
 const uint kNone = 0xffffffffu;      // no atom, probe, circle or face
-const uint kAxisLabel = 0x80000000u;  // of a cusp arc's end: named by a side whose spindle axis ends it, not by a probe
+const uint kAxisLabel = 0x80000000u;  // marks the label of a cusp arc's end: a side whose spindle axis ends the arc
 const int kTileEdge = 16;            // pixels; pictures are made in tiles
 const float kNothing = 3.0e38;       // depth where nothing is met, Å
 

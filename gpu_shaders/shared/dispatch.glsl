@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The place of an invocation in a dispatch, which the host may have folded into a rectangle, and loops that a driver
-// cuts short. To be included after the kernel's layout(local_size_x = ...), which defines gl_WorkGroupSize.
+// cuts short. This file must follow the kernel's layout(local_size_x = ...), which defines gl_WorkGroupSize.
 
 uint linear_group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 

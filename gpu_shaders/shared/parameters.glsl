@@ -140,7 +140,7 @@ struct FaceParameters {
 // The camera and the capacities of the tables, for all kernels that make primitives.
 struct PrimitiveParameters {
   dvec3 pivot;
-  double eye_distance;  // from the camera to the pivot
+  double eye_distance;  // distance from the camera to the pivot
   dvec3 camera_position;
   double probe_radius;
   dvec3 camera_forward;
@@ -173,7 +173,7 @@ struct ConvexParameters {
 // parts; then all neighbours clip (theorem 1.1).
 const uint kNotShown = 0u;
 const uint kByPartners = 1u;
-const uint kInDoubt = 2u;  // by partners, too, unless double precision decides otherwise
+const uint kInDoubt = 2u;  // the partners clip, too, unless double precision decides otherwise
 const uint kByNeighbors = 3u;
 
 // Bit n of the mark of an arc in an atom's list is set if word n of the arc names an atom that clips, and no earlier

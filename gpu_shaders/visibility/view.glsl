@@ -73,8 +73,7 @@ float earliest_depth(RayBlock block, vec3 v, float radius) {
   return nearest < radius ? depth_on_sphere(v, radius, nearest) : kNothing;
 }
 
-// Returns a depth before which every ray of the block enters the ball, or kNothing if a ray may miss it or begins
-// inside.
+// Returns a depth before which every ray of the block enters the ball, or kNothing if a ray may miss it or begin in it.
 float latest_depth(RayBlock block, vec3 v, float radius) {
   Passing passing = pass_by(block, v);
   float farthest = passing.distance + passing.spread + view.margin;  // sin(a + e) <= sin a + e

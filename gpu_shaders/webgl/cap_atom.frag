@@ -5,8 +5,8 @@
 #define LAYERS 1
 #include "gpu_shaders/webgl/scene.glsl"
 
-uniform usampler2D event_texels;  // of layer_event.frag
-uniform float probe;              // Å: how far a cap is from the nearest sphere, at most
+uniform usampler2D event_texels;  // written by layer_event.frag
+uniform float probe;              // Å: greatest distance of a cap from the nearest sphere
 uniform float largest_ball;       // Å
 flat in uint index;
 flat in vec4 bound;  // the ball, larger by the probe

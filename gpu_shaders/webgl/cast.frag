@@ -14,7 +14,7 @@ layout(depth_greater) out highp float gl_FragDepth;
 
 flat in uint index;
 flat in vec4 bound;
-uniform vec2 depth_range;  // as in footprint.vert
+uniform vec2 depth_range;  // see footprint.vert
 layout(location = 0) out uvec2 found;  // t as bits, primitive
 
 #ifdef LAYERS

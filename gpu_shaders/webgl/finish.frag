@@ -6,10 +6,10 @@
 
 uniform usampler2D sample_texels;      // points.frag's colours
 uniform usampler2D what_texels;        // points.frag's atoms and marks
-uniform usampler2D shade_texels;       // light.frag's; there for SHADE
-uniform usampler2D sum_texels;         // of the samples before
+uniform usampler2D shade_texels;       // written by light.frag; only with SHADE
+uniform usampler2D sum_texels;         // sums of earlier samples
 layout(std140) uniform Parameters { FinishParameters params; };
-layout(location = 0) out uvec4 sum;  // as bits
+layout(location = 0) out uvec4 sum;  // bits of floats
 #ifdef LAYERS
 layout(location = 1) out uvec4 ink;
 #endif

@@ -4,17 +4,17 @@
 // the picture is the lowest row of the target.
 #include "gpu_shaders/webgl/tables.glsl"
 
-TileListParameters params;  // of the one block that is the picture
+TileListParameters params;  // parameters of the only block, which is the whole picture
 #include "gpu_shaders/ray_cast/bound_footprint.glsl"
 
-in uint primitive;  // its number; with BALLS that of an atom
+in uint primitive;  // number of the primitive or, with BALLS, of an atom
 #ifdef BALLS
 uniform usampler2D ball_texels;  // centre, radius
-uniform float probe;             // Å by which they are larger here
+uniform float probe;             // Å by which the balls are enlarged here
 #endif
-uniform vec2 depth_range;  // distances from the eye that depths begin and end at, Å
+uniform vec2 depth_range;  // distances from the eye at which depths begin and end, Å
 flat out uint index;
-flat out vec4 bound;  // from where the records count
+flat out vec4 bound;  // sphere in the coordinates of the records
 
 void main() {
   params.right = view.right;

@@ -5,7 +5,7 @@
 #include "gpu_shaders/webgl/layer_texels.glsl"
 
 uniform usampler2D over_texels;
-layout(location = 0) out uvec4 over;   // as of layer_start.frag
+layout(location = 0) out uvec4 over;   // see layer_start.frag
 layout(location = 1) out uvec4 state;
 
 void main() {

@@ -5,7 +5,7 @@
 #define LAYERS 1
 #include "gpu_shaders/webgl/scene.glsl"
 
-uniform usampler2D found_texels;  // of cast.frag
+uniform usampler2D found_texels;  // written by cast.frag
 uniform usampler2D state_texels;
 uniform float seen_through;            // 1: caps are seen from within, too
 layout(location = 0) out uvec4 event;  // t as bits; primitive, kOnPlane or kNoPrimitive; plane; facing as bits

@@ -4,9 +4,9 @@
 #define LAYERS 1
 #include "gpu_shaders/webgl/layer_texels.glsl"
 
-uniform usampler2D normal_texels;  // of points.frag
+uniform usampler2D normal_texels;  // written by points.frag
 uniform usampler2D what_texels;
-layout(location = 0) out uvec4 color;   // of the first: alpha is its opacity, 0 if it is opaque; else 1
+layout(location = 0) out uvec4 color;   // alpha with FIRST: the opacity, or 0 if it is 1; otherwise 1
 layout(location = 1) out uvec4 normal;
 layout(location = 2) out uvec4 what;
 

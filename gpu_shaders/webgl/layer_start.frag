@@ -4,7 +4,7 @@
 #define LAYERS 1
 #include "gpu_shaders/webgl/scene.glsl"
 
-layout(location = 0) out uvec4 over;   // linear, premultiplied, as bits: what is seen through so far
+layout(location = 0) out uvec4 over;   // blended colour of the layers so far: linear, premultiplied, as bits
 layout(location = 1) out uvec4 state;  // see scene.glsl
 
 void main() {

@@ -6,13 +6,13 @@
 #include "gpu_shaders/look/parameters.glsl"
 
 uniform usampler2D over_texels;
-uniform usampler2D first_texels;    // colour and opacity of what is seen first
-uniform usampler2D front_texels;    // that, finished as if it were opaque
-uniform usampler2D ink_texels;      // what lines cover of that
-uniform usampler2D behind_texels;   // what is opaque, finished
-uniform usampler2D sum_texels;      // of the samples before
+uniform usampler2D first_texels;    // colour and opacity of the first visible layer
+uniform usampler2D front_texels;    // this layer, finished as if it were opaque
+uniform usampler2D ink_texels;      // share of this layer that lines cover
+uniform usampler2D behind_texels;   // the finished opaque layer
+uniform usampler2D sum_texels;      // sums of earlier samples
 layout(std140) uniform Parameters { FinishParameters params; };
-layout(location = 0) out uvec4 sum;  // as bits
+layout(location = 0) out uvec4 sum;  // bits of floats
 
 #include "gpu_shaders/look/seen_through.glsl"
 

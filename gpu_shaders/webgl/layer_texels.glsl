@@ -5,18 +5,18 @@
 #define MENISCUS_WEBGL_LAYER_TEXELS_GLSL
 #include "gpu_shaders/webgl/scene.glsl"
 
-uniform usampler2D event_texels;  // of layer_event.frag
+uniform usampler2D event_texels;  // written by layer_event.frag
 uniform usampler2D state_texels;
 uniform usampler2D sample_texels;  // points.frag's colours of the events; alpha: opacity
 uniform usampler2D shape_texels;   // points.frag's `what` of the shapes
 
 struct LayerEvent {
-  bool is_before_shapes;  // else there is none, or a shape hides it
+  bool is_before_shapes;  // false: there is no event, or a shape hides it
   bool is_cap;
-  bool is_last;  // planes keep nothing behind it
-  bool shows;    // it is not hidden
+  bool is_last;  // true if planes keep nothing behind it
+  bool shows;    // true if it is not hidden
   float t;
-  float side;  // below 0 where the ray goes in
+  float side;  // below 0 where the ray enters the solid
   vec3 color;
   float opacity;
   uvec4 state;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Colours points by a volume map. One table has its numbers: colours of the scale, the colour outside of the map, a
 // number per atom that is 0 if the map colours it, and the values. It does the same as painted() in
-// core/render/cpu/picture_scene.cpp.
+// core/render/cpu/picture_content.cpp.
 #ifndef MENISCUS_WEBGL_PAINTED_GLSL
 #define MENISCUS_WEBGL_PAINTED_GLSL
 
 uniform usampler2D map_texels;
 uniform vec4 map_axes[3];   // a point's place along each axis: dot(xyz, x) + w
 uniform vec3 map_size;      // points along each axis
-uniform vec3 map_scale;     // the first number of its colours, how many numbers there are to one colour's share; its offset, Å
-uniform vec3 map_parts;     // where colours of what is missing, atoms and values begin
-uniform float map_is_shown; // 0: colours are by atoms
+uniform vec3 map_scale;     // x: value at the first colour; y: 1 / (value at the last one - x); z: sampling offset, Å
+uniform vec3 map_parts;     // places in the table: x: colour outside of the map; y: numbers of atoms; z: values
+uniform float map_is_shown; // 0: colours follow atoms
 
 float map_number(uint n) { return uintBitsToFloat(entry(map_texels, n).x); }
 

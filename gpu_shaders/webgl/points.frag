@@ -1,25 +1,24 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes the properties of the point that a pixel's ray has met: its colour in the light, its normal, its depth, its
-// atom.
+// Computes the properties of the point that a pixel's ray has met: its lit colour, its normal, its depth, its atom.
 #include "gpu_shaders/webgl/scene.glsl"
 
 #ifdef LAYERS
-uniform usampler2D event_texels;     // of layer_event.frag
-uniform usampler2D cap_atom_texels;  // of cap_atom.frag
-uniform vec4 cap_color;              // of caps; alpha 0: that of the atom
-uniform vec4 hatching[kMostPlanes];  // of each plane: stripes begin where dot(xyz, x) + w is whole; 0: none
-uniform vec2 hatched_look;           // which share of a stripe is dark, and how much light is left there
-uniform float surface_opacity;       // times that of atoms
-uniform float thickens;              // 1: what is seen through is a film
+uniform usampler2D event_texels;     // written by layer_event.frag
+uniform usampler2D cap_atom_texels;  // written by cap_atom.frag
+uniform vec4 cap_color;              // colour of caps; alpha 0: that of the atom
+uniform vec4 hatching[kMostPlanes];  // stripes of each plane begin where dot(xyz, x) + w is whole; 0: none
+uniform vec2 hatched_look;           // dark share of a stripe, and share of the light that is left there
+uniform float surface_opacity;       // factor of the opacity of atoms
+uniform float thickens;              // 1: the opacity is that of a thin film
 #else
-uniform usampler2D found_texels;  // of cast.frag
+uniform usampler2D found_texels;  // written by cast.frag
 #endif
-uniform usampler2D mark_texels;   // of atoms: Coloring::line_marks()
+uniform usampler2D mark_texels;   // marks of atoms: Coloring::line_marks()
 #ifdef PAINTED
 #include "gpu_shaders/webgl/painted.glsl"
 #endif
-const uint kHasOwnColors = 2u;   // of exporters/page/page_tables.cpp
+const uint kHasOwnColors = 2u;   // the same as in exporters/page/page_tables.cpp
 layout(location = 0) out uvec4 color;   // linear, premultiplied, as bits
 layout(location = 1) out uvec4 normal;  // towards the solvent, and the depth along the view axis, as bits
 layout(location = 2) out uvec4 what;    // atom, primitive, mark, t as bits
@@ -55,7 +54,7 @@ void main() {
   float t = uintBitsToFloat(met.x);
   vec3 x = ray.p + ray.d * t;
   SurfacePoint point;
-  uint kind = kCylinder;  // or any other that is no patch
+  uint kind = kCylinder;  // any kind that is not a patch
   bool has_own_color = true;
 #ifdef LAYERS
   if (met.y == kOnPlane) {

@@ -8,7 +8,7 @@
 #include "gpu_shaders/geometry/patch_membership.glsl"
 
 uniform usampler2D row_texels;
-uniform usampler2D color_texels;  // of atoms: linear, alpha: opacity, 0 if hidden; three more for the kinds
+uniform usampler2D color_texels;  // linear colours of atoms, then of the three kinds; alpha: opacity, 0 if hidden
 layout(std140) uniform Parameters { RayCastParameters params; };
 
 vec4 row(uint index) { return uintBitsToFloat(entry(row_texels, index)); }
@@ -37,7 +37,7 @@ truth shows(uint atom) { return color_of(atom).a > 0.0; }
 
 #ifdef LAYERS
 const int kMostPlanes = 8;
-uniform vec4 planes[kMostPlanes];  // kept is where dot(xyz, x) < w
+uniform vec4 planes[kMostPlanes];  // points with dot(xyz, x) < w are kept
 uniform float planes_there;
 int plane_count() { return int(planes_there); }
 vec4 plane(int i) { return planes[i]; }
@@ -47,9 +47,9 @@ vec4 plane(int i) { return planes[i]; }
 // The flags in the third word of a ray's state in state_texels. The first two words are, as bits, the parameter t
 // beyond which the next hit lies, and the facing of the hit at t.
 const uint kHasHit = 1u;    // there is a hit at t
-const uint kEnded = 2u;     // nothing more is seen of it
-const uint kHasBegun = 4u;  // it has gone in through a cap, or has met the surface
-const uint kHasShown = 8u;  // something on it is seen
+const uint kEnded = 2u;     // nothing more is visible on the ray
+const uint kHasBegun = 4u;  // the ray has entered through a cap, or has met the surface
+const uint kHasShown = 8u;  // something on the ray is visible
 #endif
 
 // The ray of a pixel, in the coordinates of the records.

@@ -11,7 +11,7 @@ precision highp usampler2D;
 #include "gpu_shaders/ray_cast/parameters.glsl"
 #include "gpu_shaders/ray_cast/records.glsl"
 
-const int kTableShift = 11;  // of the columns
+const int kTableShift = 11;  // there are 2^11 columns
 
 uvec4 entry(usampler2D table, uint index) {
   int i = int(index);
@@ -20,6 +20,6 @@ uvec4 entry(usampler2D table, uint index) {
 
 uniform usampler2D primitive_texels;  // three texels each: struct Primitive
 layout(std140) uniform ViewBlock { BlockView view; };
-uniform vec3 pivot;  // of the picture, from where the records count
+uniform vec3 pivot;  // the picture's pivot, in the coordinates of the records
 
 #endif

@@ -60,7 +60,7 @@ void Blockers::sort() {
 
 namespace {
 
-// How a ball meets a circle, as far as it can be decided without a half-plane.
+// The relation of a ball to a circle, as far as it can be decided without a half-plane.
 constexpr std::int64_t kSurelyMisses = 0, kSurelyCovers = 1, kClose = -2;
 
 MENISCUS_VECTOR_CLONES

@@ -95,9 +95,9 @@ class Blockers {
   std::vector<std::uint32_t> labels_;
 };
 
-/// How balls meet one circle, computed for all at once by the same arithmetic as for one ball after another
-/// (contour.glsl, block()). Most balls surely miss it, and are not listed. Reused from circle to circle to save
-/// allocations.
+/// The relations of balls to one circle, computed for all balls at once by the same arithmetic as for one after another
+/// (contour.glsl, block()). Most balls surely miss it, and are not listed. An object is reused from circle to circle to
+/// save allocations.
 class CircleMeetings {
  public:
   /// Tests all blockers but the one at index `skip`. unit: the relative error to assume for numbers.
@@ -162,8 +162,8 @@ class CircleMeetings {
   Most most_{};
 };
 
-/// The remainder of one circle under a union of covered arcs, seen from the end of the widest arc. Reused from circle
-/// to circle to save allocations.
+/// The remainder of one circle under a union of covered arcs, seen from the end of the widest arc. An object is reused
+/// from circle to circle to save allocations.
 class CircleSweep {
  public:
   enum class Outcome {
@@ -187,7 +187,7 @@ class CircleSweep {
   geometry::ExposedArc arc_{};
 };
 
-/// The part of a first ball's sphere that other balls surely cover. Reused from sphere to sphere to save allocations.
+/// The part of a first ball's sphere that other balls surely cover. An object is reused from sphere to sphere.
 ///
 /// A sphere is sampled in 252 directions, so dense that every point lies within a known angle of one. A direction
 /// counts as covered when one ball covers everything within that angle of it, with an allowance for rounding; so

@@ -8,8 +8,7 @@ namespace meniscus {
 namespace {
 
 constexpr std::size_t kMostCompared = 64;
-/// Å: the allowed difference of radii from the radii of the weights: more than weights grow or shrink by, and than
-/// rounding.
+/// Å: the allowed difference of radii from the radii of the weights: more than weights grow, and than rounding.
 constexpr double kRadiusBlur = 1e-8;
 /// Borders of smaller caps, and of those that leave less, are dominated by rounding.
 constexpr double kLeastSine = 1e-3;

@@ -14,7 +14,7 @@
 namespace meniscus {
 
 /// Finds the balls whose caps of the first ball's sphere surely lie within the caps of others. Such a ball's circle is
-/// covered, and it ends no arc of another circle. Reused from sphere to sphere to save allocations.
+/// covered, and it ends no arc of another circle. An object is reused from sphere to sphere.
 class NestedCaps {
  public:
   /// Returns, per blocker, 1 if it can be left out. Each is compared only with the widest caps, so that the time is
@@ -57,7 +57,7 @@ struct BlockedHalf {
   std::uint32_t label = 0;
 };
 
-/// The exposed part of one circle. Reused from circle to circle to save allocations.
+/// The exposed part of one circle. An object is reused from circle to circle to save allocations.
 class Contour {
  public:
   /// unit: the relative error to assume for numbers in double precision; smaller differences are in doubt.
@@ -111,8 +111,8 @@ class Contour {
 };
 
 /// Decides circles a second time, for radii shrunk by as much as decisions grow them. A sign that is the same for both
-/// is the same for the given radii, because within 1e-9 Å all deciding expressions are practically linear. Reused from
-/// circle to circle.
+/// is the same for the given radii, because within 1e-9 Å all deciding expressions are practically linear. An object is
+/// reused from circle to circle.
 class TieWatch {
  public:
   /// Compares the second decision with the result of expose() for a circle in doubt. blockers, skip: as in expose();

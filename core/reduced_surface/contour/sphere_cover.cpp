@@ -27,7 +27,7 @@ constexpr float kProduct = kAxisLength * kLength;  // the dot product of an axis
 // of the direction by kLengthError. The last term is for the numbers that products are compared to: they are rounded,
 // and near a cosine of 1 a root in single precision is off by as much as three units.
 constexpr float kProductError = 0.9f * (kLength + kLengthError) + kAxisLength * kLengthError + 5;
-constexpr float kBeyond = 1.002f;  // in place of a cosine: the number to compare to is larger than any product
+constexpr float kBeyond = 1.002f;  // replaces a cosine: the number to compare to is larger than any product
 static_assert(kBeyond * kProduct + kProductError < 0x7fff);
 static_assert(kBeyond * kProduct + kProductError - 1 > (kAxisLength + 0.9f) * (kLength + kLengthError));
 

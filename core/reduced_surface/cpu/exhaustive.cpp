@@ -15,8 +15,7 @@
 namespace meniscus {
 namespace {
 
-// The number of atoms in a group. Atoms are named by their places in NeighborSearch, and pass through the stages in
-// groups.
+// The number of atoms in a group. Atoms are named by their places in NeighborSearch, and pass the stages in groups.
 constexpr std::size_t kGroup = 64;
 // The number of open circles from which it pays to search for circles within the caps of others: on a line of N atoms
 // all N² / 2 are open. Molecules have fewer.
@@ -91,8 +90,7 @@ class Enumeration {
     return {group.neighbors.data() + first[0], group.neighbors.data() + first[1]};
   }
 
-  // Returns the neighbours with which an atom has open circles: circles that are not surely covered, seen from this
-  // atom.
+  // Returns the neighbours with which an atom has open circles: circles that are not surely covered.
   std::span<const std::uint32_t> open_neighbors_of(std::size_t place) const {
     return neighbors_of(place).first(groups_[place / kGroup].open[place % kGroup]);
   }

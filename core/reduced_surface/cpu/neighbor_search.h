@@ -19,7 +19,7 @@ class NeighborSearch {
   std::uint32_t atom(std::size_t place) const { return atom_[place]; }
   double weight(std::size_t place) const { return table_.column(kWeight)[place]; }
 
-  /// The balls around a few that are close to each other. Reused to save allocations.
+  /// The balls around a few balls that are close to each other. An object is reused to save allocations.
   class Surroundings {
     friend class NeighborSearch;
     enum Column : std::size_t { kX, kY, kZ, kRadius, kColumnCount };
@@ -33,7 +33,7 @@ class NeighborSearch {
     }
 
     std::size_t first_ = 0, past_ = 0;   // places of these few
-    std::size_t count_ = 0;              // of the balls around them
+    std::size_t count_ = 0;              // number of balls around them
     std::vector<std::uint32_t> places_;  // per ball around them
     ColumnTable<kColumnCount> table_;
     std::vector<std::int64_t> overlaps_;  // scratch
@@ -57,7 +57,7 @@ class NeighborSearch {
   }
 
   double probe_radius_;
-  double largest_radius_;  // of the SAS balls
+  double largest_radius_;  // largest radius of the SAS balls
   std::vector<std::uint32_t> atom_;
   BallGrid grid_;
   ColumnTable<kColumnCount> table_;

@@ -46,8 +46,7 @@ class GpuNeighbors {
   /// Sorts balls into a grid: centres and radii in Å. `left_out` may be empty; balls left out neither have nor are
   /// neighbours.
   void upload(std::span<const glm::dvec3> centers, std::span<const double> radii, const std::vector<bool>& left_out);
-  /// Sorts balls into a grid with a known box around their centres; ball_at(n) returns the centre and the radius of
-  /// ball n.
+  /// Sorts balls into a grid with a known box around their centres; ball_at(n) returns ball n.
   template <typename BallAt>
   void upload(std::uint32_t count, const BallExtent& box, const std::vector<bool>& left_out, const BallAt& ball_at);
 
@@ -139,7 +138,7 @@ class GpuNeighbors {
   Buffer ball_count_;   // uint: true if loops were cut short; uint: number of balls
   BallBatch resident_;  // the batch whose lists the buffers hold; count 0: none
   Counting counting_ = Counting::now;
-  BallBatch known_, trusted_;  // sizes of one batch: as last counted, with room
+  BallBatch known_, trusted_;  // sizes of one batch: as last counted, and with spare room
   struct Counted {
     std::uint32_t cut_short = 0, neighbors = 0, pairs = 0;
   } counted_;
@@ -152,8 +151,7 @@ class GpuNeighbors {
   std::vector<glm::vec4> coarse_, fine_;  // memory of upload(), reused
 };
 
-// A centre is uploaded as two floats each, relative to the middle of all; their difference is good to single precision
-// anywhere.
+// A centre is uploaded as two floats each, relative to the middle of all, so that differences have single precision.
 template <typename BallAt>
 void GpuNeighbors::upload(std::uint32_t count, const BallExtent& box, const std::vector<bool>& left_out,
                           const BallAt& ball_at) {

@@ -28,7 +28,7 @@ constexpr ray_cast::Hit kNoHit{glm::vec3(0.0f), 0.0f, ray_cast::kNoPrimitive, ra
 
 /// Returns the width of the thinnest thing that objects have, in Å, such as the diameter of a stick.
 double least_width(const Surface* surface, const Shapes* shapes) {
-  constexpr double kLeastThickness = 0.4;  // of ribbons and plates
+  constexpr double kLeastThickness = 0.4;  // thickness of ribbons and plates
   double least = std::numeric_limits<double>::infinity();
   if (surface)
     for (const Ball& atom : surface->atoms) least = std::min(least, 2.0 * atom.radius);
@@ -326,7 +326,7 @@ void CpuRenderer::apply_front_look(int sample, LaneLook task, const Look& look, 
   front_sums_.assign(pixel_count, glm::vec4(0.0f));
   front_ink_.assign(pixel_count, 0.0f);
   task.samples = front_.lanes(look.traces_sky());
-  task.finish.specular = 0.0f;  // what is cast has highlights already
+  task.finish.specular = 0.0f;  // the cast colours have highlights already
   task.sums = front_sums_.data();
   task.ink = front_ink_.data();
   find_shade(front_, sample, look, task, interruption);

@@ -49,8 +49,8 @@ class CpuRenderer {
   /// Returns the last drawn picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.
   const std::vector<std::uint8_t>& rgba() const { return rgba_; }
   glm::ivec2 size() const { return size_; }
-  /// Returns what a pixel (column, row from the top) of the last drawn picture shows; nothing where no ray hit
-  /// anything.
+  /// Returns the point that a pixel (column, row from the top) of the last drawn picture shows; nothing where no ray
+  /// hit anything.
   std::optional<PickedPoint> pick(glm::ivec2 pixel) const;
 
   /// Returns the times of the stages of the last picture.
@@ -78,7 +78,7 @@ class CpuRenderer {
     SceneBlock at;
     const RenderSettings& settings;
     bool hits = false;  ///< true: hits are requested, too
-    /// Called after each sample, when its hits are complete. If it is empty, hits are the hits of the first sample.
+    /// This is called after each sample, when its hits are complete. Empty: hits are those of the first sample.
     std::function<void(int sample)> after_sample{};
 
     std::size_t pixel_count() const { return static_cast<std::size_t>(at.block.size.x) * at.block.size.y; }
@@ -111,7 +111,7 @@ class CpuRenderer {
   PackPlacement placement_;             // placement of the current picture
   LightMaps light_maps_;                // maps of the current picture, if its look needs them
   std::optional<Occluders> occluders_;  // occluders of the current picture, if its light is traced
-  const std::shared_ptr<SurfaceContent> surface_ = std::make_shared<SurfaceContent>();  // for pictures of one surface
+  const std::shared_ptr<SurfaceContent> surface_ = std::make_shared<SurfaceContent>();  // content of one surface
   bool nothing_is_thin_ = false;      // true: nothing in the current picture fits between the centres of pixels
   std::optional<Unevenness> uneven_;  // unevenness of the current block, known after its first sample
   std::vector<glm::vec4> sums_;

@@ -26,7 +26,7 @@ struct VolumePaint;
 struct PointPaint {
   const VolumePaint* map = nullptr;           ///< nullptr: points have the colours of atoms
   glm::dvec3 pivot{0.0};                      ///< Å, the origin of positions
-  const std::uint8_t* keeps_color = nullptr;  ///< for each atom, 1 if it keeps its own colour
+  const std::uint8_t* keeps_color = nullptr;  ///< 1 for each atom that keeps its own colour
 };
 
 /// Returns the linear colour of a point of this atom. x: Å from the pivot; normal: towards the solvent.
@@ -36,7 +36,7 @@ glm::vec3 painted(const PointPaint& paint, std::uint32_t atom, const glm::vec4& 
 /// A box of a tree over the primitives of an object; low and high are relative to the pivot.
 struct OccluderBox {
   glm::vec3 low;
-  /// For a leaf the first index in LaneOccluder::order; otherwise the second child, because the first one follows.
+  /// The first index in LaneOccluder::order for a leaf; else the second child, because the first one follows.
   std::uint32_t first;
   glm::vec3 high;
   std::uint32_t count;  ///< number of a leaf's primitives; 0: the box has two children
@@ -76,7 +76,7 @@ struct LaneOccluder {
   LanePack scene;
   const OccluderBox* boxes = nullptr;    ///< the first contains all others; nullptr: there are no primitives
   const std::uint32_t* order = nullptr;  ///< indices of its primitives
-  const glm::vec4* planes = nullptr;     ///< as LayerTask::planes
+  const glm::vec4* planes = nullptr;     ///< see LayerTask::planes
   int plane_count = 0;
   glm::mat3 turn{1.0f};  ///< turn * x + shift is the place, in the object's own axes, of a point x of the picture
   glm::vec3 shift{0.0f};
@@ -100,11 +100,11 @@ struct LaneList {
 /// The properties of one sample of each pixel of a block, row by row.
 struct LaneSamples {
   glm::vec4* color = nullptr;   ///< linear, premultiplied
-  float* depth = nullptr;       ///< along the view axis, Å; kernel::kNothing where nothing is hit
+  float* depth = nullptr;       ///< depth along the view axis, Å; kernel::kNothing where nothing is hit
   float* normal[3] = {};        ///< towards the solvent, in the molecule's axes
   float* visibility = nullptr;  ///< the share of the sky that it sees, from rays; nullptr: LaneLight::sky_rays is 0
-  float* mark = nullptr;        ///< LanePack::marks of what is hit, otherwise 0; nullptr if there are none
-  glm::vec4* over = nullptr;    ///< transparent parts before all of this, premultiplied; nullptr: none
+  float* mark = nullptr;        ///< LanePack::marks of the hit atom, otherwise 0; nullptr if there are none
+  glm::vec4* over = nullptr;    ///< transparent parts in front of the rest, premultiplied; nullptr: none
 };
 
 inline constexpr int kBundleEdge = 4;  ///< pixels; rays are cast in bundles of 4 x 4 pixels
@@ -140,8 +140,8 @@ struct LayerHit {
   std::uint32_t primitive = 0;  ///< kOnPlane where a plane cuts the layer
   std::uint32_t atom = 0;
   float facing = 0.0f;      ///< dot(normal, direction of the ray): negative where the ray enters the solid
-  float depth = 0.0f;       ///< along the view axis, Å
-  glm::vec4 color{0.0f};    ///< with light, linear, not premultiplied; alpha: opacity
+  float depth = 0.0f;       ///< depth along the view axis, Å
+  glm::vec4 color{0.0f};    ///< lit colour, linear, not premultiplied; alpha: opacity
   glm::vec3 normal{0.0f};   ///< towards the solvent
   float visibility = 1.0f;  ///< LaneSamples::visibility
 };
@@ -194,7 +194,7 @@ inline constexpr int kShadeEdge = 64;  ///< pixels; the shade of squares is comp
 struct LaneKernels {
   int lanes;
   void (*cast_tile)(const LanePack& scene, const LaneTile& tile);
-  /// Appends what the tile's rays hit to `hits`, in any order. The tile's own arrays do not change.
+  /// Appends the points that the tile's rays hit to `hits`, in any order. The tile's own arrays do not change.
   void (*cast_layer)(const LanePack& scene, const LaneTile& tile, const LayerTask& task, LayerHits& hits);
   /// Lights points on planes, with t, ray, normal and colour given, and sets their depths.
   void (*light_points)(const LanePack& scene, const LaneTile& tile, LayerHit* points, std::uint32_t count);

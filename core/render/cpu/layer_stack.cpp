@@ -328,7 +328,7 @@ void LayerStack::color_caps(const Layer& layer, std::span<Cap> caps, double reac
   for (Cap& cap : caps) {
     NearAtom first{std::numeric_limits<double>::infinity(), 0};
     for (const auto& [distance, a] : near) {
-      if (distance - reach > first.first + kCapRoom) break;  // and so are all that follow
+      if (distance - reach > first.first + kCapRoom) break;  // this atom and all after it are too far away
       first = std::min(first, {glm::length(cap.point - balls[a].center) - balls[a].radius, a});
     }
     cap.atom = first.second;

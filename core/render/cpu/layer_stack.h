@@ -15,7 +15,7 @@ namespace meniscus {
 /// The packed objects of one picture.
 class LayerStack final : public PictureContent {
  public:
-  /// Packs the objects. placement: of all objects together. The data that the objects point to must outlive the scene.
+  /// Packs the objects. placement: that of all objects together. The data that objects point to must outlive the scene.
   LayerStack(std::span<const PictureObject> objects, const PictureFrame& frame, const PackPlacement& placement,
              const Look& look);
 
@@ -35,7 +35,7 @@ class LayerStack final : public PictureContent {
     HostPack scene;
     std::vector<glm::vec4> planes;  // relative to the pivot
     CpuTileLists lists;
-    std::optional<BallGrid> atoms;  // for surfaces that planes cut
+    std::optional<BallGrid> atoms;  // present if planes cut the surface
     double farthest_atom = 0.0;     // Å, each point of the solid is at most this far from the sphere of some atom
   };
 

@@ -65,8 +65,8 @@ struct LookedAtBlock {
 #include "gpu_shaders/ray_cast/studio_light.glsl"
 #include "gpu_shaders/look/finish.glsl"
 
-  /// The shares of a pixel that black lines cover, with the depth of what they outline, and that lines around patches
-  /// cover.
+  /// The share of a pixel that black lines cover, with the depth of the object that they outline, and the share that
+  /// lines around patches cover.
   struct Ink {
     real covered, depth, patched;
   };

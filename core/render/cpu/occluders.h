@@ -24,7 +24,7 @@ class Occluders {
   /// Adds each copy of the surface, which is in memory only once.
   void add(const SurfaceObject& object);
 
-  /// Sets the directions for this number of samples per pixel. basis: of the camera, which the lamp moves with.
+  /// Sets the directions for this number of samples per pixel. basis: axes of the camera, with which the lamp moves.
   void aim(const Look& look, const ViewBasis& basis, int samples);
 
   /// Returns all occluders, and rays in these directions only, of any length. The occluders and the directions must

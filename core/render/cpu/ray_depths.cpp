@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds how far the rays of a block can see, and decides what may be visible before that.
+// Holds how far the rays of a block can see, and decides what may be visible within that distance.
 #include "core/render/cpu/visible_copies.h"
 
 namespace meniscus {

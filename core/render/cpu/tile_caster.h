@@ -102,7 +102,7 @@ class Bundle : protected LightedPack {
     const LaneList& list = tile_.list;
     for (int first = 0; first < list.count; first += kLanes) {
       const float farthest = farthest_distance();
-      if (list.nearest[first] > farthest) return;  // as are all that follow
+      if (list.nearest[first] > farthest) return;  // all primitives after it are farther, too
       const real3 center(load(list.x + first), load(list.y + first), load(list.z + first));
       const truth missed = misses_bound(center, load(list.radius + first), real3(middle_), real3(middle_direction_),
                                         middle_eye_, spread_, farthest_t());

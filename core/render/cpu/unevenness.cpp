@@ -16,7 +16,7 @@ constexpr int kPadding = 16;  // the widest packet
 
 constexpr int kRows = kBundleEdge + 2;
 
-/// The pixels of a row of bundles and those around them as they are displayed, about: the square roots of linear
+/// The pixels of a row of bundles and around it, approximately as they are displayed: the square roots of linear
 /// values.
 struct DisplayedRows {
   std::vector<float> rows[kRows];  // four numbers per pixel; the first and the last pixel are repeated

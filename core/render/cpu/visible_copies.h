@@ -96,15 +96,15 @@ class VisibleCopies final : public OpaqueScene {
  private:
   /// A copy, and its properties that do not depend on a block.
   struct Copy : CopyPlace {        // first_atom: among the atoms of all copies
-    std::uint32_t first_part = 0;  // among the parts of all copies
+    std::uint32_t first_part = 0;  // first of its parts among the parts of all copies
     std::uint32_t first_component = 0;
-    glm::vec4 bound{0.0f};  // as Primitive::bound
-    float nearest = 0.0f;   // as Primitive::nearest
+    glm::vec4 bound{0.0f};  // see Primitive::bound
+    float nearest = 0.0f;   // see Primitive::nearest
   };
 
   /// Patches that are close together, and a ball around them before the copy's motion.
   struct Cluster {
-    std::size_t first = 0, count = 0;  // in Home::patches
+    std::size_t first = 0, count = 0;  // range in Home::patches
     geometry::PatchBound bound{};
   };
 
@@ -137,9 +137,9 @@ class VisibleCopies final : public OpaqueScene {
   const Look look_;
   const LaneKernels& kernels_;
   const std::size_t patches_together_;
-  std::vector<std::vector<glm::vec4>> colors_;  // for each object
-  std::vector<Home> homes_;                     // for each object
-  std::vector<Copy> copies_;                    // from front to back
+  std::vector<std::vector<glm::vec4>> colors_;  // one for each object
+  std::vector<Home> homes_;                     // one for each object
+  std::vector<Copy> copies_;                    // sorted from front to back
   bool some_hidden_ = false;
   std::size_t moved_ = 0;
 

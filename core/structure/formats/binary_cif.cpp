@@ -302,7 +302,7 @@ class Decoder {
   }
 
   const TextFile& file_;
-  std::size_t values_ = 0, letters_ = 0;  ///< of all tables together
+  std::size_t values_ = 0, letters_ = 0;  ///< totals of all tables
 };
 
 }  // namespace

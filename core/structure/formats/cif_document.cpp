@@ -11,8 +11,7 @@
 namespace meniscus {
 namespace {
 
-/// Throws InputError for an error of gemmi's parser, whose text is "name:line:column(byte): what". The name passed to
-/// it is "cif".
+/// Throws InputError for an error of gemmi's parser, whose text is "name:line:column(byte): what". The name is "cif".
 [[noreturn]] void rethrow_parse_error(const TextFile& file, const std::string& message) {
   std::size_t line = 0;
   std::string what = message;

@@ -17,9 +17,9 @@ bool is_binary_cif(std::string_view bytes);
 /// rows before these. Tables that follow in the file are not in the block yet.
 using TakeAtomRows = std::function<void(gemmi::cif::Block& block, std::size_t first)>;
 
-/// Parses the whole file once. In BinaryCIF only the tables of binary_cif.h are read. Rows of _atom_site are passed to
-/// `take` while they are read and are not kept, because all rows as text take three times the memory of all atoms. The
-/// table without rows stays in the document. Throws InputError with the line of a syntax error, and what `take` throws.
+/// Parses the whole file once; read_binary_cif() reads BinaryCIF. Rows of _atom_site are passed to `take` while they
+/// are read and are not kept, because all rows as text take three times the memory of all atoms. The table without rows
+/// stays in the document. Throws InputError with the line of a syntax error, and the exceptions of `take`.
 gemmi::cif::Document parse_cif(const TextFile& file, const TakeAtomRows& take);
 
 /// Returns the tables of atoms, entities, secondary structure and assemblies, in the form of parse_cif. Throws

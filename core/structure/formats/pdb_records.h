@@ -20,7 +20,7 @@ bool is_pdb_atom(std::string_view line);
 /// chain is replaced by the segment. Columns missing at the end of the line are blank.
 void read_pdb_names(std::string_view line, Atom& atom);
 
-/// Parses "52" or, with an insertion code, "52A". Returns false for any other text, also for a blank one; `number` is
+/// Parses "52" or, with an insertion code, "52A". Returns false for any other text, including a blank one; `number` is
 /// then unchanged, and `insertion_code` may have changed.
 bool parse_residue_number(std::string_view field, std::int32_t& number, char& insertion_code);
 
@@ -50,7 +50,6 @@ class PdbBonds {
   /// Adds the ATOM or HETATM record of the next atom, in the order of Atom::index. Only atoms of the first model that
   /// is read are added, because bonds are between these.
   void add_atom(std::string_view line);
-  /// Adds a CONECT record.
   void add_record(std::string_view line) { records_.push_back(line); }
   /// Adds a bond between two serial numbers.
   void add_pair(std::string_view first, std::string_view second) { pairs_.push_back({first, second}); }
@@ -78,9 +77,8 @@ FileContents read_pdb(const TextFile& file, const ModelChoice& models, TrailingC
 class PdbModels {
  public:
   /// Begins a file; an existing one is refused or replaced by commit() (Existing). `atoms` must outlive this object.
-  /// Throws RequestError for what the format has no room for: more than 99,999 atoms, residue numbers below -999 or
-  /// above 9999, and names of more than two letters for a chain, four for an atom or three for a residue. Throws
-  /// OutputError.
+  /// Throws RequestError if they do not fit the format: more than 99,999, residue numbers below -999 or above 9999, and
+  /// names of more than two letters for a chain, four for an atom or three for a residue. Throws OutputError.
   PdbModels(const std::filesystem::path& path, Existing existing, std::span<const Atom> atoms);
 
   /// Adds a model with these positions (Å), in the order of the atoms. Throws RequestError for coordinates beyond
@@ -103,7 +101,6 @@ struct AtomRecordStyle {
   /// occupancy and B-factor there; both can be true.
   bool is_pdb = false;
 };
-/// Returns the formats that the atom records of a text may have.
 AtomRecordStyle style_of_atom_records(std::string_view text);
 
 }  // namespace meniscus

@@ -53,8 +53,7 @@ class GroReader {
 
  private:
   std::size_t read_title_and_count() {
-    // The shortest line of an atom has names and numbers in 20 columns, three coordinates of two columns, and a line
-    // end.
+    // The shortest line of an atom has names and numbers in 20 columns, three coordinates of two columns, a line end.
     constexpr std::size_t kShortestLine = 27;
     std::string_view line;
     std::int64_t count = 0;

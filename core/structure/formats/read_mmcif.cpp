@@ -265,8 +265,7 @@ std::size_t whole_coordinates(const TextFile& file, cif::Table& table, std::size
                    end - begin);
 }
 
-/// Returns the atoms of chemical components (_chem_comp_atom) as a table _atom_site, in which each component is a
-/// model.
+/// Returns the atoms of chemical components (_chem_comp_atom) as a table _atom_site; each component is a model.
 cif::Block component_sites(const TextFile& file, const ModelChoice& choice, cif::Document& document,
                            std::vector<Warning>& warnings) {
   cif::Block sites("components");
@@ -292,8 +291,7 @@ cif::Block component_sites(const TextFile& file, const ModelChoice& choice, cif:
   return sites;
 }
 
-/// Collects the atoms of a file. Information in other tables may come later in the file, so that it is added at the
-/// end.
+/// Collects the atoms of a file. Information in other tables may come later in the file, so it is added at the end.
 class AtomRows {
  public:
   AtomRows(const TextFile& file, const ModelChoice& choice) : file_(file), choice_(choice) {}

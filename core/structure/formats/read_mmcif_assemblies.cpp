@@ -17,7 +17,7 @@ namespace {
 
 namespace cif = gemmi::cif;
 
-constexpr std::size_t kMostMotions = 1'000'000;  // of all assemblies of a file
+constexpr std::size_t kMostMotions = 1'000'000;  // the greatest number for all assemblies of a file
 
 std::map<std::string, RigidMotion> operators_of(const TextFile& file, cif::Block& block) {
   std::vector<std::string> tags{"id"};

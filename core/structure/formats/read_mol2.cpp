@@ -268,7 +268,7 @@ class Mol2Reader {
   /// First atom of this molecule in the contents, number of its atoms, its line.
   std::size_t first_ = 0, seen_ = 0, molecule_line_ = 0;
   std::int64_t counted_ = 0, counted_bonds_ = -1;           ///< numbers in its header; -1: none
-  std::unordered_map<std::int64_t, std::uint32_t> places_;  ///< by the id of an atom its place in the contents
+  std::unordered_map<std::int64_t, std::uint32_t> places_;  ///< an atom's place in the contents by its id
   std::map<std::int64_t, Substructure> substructures_;
   std::vector<Row> rows_;  ///< one for each atom of this molecule
   std::vector<AtomHints> hints_;

@@ -303,7 +303,7 @@ const Reader kPdbReader{
 
 namespace {
 
-/// Return the charge in columns 67 to 76, and the type from column 78 on.
+/// These functions return the charge in columns 67 to 76, and the type from column 78 on.
 std::string_view charge_of(std::string_view line) { return line.size() < 67 ? "" : trimmed(line.substr(66, 10)); }
 std::string_view type_of(std::string_view line) {
   std::string_view rest = line.substr(std::min<std::size_t>(line.size(), 77));
@@ -316,7 +316,7 @@ constexpr std::pair<std::string_view, std::uint8_t> kTypes[] = {
     {"A", 6},  {"CG", 6}, {"G", 6},  {"GA", 6}, {"J", 6}, {"Q", 6},   {"NA", 7}, {"NS", 7},
     {"NX", 7}, {"OA", 8}, {"OS", 8}, {"OX", 8}, {"W", 8}, {"SA", 16}, {"HD", 1}, {"HS", 1}};
 
-/// True for points that are no atoms: G0 and the like, where the partner of a carbon CG0 belongs in rings opened by
+/// True for points that are not atoms: G0 and similar types, which mark the partner of a carbon CG0 in rings opened by
 /// Vina, and TZ, where zinc binds.
 bool is_pseudo_atom(std::string_view type) {
   return type == "TZ" || (type.size() == 2 && type[0] == 'G' && type[1] <= '9');

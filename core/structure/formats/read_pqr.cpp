@@ -84,8 +84,7 @@ bool has_pdb_coordinates(std::string_view line) {
          is_number(line.substr(kNumbersStart + 8, 8)) && is_number(line.substr(kNumbersStart + 16, 8));
 }
 
-/// True if occupancy and B-factor fill six columns each. The numbers of PQR have more decimals and extend over the
-/// border.
+/// True if occupancy and B-factor fill six columns each. The numbers of PQR have more decimals and cross the border.
 bool has_occupancy_and_b_factor(std::string_view line) {
   return has_pdb_coordinates(line) && line.size() > 60 && is_number(line.substr(54, 6)) &&
          is_number(line.substr(60, 6)) && (line.size() <= 66 || line[66] == ' ');
@@ -183,8 +182,7 @@ class PqrReader {
     contents_.atoms.push_back(std::move(atom));
   }
 
-  /// Warns of radii that are not plausible, as when the occupancies and B-factors of a PDB file are read as charges and
-  /// radii.
+  /// Warns of radii that are not plausible, as when occupancies and B-factors of PDB are read as charges and radii.
   void warn_of_doubtful_radii() {
     const std::vector<Atom>& atoms = contents_.atoms;
     const auto all = [&](auto&& is) { return !atoms.empty() && std::all_of(atoms.begin(), atoms.end(), is); };

@@ -37,8 +37,7 @@ class PsfReader {
   }
 
  private:
-  /// Goes to the line "N !NAME..." and returns N. Returns nothing if there is no such line, as in files without a
-  /// topology.
+  /// Goes to the line "N !NAME..." and returns N. Returns nothing without such a line, as in files without a topology.
   std::optional<std::size_t> find_section(std::string_view name) {
     for (std::string_view line; lines_.next(line);) {
       const std::size_t at = line.find(name);

@@ -59,8 +59,8 @@ void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& extra_atoms, ReadRep
   atoms.resize(kept);
 }
 
-/// How selections are evaluated: for the current positions of atoms, for those in a frame of a trajectory, where
-/// nothing may be selected, or for all positions that atoms may have.
+/// The positions for which selections are evaluated: the current ones; those in a frame of a trajectory, where nothing
+/// may be selected; or all that atoms may have.
 enum class PositionScope { current, frame, any };
 
 std::vector<bool> select(const Selection& selection, const std::vector<Atom>& atoms, PositionScope scope) {
@@ -206,7 +206,6 @@ std::vector<std::string> assign_extra_radii(Structure& structure, const RadiiCho
   return unknown;
 }
 
-/// Makes the copies of the assembly for the atoms in `extra_atoms`.
 void assemble_extra_atoms(Structure& structure, const Assembly& assembly) {
   std::erase_if(structure.extra_atoms, [&](const Atom& atom) { return !names_chain_of(assembly, atom); });
   if (structure.extra_atoms.empty()) return;
@@ -432,8 +431,7 @@ struct StructureFile::Parts {
     added.emplace(file.path, options.added, options.model, options.superpose_on, contents);
   }
 
-  /// Makes a structure of atoms, which are those of the contents at any positions. Structure::shown_bonds is not filled
-  /// in.
+  /// Makes a structure of atoms, which are those of the contents at any positions. Structure::shown_bonds stays empty.
   Structure choose(std::vector<Atom> atoms, PositionScope scope) const {
     Structure structure;
     structure.file = file.path;

@@ -23,7 +23,7 @@ struct ShownAtoms {
   /// Selection from the same atoms as ReadOptions::selection, with the same rule for water and ions.
   Selection atoms;
   bool each_is_drawn = false;  ///< true if every atom is drawn, as by sticks and spheres; then it has no companion
-  std::string lack{};          ///< message of the error if there are none; empty: it names the option
+  std::string lack{};          ///< message of the error if there are no such atoms; empty: it names the option
 };
 
 /// The greatest number of ShownAtoms. Atom::shown has a bit for each of them.
@@ -37,7 +37,7 @@ struct ReadOptions {
   bool keep_ions = false;   ///< true: free ions are used, as in a file without other molecules
   UnknownElement unknown_element = UnknownElement::halt;  ///< guess: radius kRadiusWithoutSource; skip: left out
   std::string assembly{};                                 ///< id of the assembly to build; empty: as in the file
-  CopyMode copy_mode = CopyMode::atoms;                   ///< what becomes of its copies
+  CopyMode copy_mode = CopyMode::atoms;                   ///< representation of its copies
   bool list_assemblies = false;                           ///< if true, Structure::assemblies is filled in
   std::vector<std::string> added{};  ///< names of further files, whose atoms are added as further models
   /// The atoms by which each added file is superposed on the first, selected in both (AddedFiles).
@@ -45,7 +45,7 @@ struct ReadOptions {
   /// Selects the atoms to use. It is evaluated on all atoms, including water and ions, except for virtual sites and the
   /// atoms of other models and other alternate locations. Selected water and ions are used only if the expression names
   /// them (Selection::names) or with keep_water or keep_ions. Without a selection the polymers of the file are used,
-  /// and everything of a file that has none (outside_polymer.h).
+  /// and everything of a file that has none (OutsidePolymer in residues.h).
   std::optional<Selection> selection = {};
   bool takes_ligands = false;                  ///< true: without a selection, ligands and lipids are used, too
   std::vector<Selection> required_parts = {};  ///< parts of the selection, each of which must have atoms
@@ -83,7 +83,7 @@ class StructureFile {
   StructureFile(const StructureFile&) = delete;
   StructureFile& operator=(const StructureFile&) = delete;
 
-  /// All atoms that at() may use or show, at the positions of the file or of the options.
+  /// Returns all atoms that at() may use or show, at the positions of the file or of the options.
   const Structure& possible_structure() const { return possible_structure_; }
 
   /// Returns the structure that read_structure gives for other positions (Å), one for each atom of the file or of

@@ -115,7 +115,7 @@ class XyzReader {
     ++contents_.models;
     std::string_view line;
     const Columns columns = lines_.next(line) ? columns_of(line) : Columns{};
-    is_lammps_ = line.starts_with("Atoms. Timestep:") || trimmed(line) == "Atoms";  // the latter in old versions
+    is_lammps_ = line.starts_with("Atoms. Timestep:") || trimmed(line) == "Atoms";  // old versions write "Atoms"
     const bool wanted = choice_.takes(static_cast<std::int32_t>(contents_.models));
     for (std::size_t n = 0; n < count; ++n) {
       if (!lines_.next(line)) refuse_short_frame(file_, count_line, count, n);

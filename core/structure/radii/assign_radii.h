@@ -32,7 +32,6 @@ extern const RadiiSet kUnitedSet;
 extern const RadiiSet kProtorSet;
 extern const RadiiSet kMartini2Set, kMartini3Set;
 
-/// Returns all built-in sets.
 std::span<const RadiiSet* const> radii_sets();
 
 /// Returns the set with this name; null if there is none.
@@ -66,8 +65,7 @@ class NamePattern {
   std::vector<std::vector<Piece>> alternatives_;
 };
 
-/// A table of radii. It may have two radii for an atom: one for molecules with hydrogens, and one that includes the
-/// hydrogens.
+/// A table of radii. It may have two radii for an atom: one for molecules with hydrogens, and one that includes them.
 class RadiiTable {
  public:
   struct Entry {
@@ -121,7 +119,6 @@ struct RadiusOverride {
   double radius;  ///< Å, greater than 0
 };
 
-/// The choice of radii.
 struct RadiiOptions {
   /// "bondi", "united", "protor" or "file"; empty: "file" if the file has usual radii, else "bondi".
   std::string set{};
@@ -144,7 +141,6 @@ class RadiiChoice {
   RadiiChoice(const RadiiOptions& options, const std::string& molecule_file, FileRadii file_radii,
               std::span<const Atom> atoms = {});
 
-  /// True if the radii of the molecule file are used.
   bool from_molecule_file() const { return from_file_; }
   /// True if the radii include hydrogens, so that hydrogens are left out unless the user keeps them. any_hydrogens:
   /// true if the molecule has hydrogens.

@@ -334,8 +334,7 @@ bool Selection::uses_positions() const {
   });
 }
 
-// Two evaluations run in parallel: one of the atoms that are always selected, and one of the atoms that may be
-// selected.
+// Two evaluations run in parallel: one of the atoms that are always selected, one of those that may be.
 Selection::PossibleAtoms Selection::possible(std::span<const Atom> atoms) const {
   Evaluation certain(atoms), perhaps(atoms);
   PossibleAtoms possible{{}, Set(atoms.size(), false)};

@@ -166,8 +166,7 @@ std::vector<SelectionValue> split_at_plus(const Token& token) {
   return values;
 }
 
-/// These functions parse values. They throw SelectionError with the position in `text`. whole: only integers are
-/// allowed.
+/// These functions parse values. They throw SelectionError with the position in `text`. whole: integers only.
 std::vector<TextPattern> read_patterns(const std::vector<SelectionValue>& values) {
   std::vector<TextPattern> patterns;
   for (const SelectionValue& value : values) {

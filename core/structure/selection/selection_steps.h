@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A selection inside: its tokens, the tests and set operations that the parser makes of them, and the classes of atoms
-// that the tests name, and a tree of points that finds exactly, for many places, whether any point is near.
+// The parts of a selection: its tokens, the tests and set operations that the parser makes of them, the classes of
+// atoms that the tests name, and a tree of points that finds exactly, for many places, whether any point is near.
 #pragma once
 
 #include <array>
@@ -85,8 +85,7 @@ struct NumberTest {
   AtomField field;
   std::vector<std::array<double, 2>> ranges;
 };
-/// Tests whether residue number and insertion code are in one of these closed ranges. They are ordered as in 52, 52A,
-/// 52B, 53.
+/// Tests whether residue number and insertion code are in one of these closed ranges. Their order is 52, 52A, 52B, 53.
 struct ResidueTest {
   using Id = std::pair<std::int32_t, char>;
   std::vector<std::array<Id, 2>> ranges;
@@ -115,7 +114,7 @@ struct SelectionSteps;
 /// Selects the atoms that an expression selected once.
 struct FixedTest {
   std::shared_ptr<const SelectionSteps> expression;
-  std::shared_ptr<const std::set<std::pair<std::uint32_t, std::uint32_t>>> atoms;  ///< by Atom::copy and Atom::index
+  std::shared_ptr<const std::set<std::pair<std::uint32_t, std::uint32_t>>> atoms;  ///< copy and index of each
   bool compares_copies;  ///< true to compare both; false for Atom::index alone, if there were no copies
 };
 

@@ -210,8 +210,7 @@ std::vector<std::string_view> fields_between_slashes(std::string_view word) {
   }
 }
 
-/// Translates /object/segment/chain/residue/name. The first slash and the parts at the left may be missing, as in
-/// A/10/CA.
+/// Translates /object/segment/chain/residue/name. The first slash and parts at the left may be missing: A/10/CA.
 std::string from_pymol(std::string_view word) {
   std::vector<std::string_view> fields = fields_between_slashes(word);
   if (fields.front().empty())
@@ -221,7 +220,7 @@ std::string from_pymol(std::string_view word) {
   fields.resize(5);
   Translation translation;
   translation.add("chain", fields[2]);
-  const std::size_t tick = fields[3].find('`');  // as in LYS`10
+  const std::size_t tick = fields[3].find('`');  // LYS`10 has a tick
   translation.add_residues(fields[3].substr(0, tick));
   if (tick != std::string_view::npos) translation.add_residues(fields[3].substr(tick + 1));
   translation.add("name", fields[4].substr(0, fields[4].find('`')));

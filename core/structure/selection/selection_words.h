@@ -24,7 +24,6 @@ enum class WordKind : std::uint8_t {
   operation  ///< and, or, not
 };
 
-/// A word of the selection language.
 struct SelectionWord {
   std::string_view words;  ///< separated by blanks; the first is preferred, the others mean the same
   WordKind kind;

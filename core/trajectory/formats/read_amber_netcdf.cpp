@@ -212,8 +212,7 @@ class AmberNetcdf final : public Trajectory {
     if (found == layout.variables.end()) throw InputError(path_, 0, "holds no variable 'coordinates'");
     const NetcdfVariable& variable = found->second;
     const std::vector<std::uint64_t>& lengths = variable.lengths;
-    // A restart file has one frame, without a dimension of frames. Some writers give the dimension of frames a fixed
-    // length.
+    // A restart file has one frame, without a dimension of frames. Some writers fix the length of that dimension.
     is_single_ = !variable.has_records && lengths.size() == 2;
     if (!variable.has_records && lengths.size() == 3) fixed_frames_ = lengths[0];
     const bool shaped = lengths.size() == (variable.has_records || is_single_ ? 2U : 3U);

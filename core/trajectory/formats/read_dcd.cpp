@@ -42,7 +42,7 @@ std::optional<Markers> markers_of(std::string_view start) {
   return std::nullopt;
 }
 
-/// True if programs mean that there is no box. They write edges of 0 or 1 Å then.
+/// True for the edges of 0 or 1 Å by which programs say that there is no box.
 bool means_no_box(const std::array<double, 6>& numbers) {
   return std::abs(numbers[0]) <= 1.0 && std::abs(numbers[2]) <= 1.0 && std::abs(numbers[5]) <= 1.0;
 }
@@ -261,7 +261,7 @@ class Dcd final : public Trajectory {
   BinaryFile file_;
   Markers markers_;
   std::int32_t promised_frames_ = 0, first_step_ = 0, steps_between_ = 0, fixed_count_ = 0;
-  double time_step_ = 0.0;  // in units of AKMA
+  double time_step_ = 0.0;  // the unit is that of AKMA
   bool has_cell_ = false, has_fourth_axis_ = false, written_by_charmm_ = false;
   std::vector<std::uint32_t> free_atoms_;  // empty if no atom is fixed
   std::uint64_t first_frame_ = 0;          // offset of the first frame

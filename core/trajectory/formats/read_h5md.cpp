@@ -72,15 +72,13 @@ bool has(hid_t place, const std::string& path) {
   return H5Lexists(place, path.c_str(), H5P_DEFAULT) > 0;
 }
 
-/// True if the numbers are in other files that this file names. Reading one file must never make the program read
-/// others.
+/// True if the numbers are in other files that this file names. Reading a file must not make the program read others.
 bool is_stored_elsewhere(hid_t set) {
   const Handle creation(H5Dget_create_plist(set), H5Pclose);
   return H5Pget_external_count(creation) != 0 || H5Pget_layout(creation) == H5D_VIRTUAL;
 }
 
-/// True if a value is a number of a size that processors have. For a damaged size the library might request any amount
-/// of memory.
+/// True if a value is a number of a size that processors have. For a damaged size the library might use all memory.
 bool is_number(const Handle& type) {
   const H5T_class_t kind = H5Tget_class(type);
   const std::size_t size = H5Tget_size(type);
@@ -247,8 +245,7 @@ class H5md final : public Trajectory {
                        with_thousands(atom_count_), with_thousands(frame_count_), with_thousands(bytes_.size()));
   }
 
-  /// Reads the part of a table that belongs to one frame. The first dimension counts frames. False if the library
-  /// fails.
+  /// Reads the part of a table that belongs to one frame. The first dimension counts frames. False if that fails.
   bool read_frame_of(const Table& from, std::uint64_t number, hid_t type, void* numbers) const {
     const Handle space(H5Dget_space(from.set), H5Sclose);
     std::vector<hsize_t> start(from.lengths.size(), 0), count = from.lengths;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads text dumps of LAMMPS (dump atom, dump custom). Their atoms come in any order and are identified by their
-// numbers.
+// Reads text dumps of LAMMPS (dump atom, dump custom). Atoms come in any order and are identified by numbers.
 #include <numeric>
 
 #include "core/base/binary_file.h"
@@ -36,7 +35,6 @@ struct PositionColumns {
 constexpr std::array<PositionColumns, 4> kPositionColumns{
     {{{"xu", "yu", "zu"}, false}, {{"xsu", "ysu", "zsu"}, true}, {{"x", "y", "z"}, false}, {{"xs", "ys", "zs"}, true}}};
 
-/// The header of a frame.
 struct DumpHeader {
   std::optional<std::int64_t> step;
   std::optional<double> time;
@@ -313,7 +311,7 @@ class LammpsDump final : public Trajectory {
   FrameIndex index_;
   bool trust_atom_order_ = false;
   double length_ = 1.0, time_ = 0.0;
-  std::vector<std::int64_t> ids_;            ///< of all atoms, ascending
+  std::vector<std::int64_t> ids_;            ///< numbers of all atoms, ascending
   std::vector<std::int64_t> frame_ids_;      ///< numbers of the atoms of the current frame
   std::vector<glm::dvec3> frame_positions_;  ///< positions of the atoms of the current frame, in the unit of the file
 };

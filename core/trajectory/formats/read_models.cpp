@@ -20,7 +20,7 @@ inline constexpr std::uint64_t kNoBox = ~std::uint64_t{0};
 /// A part of the file that the reader of its format takes for one model.
 struct TextFrame {
   std::uint64_t begin = 0, end = 0;
-  std::uint64_t box = kNoBox;  ///< in PDB the offset of the CRYST1 record that applies to the model
+  std::uint64_t box = kNoBox;  ///< PDB: offset of the CRYST1 record that applies to the model
 };
 
 /// The models of a text file.

@@ -28,7 +28,7 @@ struct TrrHeader {
   std::uint64_t title_bytes = 0, header_bytes = 0;
   // The sizes of the box, of the data between box and positions, and of the positions.
   std::uint64_t box_bytes = 0, between_bytes = 0, position_bytes = 0;
-  std::uint64_t rest_bytes = 0;  // of velocities and forces
+  std::uint64_t rest_bytes = 0;  // bytes of velocities and forces
 
   std::uint64_t time_offset() const { return kTag + title_bytes + 4 * kIntegers; }
   std::uint64_t position_offset() const { return header_bytes + box_bytes + between_bytes; }

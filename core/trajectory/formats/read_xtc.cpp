@@ -14,8 +14,8 @@ namespace {
 /// A compressed frame (GROMACS manual, file formats: xtc; after F. van Hoesel, 1994).
 struct PackedCoordinates {
   float precision = 0.0F;                    ///< steps per nanometre
-  std::array<std::int32_t, 3> lowest = {};   ///< of all atoms, in steps
-  std::array<std::int32_t, 3> highest = {};  ///< of all atoms, in steps
+  std::array<std::int32_t, 3> lowest = {};   ///< least coordinates of all atoms, in steps
+  std::array<std::int32_t, 3> highest = {};  ///< greatest coordinates of all atoms, in steps
   std::int32_t small_class = 0;              ///< index into the format's table of sizes of small differences
   /// Compressed positions; kPackedPadding readable bytes must follow, which do not belong to them.
   std::span<const std::byte> bits = {};
@@ -27,8 +27,7 @@ constexpr std::size_t kPackedPadding = 32;
 __extension__ using Wide = unsigned __int128;
 
 /// The ranges of small differences by class. They grow by the cube root of 2, so that the class is the number of bits
-/// of three numbers together. The values are those of the format, including irregular ones. Classes below 9 are not
-/// used.
+/// of three numbers together. The values are those of the format, including irregular ones. Classes begin at 9.
 constexpr std::array<std::uint32_t, 73> kSmallSizes{
     0,       0,       0,       0,       0,        0,        0,       0,       0,       8,       10,
     12,      16,      20,      25,      32,       40,       50,      64,      80,      101,     128,
@@ -229,7 +228,6 @@ Number big_endian(const std::byte* bytes) {
   return number_at<Number>(bytes, std::endian::big);
 }
 
-/// The header of a frame.
 struct XtcHeader {
   std::size_t atoms = 0;
   std::size_t data_offset = 0;  // bytes from the beginning of the frame

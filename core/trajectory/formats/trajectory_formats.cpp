@@ -19,8 +19,7 @@
 namespace meniscus {
 namespace {
 
-/// A new format has a file read_<name>.cpp, a declaration in trajectory_formats.h and an entry here before the last
-/// one.
+/// A new format has a file read_<name>.cpp, a declaration in trajectory_formats.h and an entry before the last.
 constexpr std::array<const TrajectoryFormat*, 10> kFormats{
     &kXtcFormat,          &kTrrFormat,         &kDcdFormat,
     &kH5mdFormat,         &kAmberNetcdfFormat, &kMdcrdFormat,
