@@ -124,8 +124,6 @@ bool VisibleAtoms::take_counts() {
   return true;
 }
 
-namespace {}  // namespace
-
 void PaperSelection::select(const PictureFrame& frame, const VisibleAtoms& view, const Buffer& atom_balls,
                             std::uint32_t atom_count, double probe_radius, RollingBuffers& rolling) {
   visible_.resize(atom_count * kWord);

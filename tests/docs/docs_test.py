@@ -53,6 +53,15 @@ class Documents(unittest.TestCase):
         stems = [path.stem for path in (ROOT / "docs").glob("*/*.md")]
         self.assertEqual(sorted(set(stems)), sorted(stems))
 
+    def test_files_that_comments_name_are_there(self):
+        generated = {"windows.h", "first.js", "second.js", "stage.js", "P.vert", "P_k.vert"}  # by others or by programs
+        known = generated | {path.name for folder in (*SOURCE_FOLDERS, "scripts", "docs") for path in (ROOT / folder).rglob("*.*")}
+        names = [(path, name) for path in sources() for comment in re.findall(r"(?<!:)//.*", path.read_text())
+                 for name in re.findall(r"[\w/]+\.(?:h|cpp|glsl|comp|frag|vert|js|py)\b", comment)]
+        self.assertGreater(len(names), 100)
+        missing = {f"{path.relative_to(ROOT)} names {name}" for path, name in names if name.split("/")[-1] not in known}
+        self.assertEqual(missing, set())
+
     def test_theorems_that_are_cited_are_there(self):
         theory = (ROOT / "docs/explanation/theory.md").read_text()
         parts = {}

@@ -9,8 +9,6 @@
 #include "core/gpu/context_description.h"
 
 namespace meniscus {
-namespace {}  // namespace
-
 BallExtent extent_of(std::span<const Ball> balls) {
   if (balls.empty()) return {};
   // Minimum and maximum do not depend on the order.
