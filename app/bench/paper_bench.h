@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Repeats the measurements of table 1 of the paper (Krone, Dachsbacher & Ertl 2010): frames of a view, by group of
+// Repeats the measurements of table 1 of the paper (Krone, Dachsbacher & Ertl 2010): times of frames by group of
 // stages.
 #pragma once
 

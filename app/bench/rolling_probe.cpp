@@ -173,8 +173,8 @@ class RollingProbe {
       if (slide(leftmost, towards.center)) return;
   }
 
-  // Slides over the ball of atom i from its leftmost point in a great circle towards a point. False if rounding spoils
-  // the start.
+  // Slides over the ball of atom i from its leftmost point in a great circle towards a point. Returns false if rounding
+  // spoils the start.
   bool slide(std::uint32_t i, const glm::dvec3& towards) {
     const glm::dvec3 left(-1, 0, 0);
     const glm::dvec3 across = towards - left * glm::dot(left, towards);

@@ -97,7 +97,7 @@ class RollingCircle {
     return first_from(Precision::pseudo(typename Precision::real2{u, v}), real(0), true);
   }
 
-  /// True if the probe fits where it meets the n-th met ball: where that ball's covered part begins, or ends.
+  /// Returns true if the probe fits where it meets the n-th met ball: where that ball's covered part begins, or ends.
   bool accessible(std::size_t n, bool at_end) {
     const auto& at = met_[n].covered;
     const auto x = Precision::direction(at_end ? at.end : at.begin);

@@ -241,7 +241,7 @@ void render_figures(RenderCommand command) {
   if (!run.is_run()) log_times(command, device.renderer().device(), device.renderer().times());
 }
 
-/// True if surfaces are divided, or their pieces named or measured.
+/// Returns true if surfaces are divided, or their pieces named or measured.
 bool needs_borders(const Scene& scene) {
   const MoleculeRequest& molecule = scene.molecule;
   return scene.image.aovs || molecule.patches || molecule.color.of_points() ||
@@ -249,7 +249,7 @@ bool needs_borders(const Scene& scene) {
          molecule.division.cavities != Cavities::keep;
 }
 
-/// Keeps only the missing pictures, in a run their frames; false if none is missing.
+/// Keeps only the missing pictures, in a run their frames; returns false if none is missing.
 bool leave_missing(RenderCommand& command) {
   const bool is_run = command.scene.frames.is_requested();
   const std::optional<NumberedPath> pictures = NumberedPath::parse(command.scene.output);

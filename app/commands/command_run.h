@@ -39,8 +39,8 @@ ImageSettings image_settings(const RenderCommand& command);
 /// Makes pictures of only the part that the view needs (--extent): of a molecule, or of the frames of a run.
 void render_views(const RenderCommand& command);
 
-/// Returns the options of the command line that hold for each scene, too, as words of `meniscus render`. but: keys of
-/// those that do not.
+/// Returns the options of the command line that also hold for each scene, as words of `meniscus render`. but: keys of
+/// options that do not.
 std::vector<std::string> shared_words(const SceneOptions& options, std::span<const std::string_view> but);
 
 /// Reads the scene of a file or a picture, as `meniscus render --scene FILE words...` does. Options without effect are
@@ -127,8 +127,8 @@ class FigureRun {
   /// before aim().
   int fit();
 
-  /// Returns the camera for another picture of the same figure, in a run for all its frames. given: a camera from a
-  /// file. Throws like aim().
+  /// Returns the camera for another picture of the same figure; in a run, for all frames. given: a camera from a file.
+  /// Throws the errors of aim().
   Camera camera_for(const ViewRequest& picture, const std::optional<Camera>& given);
   /// Measures in all frames the numbers by which a scheme colours; does nothing for a single molecule.
   void measure(ColorScheme& color);

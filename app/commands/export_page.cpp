@@ -53,7 +53,7 @@ class NamedViews {
   std::vector<View> views_;
 };
 
-/// True for a picture, or a text that is a scene.
+/// Returns true for a picture, or for a text that is a scene.
 bool is_scene(const std::string& file) {
   std::error_code unreadable;
   if (file.starts_with('{') || !std::filesystem::is_regular_file(path_of_text(file), unreadable)) return false;

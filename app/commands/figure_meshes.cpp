@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes what a figure shows for Blender, path tracers and viewers.
+// Makes the meshes of a figure for Blender, path tracers and viewers.
 #include "app/commands/figure_meshes.h"
 
 #include "app/reports/notes.h"

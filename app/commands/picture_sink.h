@@ -32,7 +32,7 @@ class FrameAnnotations {
   /// run: the run of the frames; nullptr: there is one picture. The scene must stay valid. Throws InputError for its
   /// curve.
   FrameAnnotations(const Scene& scene, FrameRun* run);
-  /// Returns the annotations of a picture. lengths: of dashed lines. Throws InputError for a label of no atoms.
+  /// Returns the annotations of a picture. lengths: of dashed lines. Throws InputError for a label without atoms.
   Annotations of(const SinkPicture& picture, const Structure& structure,
                  std::span<const PlaceLabel> lengths = {}) const;
   /// Checks the annotations before the first picture. Throws the errors of annotate() if something does not fit with
@@ -101,8 +101,8 @@ class PictureSink {
 /// note.
 std::string made_of(const Scene& scene);
 
-/// Returns the places, in order, of paths whose picture is not there whole or has another note. Throws UsageError for
-/// pictures with another note, unless they may be replaced; and for files that are not PNG, which have no notes.
+/// Returns the indices, in order, of paths whose picture is missing, incomplete or has another note. Throws UsageError
+/// for pictures with another note, unless they may be replaced; and for files that are not PNG, which have no notes.
 std::vector<std::size_t> missing_pictures(const std::vector<std::string>& paths, const std::string& made_of,
                                           Existing existing);
 

@@ -30,7 +30,7 @@ struct Arguments {
   std::optional<std::uint16_t> port;        ///< -socketPort
 };
 
-/// True for radii within the limits of -probe_radius; the next function does the same for -density. NaN is rejected.
+/// Returns true for radii within the limits of -probe_radius; the next function does so for -density. NaN is rejected.
 bool is_probe_radius(double radius);
 bool is_density(double density);
 

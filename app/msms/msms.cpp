@@ -69,7 +69,7 @@ void send(const LocalSocket& client, const std::vector<T>& values) {
 
 struct SentSphere {
   float x, y, z, radius;
-  std::int32_t flag;  // as in files; VMD's value is ignored
+  std::int32_t flag;  // the flag of files; VMD's value is ignored
 };
 
 Spheres receive_spheres(const LocalSocket& client, Arguments& arguments) {
@@ -184,7 +184,7 @@ std::string with_extension(const std::string& path, const std::string& extension
   return path.ends_with(extension) ? path : path + extension;
 }
 
-/// Returns P.vert for component 0, P_k.vert for component k.
+/// Returns P.vert for component 0, and P_k.vert for component k.
 std::string mesh_path(const Arguments& arguments, std::size_t component, const char* extension) {
   return arguments.mesh_files + (component ? "_" + std::to_string(component) : "") + extension;
 }

@@ -21,7 +21,7 @@ class LocalSocket {
   LocalSocket(LocalSocket&& other) noexcept : number_(other.number_) { other.number_ = kNone; }
   LocalSocket& operator=(LocalSocket&&) = delete;
 
-  /// True if a client has connected within this time.
+  /// Returns true if a client has connected within this time.
   bool has_caller(int milliseconds) const;
   /// Accepts the first client. Each later transfer fails if it takes more than `seconds`.
   std::optional<LocalSocket> caller(int seconds) const;

@@ -107,7 +107,7 @@ bool is_one(const CLI::Option& option, bool (*such)(const Property& property)) {
   });
 }
 
-/// True if both paths are one file, or would be for some number in place of #.
+/// Returns true if both paths are one file, or would be for some number instead of #.
 bool can_be_one_file(const std::string& a, const std::string& b) {
   std::error_code failed, ignored;
   // The path is made absolute first, because weakly_canonical() leaves a path relative if no part of it exists.

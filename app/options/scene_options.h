@@ -83,9 +83,9 @@ class SceneOptions {
   /// SelectionError; InputError for a file that is not a scene or names files that it may not name.
   void take(const std::vector<std::string>& named = {});
 
-  /// True if the command line or the scene file has a value of this property.
+  /// Returns true if the command line or the scene file has a value of this property.
   bool is_given(std::string_view key) const { return typed(key) || places_.contains(std::string(key)); }
-  /// True if the command line has a value of this property.
+  /// Returns true if the command line has a value of this property.
   bool typed(std::string_view key) const;
   /// Returns the texts of a property on the command line: all texts of a repeatable property, one of others, an empty
   /// one of a flag.

@@ -37,7 +37,7 @@ std::string gradient_csv_header(const std::vector<GradientColumn>& gradients);
 std::string gradient_csv_rows(const Structure& structure, const std::vector<GradientColumn>& gradients,
                               const std::string& prefix = "");
 
-/// Quotes a text for such tables.
+/// Quotes a text for these tables.
 std::string csv_cell(const std::string& text);
 
 /// The first columns of a frame's rows: its number in the trajectory, and its time in ps or nothing.

@@ -188,7 +188,7 @@ class Names {
     if (fresh) names_.push_back(name);
     return at->second;
   }
-  /// True unless the only name is empty, as in formats without names.
+  /// Returns true unless the only name is empty, as in formats without names.
   bool are_known() const { return names_.size() > 1 || (names_.size() == 1 && !names_.front().empty()); }
 
  private:

@@ -59,7 +59,7 @@ struct FileObject {
   /// MeshFormat::places have several, or one that is not the identity.
   std::vector<RigidMotion> places{RigidMotion{}};
 
-  /// True if the object is in one place and is not moved.
+  /// Returns true if the object is in one place and is not moved.
   bool is_placed_once() const {
     return places.size() == 1 && places[0].rotation == glm::dmat3(1.0) && places[0].translation == glm::dvec3(0.0);
   }

@@ -157,7 +157,7 @@ struct TrianglePaint {
   std::size_t first_cap;           ///< this triangle and all later ones are caps
   std::optional<glm::vec3> color;  ///< colour of caps, sRGB; empty: the colours of atoms
 
-  /// True if a volume map colours triangle `t`.
+  /// Returns true if a volume map colours triangle `t`.
   bool by_map(std::size_t t) const { return t < first_cap && coloring.by_volume(mesh.atom[t]); }
   /// Returns the colour of triangle `t` in linear light if no map colours it.
   glm::vec3 operator()(std::size_t t) const {

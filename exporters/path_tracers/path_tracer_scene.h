@@ -53,7 +53,7 @@ struct SceneItem {
   std::vector<RigidMotion> copies{RigidMotion{}};  ///< motions of coordinates relative to the scene's origin
   bool is_surface = true;                          ///< true if it has the scene's material; false if it is matte
 
-  /// True if there is a single copy, which is not moved.
+  /// Returns true if there is a single copy, which is not moved.
   bool is_placed_once() const {
     return copies.size() == 1 && copies[0].rotation == glm::dmat3(1.0) && copies[0].translation == glm::dvec3(0.0);
   }

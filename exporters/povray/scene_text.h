@@ -146,7 +146,7 @@ class ColorTable {
   std::uint32_t number(SceneColor color);
   /// Returns each colour once, in the order of the numbers.
   const std::vector<SceneColor>& colors() const { return colors_; }
-  /// True if the opacity of some colour is less than 1.
+  /// Returns true if the opacity of some colour is less than 1.
   bool is_translucent() const;
 
  private:

@@ -86,7 +86,7 @@ class Geometry {
   /// Returns the number of primitives that POV-Ray keeps in memory: copies of a union share nothing there, and a
   /// declared union counts once more.
   std::size_t primitives_in_memory() const;
-  /// True if the text of write() is a single item. POV-Ray warns about a union of a single item.
+  /// Returns true if the text of write() is a single item. POV-Ray warns about a union of a single item.
   bool is_one_item() const;
 
   /// Writes the pieces. If declares_objects() is true, it writes `#local object_N = union {...}` for each object that
@@ -94,7 +94,7 @@ class Geometry {
   /// the top.
   void write(OutputFile& file, std::string_view head = {}) const;
 
-  /// True if objects are declared under names: there are several, or one is copied or moved.
+  /// Returns true if objects are declared under names: there are several, or one is copied or moved.
   bool declares_objects() const;
 
   /// Returns the JSON text that maps object names of the scene to names of the molecule:
@@ -138,7 +138,7 @@ class PatchObjects {
                std::span<const ClipPlane> clip = {})
       : surface_(surface), palette_(palette), origin_(origin), clip_(clip) {}
 
-  /// True if the planes cut away the whole patch.
+  /// Returns true if the planes cut away the whole patch.
   bool is_cut_away(const ColoredPiece& piece) const;
 
   /// Appends one line with the primitive of the piece, which is the part of a patch with one colour and visibility. The
