@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every function of the C interface uses: errors as status codes, checks of the caller's memory, and reference
-// counts of the objects behind handles; and where calls compute: the device, the number of CPU threads, and a thread
-// with a GL context of its own.
+// The common part of the functions of the C interface: errors as status codes, checks of the caller's memory, reference
+// counts of the objects behind handles, and the device, the CPU threads and the thread with a GL context that compute.
 #pragma once
 
 #include <algorithm>

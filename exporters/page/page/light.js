@@ -2,8 +2,8 @@
 // Maps of the heights of the balls that block light, from the sky's directions and from places on the lamp, for
 // gpu_shaders/look/light_maps.glsl. core/render/light_maps.cpp makes the same for pictures.
 
-const kLayerTexels = 2048 * 256;  // of the texture (gpu_shaders/webgl/light.frag)
-const kLightSteps = 8192;  // of heights in a map (gpu_shaders/look/parameters.glsl)
+const kLayerTexels = 2048 * 256;  // texels in a layer of the texture (gpu_shaders/webgl/light.frag)
+const kLightSteps = 8192;  // steps of heights in a map (gpu_shaders/look/parameters.glsl)
 const kEmptyMap = -1e30;
 const kGoldenAngle = Math.PI * (3 - Math.sqrt(5));
 const after_point = (x) => x - Math.floor(x);

@@ -52,7 +52,7 @@ function opacity_of(entry) {
   return { selection: at < 0 ? undefined : text.slice(0, at), opacity: Number(text.slice(at + 1)) };
 }
 
-/// Shows the parts of the figure with controls; command(word, values) and set(key, value) change it. Returns show(state).
+/// Shows the parts of the figure with controls; command(word, values), set(key, value) change it. Returns show(state).
 export function figure_controls({ command, set, viewer }) {
   let known = "";  // the entries in the chips, which are made again when entries change, not when a slider moves
   const add = (key, value) => command("add", { key, value });

@@ -146,7 +146,7 @@ function file_camera() {
 function tell_camera() {
   clearTimeout(camera_timer);
   if (!viewer) return;
-  if (!controls) viewer.camera = page_camera(state.camera, viewer.camera, viewer.figure.origin);  // watchers turn nothing
+  if (!controls) viewer.camera = page_camera(state.camera, viewer.camera, viewer.figure.origin);  // not for watchers
   const camera = file_camera(), text = JSON.stringify(camera), is_told = text === told_text;
   told_text = text;
   if (is_told || !controls) return;
@@ -221,8 +221,7 @@ function allow_controls() { $("controls").disabled = !controls || !state; }
 const pictures = new Pictures($("pictures"), ask, () => state, () => viewer.figure.origin);
 const kept = new Map();  // tables of figures, by their digests
 let device = webgl_device();  // the device of this browser; empty: it casts nothing
-const times = { browser: null, program: { draft: Infinity, rest: Infinity, took: 0 } };  // milliseconds; took: of a draft
-                                                                                         // draft
+const times = { browser: null, program: { draft: Infinity, rest: Infinity, took: 0 } };  // ms; took: of a draft
 let figures = 0;        // how many figures have come
 let unavailable = "";   // why this browser cannot cast the program's figure
 let due = 0;            // the revision of a change that may make another figure; 0 after it has come
