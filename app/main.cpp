@@ -139,8 +139,7 @@ constexpr Heading kHeadings[] = {{"Output", "Output"},
                                  {"Film", "Frames"},
                                  {"Options", "Options"}};
 
-/// The number of options above which a command's help shows only the common ones, one per line, unless all are
-/// requested.
+/// The number of options above which a command's short help shows only the common ones, one per line.
 constexpr std::size_t kFullHelp = 30;
 
 /// Formats help in the order people read: summary, examples, usage, options.

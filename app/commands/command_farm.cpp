@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus farm` and `meniscus work`: bundle a command on frames, make its frames, verify them; and the properties of
-// bundles and workers.
+// `meniscus farm` and `meniscus work`: bundle a command on frames, make its frames, and verify them.
 
 #include <cstdlib>
 #include <iostream>

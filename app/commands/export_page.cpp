@@ -40,8 +40,7 @@ class NamedViews {
 
   /// Finds the cameras. Throws like FigureRun::camera_for(), with the name of the view.
   void aim(FigureRun& run);
-  /// Returns the views of a figure with its objects; call aim() first. Throws like cut_atoms(), with the name of the
-  /// view.
+  /// Returns the views of a figure; call aim() first. Throws the errors of cut_atoms(), with the name of the view.
   std::vector<page::PageView> of(const Scene& page, const Figure& figure) const;
 
  private:

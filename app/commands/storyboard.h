@@ -11,8 +11,7 @@
 
 namespace meniscus {
 
-/// The kind of film: our own pictures, the frames of a scene for another renderer, or scenes and keys for another
-/// program.
+/// The kind of film: pictures, frames of a scene for another renderer, or scenes and keys for another program.
 enum class FilmMedium { pictures, povray, blender };
 
 struct FilmCommand : SceneCommand {
@@ -64,8 +63,7 @@ class Storyboard {
   const FilmFormat& format() const { return format_; }
   bool is_exported() const { return command_.medium != FilmMedium::pictures; }
   std::uint64_t pictures() const;
-  /// Returns the number of pictures of a scene that is not a run; the next function returns that of the transition
-  /// after it.
+  /// Return the number of pictures of a scene that is not a run, and of the transition after it.
   std::uint64_t held(std::size_t n) const { return timing_.held[n]; }
   std::uint64_t between(std::size_t n) const { return timing_.between[n]; }
   /// Returns the title above the scene's pictures, in exports too.

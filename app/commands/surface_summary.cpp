@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes the files of `meniscus surface --csv-summary` in a pipeline, and keeps tables that a later call can
-// continue.
+// Computes the files of `meniscus surface --csv-summary` in a pipeline; a later call can continue its tables.
 #include "app/commands/picture_sink.h"
 #include "app/commands/surface_command.h"
 

@@ -26,8 +26,7 @@ struct CommandKind {
   Maker renderer;           ///< the program of Step::render
 };
 
-/// Returns the kind of {"render", ...} or {"export", "povray", ...}. Throws RequestError for a command that cannot be
-/// bundled.
+/// Returns the kind of {"render", ...} or {"export", "povray", ...}. Throws RequestError for other commands.
 const CommandKind& kind_of(const std::vector<std::string>& command);
 
 /// A file that the command reads.
@@ -85,8 +84,7 @@ struct Bundle {
   std::string result(Step step, std::uint64_t frame) const;
 };
 
-/// Returns part K of N of the run, K from 1. Its frames are consecutive in the run; sizes of parts differ by one at
-/// most.
+/// Returns part K of N of the run, from 1: consecutive frames. Sizes of parts differ by one at most.
 std::vector<std::uint64_t> chunk_of(const Bundle& bundle, std::uint64_t k, std::uint64_t n);
 
 /// Returns the pattern with the frame's number, of five digits or more, instead of #####.

@@ -10,8 +10,7 @@
 
 namespace meniscus::farm {
 
-/// A hidden folder for unfinished files, made by the main thread. It is deleted with this object, and when the program
-/// is stopped.
+/// A hidden folder of the main thread for unfinished files. It is deleted with this object or when the program stops.
 class HiddenFolder {
  public:
   /// Makes PARENT/.NAME.RANDOM.part, which no other process on any machine has. Throws OutputError.
@@ -59,8 +58,7 @@ std::vector<std::size_t> missing_files(const std::vector<std::string>& paths);
 std::vector<std::uint64_t> missing_frames(const Bundle& bundle, const std::filesystem::path& folder, Step step,
                                           const std::vector<std::uint64_t>& frames);
 
-/// Checks the sizes of the bundle's inputs, and the checksums of those up to 256 MiB, or of all if `thorough`. Throws
-/// InputError.
+/// Checks sizes of the bundle's inputs, and checksums up to 256 MiB, or of all if `thorough`. Throws InputError.
 void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, bool thorough);
 
 /// Removes the unfinished files that killed workers left in a bundle.
@@ -75,11 +73,10 @@ struct FrameFault {
 /// Faults by the number of the frame.
 using FrameFaults = std::map<std::uint64_t, FrameFault>;
 
-/// Finds frames that are missing, and pictures that cannot be read, have the wrong size, or are blank: all pixels
-/// equal.
+/// Finds missing frames, and pictures that cannot be read, have the wrong size, or are blank: all pixels equal.
 FrameFaults faults_of(const Bundle& bundle, const std::filesystem::path& folder);
 
-/// What a film shows instead of a frame that is not good.
+/// The picture that a film shows instead of a frame that is not good.
 enum class InPlace {
   hold,  ///< the frame before it again; before the first good frame, that one
   drop   ///< nothing: the film is shorter

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes a bundle next to its final name, makes a trial frame, fills the templates of the engines, and renames the
-// folder.
+// Makes a bundle next to its final name: tries one frame, fills the templates of the engines, renames the folder.
 #include "app/farm/make_bundle.h"
 
 #include <fstream>

@@ -24,8 +24,8 @@ struct Engine {
 
 const std::vector<Engine>& engines();
 
-/// Throws RequestError for a path with other characters than letters, digits and ._-/, which could mean more than a
-/// path to some engine.
+/// Throws RequestError for a path with characters that may have a meaning for some engine: all but letters, digits,
+/// ._-/.
 void require_plain_path(const std::string& farm_path);
 
 /// Writes an engine's templates into the bundle's folder, with the numbers of the bundle and its path on the farm's

@@ -121,8 +121,7 @@ void make_by_blender(const Bundle& bundle, const Order& order, const Frames& fra
                 frames, hearing);
 }
 
-/// Reports the frame that a line from a program is about, and removes it from the list. Returns false for a line that
-/// is for people.
+/// Reports and removes the frame of a line that a program wrote. Returns false for a line that is for people.
 bool take_line(const std::string& line, Frames& frames, const FrameListener& listener) {
   const json event = line.starts_with('{') ? json::parse(line, nullptr, false) : json();
   if (!event.is_object()) return false;

@@ -13,7 +13,7 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-/// Whether a codec keeps transparency; `on_request`: only if a film is to be transparent.
+/// The transparency of a codec; `on_request`: it is kept only if a film is to be transparent.
 enum class Alpha { never, on_request, always };
 
 struct Codec {
@@ -218,8 +218,7 @@ Size pictures_of_mp4(const BinaryFile& file) {
   return count;
 }
 
-/// Returns the elements of EBML (RFC 8794). The leading zero bits of the first byte give the length of an identifier or
-/// a size.
+/// Returns the elements of EBML (RFC 8794). Leading zero bits give the length of an identifier or a size.
 std::vector<Part> elements(const BinaryFile& file, Size begin, Size end) {
   std::vector<Part> found;
   const auto length_at = [&](Size offset, Size longest) {
@@ -255,8 +254,7 @@ Size pictures_of_matroska(const BinaryFile& file) {
   return count;
 }
 
-/// Returns the end of a block's data. It comes in pieces of up to 255 bytes, each after its length; a piece of 0 bytes
-/// ends them.
+/// Returns the end of a block's data: pieces of up to 255 bytes, each after its length; a piece of 0 bytes ends them.
 Size end_of_pieces(const BinaryFile& file, Size at) {
   while (at < file.size()) {
     const Size length = number(file, at, 1);

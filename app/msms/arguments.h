@@ -53,8 +53,7 @@ class ChosenSurface {
   std::size_t component_count() const { return chosen_.size(); }
   /// Returns the size of each selected component.
   std::vector<ReducedComponentSize> sizes() const;
-  /// Returns the areas of the atoms, for each selected component. Throws CapacityError for more than 2^26 numbers of
-  /// each kind.
+  /// Returns the areas of atoms for each selected component. Throws CapacityError for more than 2^26 numbers.
   std::vector<AtomAreas> areas() const;
   /// Triangulates the components; must be called before mesh(). Throws OpenSurfaceError.
   void triangulate();

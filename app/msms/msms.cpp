@@ -160,8 +160,7 @@ std::string analytic_table(double probe_radius, std::span<const ReducedComponent
   return table;
 }
 
-/// Returns volume and area of each component, and the sum of volumes. MSMS computes them from triangles; these are in
-/// closed form.
+/// Returns volume and area of each component, and the sum of volumes, in closed form; MSMS takes them from triangles.
 std::string numeric_table(double probe_radius, std::span<const ReducedComponentSize> sizes) {
   std::string table = "NUMERICAL VOLUMES AND AREA\n    Comp. probe_radius SES_volume SES_area)\n";
   double total = 0;

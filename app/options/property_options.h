@@ -138,8 +138,7 @@ std::string shell_line(std::span<const std::string> words);
 /// Returns the page `meniscus help scenes`.
 std::string scene_help();
 
-/// Returns a JSON schema (draft 2020-12) of scene files, ending with a newline. docs/reference/scene.schema.json has
-/// the same text.
+/// Returns a JSON schema (draft 2020-12) of scene files, with a final newline: docs/reference/scene.schema.json.
 std::string scene_schema();
 
 }  // namespace meniscus

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Declares options by the table of properties, and sets the values of a scene from a scene file and from the command
-// line.
+// Declares options by the table of properties, and sets a scene by a scene file and the command line.
 #include "app/options/scene_options.h"
 
 #include <charconv>
@@ -24,8 +23,7 @@
 namespace meniscus {
 namespace {
 
-/// Reads from the environment which GPUs this process may see, which of several it takes, and where it keeps their
-/// kernels.
+/// Reads from the environment which GPUs this process may see and take, and where it keeps their kernels.
 void read_environment(DeviceChoice& choice) {
   const char* const kept = std::getenv(kKernelVariable);
   if (const std::string cache = cache_folder(); !cache.empty() && !(kept && std::string_view(kept) == "off"))

@@ -40,8 +40,7 @@ Change change_of(const nlohmann::json& command);
 /// Merges two commands that follow each other into `first`; returns false if both are needed.
 bool merge_commands(nlohmann::json& first, const nlohmann::json& second);
 
-/// Writes a session while it goes on: each line is complete as soon as its command was carried out, even if the program
-/// crashes later.
+/// Writes a session while it goes on: each line is complete as soon as its command was carried out.
 class CommandLog {
  public:
   /// Throws OutputError if the file cannot be written, or if it exists and `existing` is Existing::refuse.

@@ -114,7 +114,7 @@ std::shared_ptr<const Structure> everything(const Surroundings& around) {
 /// Returns the key of an atom that is the same in all structures of one file.
 std::uint64_t key_of(const Atom& atom) { return std::uint64_t{atom.copy} << 32 | atom.index; }
 
-/// Returns the bits of Atom::shown of atoms that are drawn beside the surface. The ends of dashed lines are not drawn.
+/// Returns the bits of Atom::shown of atoms that are drawn next to the surface. The ends of dashed lines are not drawn.
 std::uint32_t drawn_bits(const FigureRequest& figure) {
   std::uint32_t bits = ~(1u << kHiddenCompanion);
   std::size_t mark = figure.representations.requests.size();
@@ -238,7 +238,7 @@ void add_object(PreviewFigure& figure, FigureObjectRequest object) {
   figure.figure.objects.push_back(std::move(object));
 }
 
-/// Draws the selected atoms beside the surface, unless some of them are drawn there already.
+/// Draws the selected atoms next to the surface, unless some of them are drawn there already.
 void draw_beside(const Selection& selection, PreviewFigure& figure, const Surroundings& around) {
   const Structure seen = around.molecule.annotated_structure();
   const std::vector<Atom> atoms = shown_atoms(seen), all = shown_atoms(*everything(around));
@@ -254,8 +254,7 @@ void draw_beside(const Selection& selection, PreviewFigure& figure, const Surrou
   if (!is_empty) add_object(figure, companion_object(selection, is_small ? ShapeKind::spheres : ShapeKind::sticks));
 }
 
-/// Removes the chosen atoms from the shapes beside the surface and returns true if there were some. atoms: all atoms in
-/// the picture.
+/// Removes chosen atoms from shapes next to the surface; returns true if there were some. atoms: all in the picture.
 bool remove_shapes(const Selection& selection, PreviewFigure& figure, const std::vector<Atom>& atoms) {
   const std::vector<bool> chosen = selection.evaluate(atoms);
   bool changes = false;

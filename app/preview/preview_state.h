@@ -13,8 +13,7 @@
 
 namespace meniscus {
 
-/// A figure, whatever its size on the screen: its scene, and a camera that replaces the scene's. Commands change it,
-/// undo and redo replace it.
+/// A figure of any size: its scene, and a camera that replaces the scene's. Commands, undo and redo change it.
 struct PreviewFigure : Scene {
   PreviewFigure() {
     image.samples = 4;
@@ -28,7 +27,7 @@ struct PreviewFigure : Scene {
   bool overview = true;                         ///< everything is in view, until the camera is moved
   bool has_size = false;                        ///< exported pictures have the size of the scene instead of the page's
   LookPreset preset = LookPreset::publication;  ///< the word that was chosen last; the scene has its light
-  std::uint64_t edition = 0;                    ///< a number that changes with every change but those of the camera
+  std::uint64_t edition = 0;                    ///< a number that changes with the figure, but not with its camera
 
   /// Returns the changes that light may make to the colours.
   Hues hues() const { return hues_of(molecule.color, uses_atoms(figure.cuts)); }
@@ -49,14 +48,12 @@ struct KeptScene {
   double hold = 2.0, transition = 2.0;  ///< seconds that the scene is shown, and that the way to the next scene takes
   std::uint64_t number = 0;             ///< identifies the scene on the page
 
-  /// Return the numbers of pictures of the scene and of the way to the next scene, as `meniscus film` counts them.
-  /// rate: pictures per second.
+  /// Return the numbers of pictures of the scene and of the way to the next scene at a rate, as `meniscus film` does.
   std::uint64_t held(double rate) const;
   std::uint64_t between(double rate) const;
 };
 
-/// Throws RequestError for a scheme, also in a rule, whose numbers or parts come with surfaces that a preview does not
-/// make.
+/// Throws RequestError if the scheme, or a rule of it, needs surfaces that a preview does not make.
 void require_previewed(const ColorScheme& color);
 /// Returns true if previews show the scheme without numbers of a file.
 bool is_previewed(ColorScheme::By scheme);

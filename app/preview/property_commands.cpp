@@ -60,8 +60,7 @@ Texts given_texts(const Property& property, Ordered value) {
   }
 }
 
-/// Returns the type of a property's control: "flag", "number", "count", "word", "color", "selection", "length",
-/// "direction" or "text".
+/// Returns the type of a property's control, such as "flag", "selection", "length" or "text".
 std::string_view control_of(const Property& property) {
   constexpr std::string_view kTypes[] = {"flag", "number", "count", "word"};
   if (property.type <= ValueType::word) return kTypes[static_cast<std::size_t>(property.type)];

@@ -43,8 +43,7 @@ class PreviewSession {
   bool is_drawn() const { return pictures_.is_drawn(state_); }
   /// Returns the figure for pages that cast it: see FigureTables.
   std::shared_ptr<const page::PackedFrame> figure(const std::function<bool()>& stop = {});
-  /// Returns the revision of the state that made the present figure. The camera alone changes no figure, unless a cut
-  /// follows it.
+  /// Returns the revision that made the present figure. The camera changes it only if a cut follows the camera.
   std::uint64_t figure_revision() const { return figure_revision_; }
   std::vector<std::uint8_t> rgba() const { return pictures_.rgba(); }
   glm::ivec2 picture_size() const { return pictures_.size(); }
@@ -94,8 +93,7 @@ class LiveView {
   /// while the view moves, so that a long drag shows something, and is given up late and only for another surface;
   /// better pictures for any change. Returns false if it was given up or cannot be drawn (fault). Throws GpuError.
   bool draw(Quality quality, const std::function<Change()>& waiting);
-  /// Returns the figure for pages that cast it; nullptr if it was given up, which is as late as for a draft. Throws the
-  /// errors of FigureTables.
+  /// Returns the figure for pages that cast it; nullptr if given up, as late as a draft. Throws like FigureTables.
   std::shared_ptr<const page::PackedFrame> figure(const std::function<Change()>& waiting);
 
   /// Returns how long the view must rest before a picture of this quality is begun. For a full picture this is about as

@@ -49,8 +49,7 @@ std::vector<std::uint8_t> LegendStrip::around(std::span<const std::uint8_t> mole
 
 namespace {
 
-/// Returns the balls of frames all over a trajectory; of copies, those that reach as far as all. atoms: indices into
-/// structure.atoms.
+/// Returns the balls of frames all over a trajectory, or of the farthest copies. atoms: into structure.atoms.
 std::vector<Ball> sampled_balls(const TrajectoryPositions& trajectory, const Structure& structure,
                                 const std::vector<std::uint32_t>& atoms) {
   constexpr std::size_t kSamples = 16;  // few enough to begin at once, enough to see where the molecule goes
@@ -76,7 +75,7 @@ std::vector<Ball> sampled_balls(const TrajectoryPositions& trajectory, const Str
   return sampled;
 }
 
-/// Returns the objects beside the surface. before: the objects so far; only_colors changes nothing but their colours.
+/// Returns the objects next to the surface. before: the objects so far; only_colors changes nothing but their colours.
 std::shared_ptr<const FigureExtras> extras_of(const Structure& marked, const PreviewFigure& figure, bool only_colors,
                                               const std::shared_ptr<const FigureExtras>& before) {
   const ColorScheme& scheme = figure.molecule.color;
@@ -95,7 +94,7 @@ std::vector<AtomGroup> models_of(const Structure& structure) {
   return {all};
 }
 
-/// Returns the balls that the figure shows: those of all copies, which atoms never cut, or of the shown atoms.
+/// Returns the balls that the figure shows: of all copies, which selections of atoms never cut, or of the shown atoms.
 std::vector<Ball> balls_shown(const ShownMolecule& molecule, const PreviewFigure& figure) {
   const std::vector<Ball>& balls = molecule.balls();
   return molecule.structure().instances.empty() ? shown_balls(balls, molecule.coloring(figure)) : balls;
@@ -187,7 +186,7 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
         throw InputError(structure_.file, 0, "has other atoms than when the preview began; start the preview again");
     }
   }
-  // Rules such as "within 4 of ligand" see the atoms beside the surface, unless the file has several models.
+  // Rules such as "within 4 of ligand" see the atoms next to the surface, unless the file has several models.
   const bool is_whole = made.marked && made.marked->atoms.size() == structure_.atoms.size();
   if (renewal >= Renewal::colors)
     made.coloring = color_atoms(is_whole ? *made.marked : structure_, figure.molecule.color);
@@ -265,7 +264,7 @@ std::vector<bool> ShownMolecule::patch_marks(const PreviewFigure& figure) const 
   if (!figure.molecule.patches) return {};
   std::vector<bool> marks = figure.molecule.patches->evaluate(annotated_structure());
   if (figure.molecule.least_patch <= 0.0 || std::ranges::find(marks, true) == marks.end()) return marks;
-  std::vector<AtomGroup> groups(1);  // groups that have a surface each: all atoms, or those of each group of copies
+  std::vector<AtomGroup> groups(1);  // groups that have a surface each: all atoms, or the atoms of each group of copies
   for (std::uint32_t a = 0; a < balls_.size(); ++a) groups[0].atoms.push_back(a);
   if (!structure_.instances.empty()) groups.clear();
   for (const Instances& group : structure_.instances) groups.push_back({{}, group.atoms});

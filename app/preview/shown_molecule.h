@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The molecule as a state of the preview shows it: the atoms of a frame, their colours, the shapes beside them, and the
-// legend, laid out once for a size.
+// The molecule as a state of the preview shows it: the atoms of a frame, their colours, the shapes next to them, and
+// the legend, laid out once for a size.
 #pragma once
 
 #include "app/preview/preview_state.h"
@@ -40,8 +40,8 @@ struct TrajectoryPositions {
   std::function<Structure(std::size_t frame)> structure{};
 };
 
-/// Reads the molecule again as it is at a frame, with the atoms that are drawn beside its surface
-/// (FigureRequest::mark_atoms), so that they are those that `meniscus render` draws. Throws InputError.
+/// Reads the molecule again as it is at a frame, with the atoms that are drawn next to its surface
+/// (FigureRequest::mark_atoms); `meniscus render` draws the same atoms. Throws InputError.
 using ReadShown = std::function<Structure(const FigureRequest& figure, std::size_t frame)>;
 
 /// The parts that another state needs to have made again, from the least to the most; each includes those before it.
@@ -50,7 +50,7 @@ enum class Renewal {
   legend,
   cuts,
   colors,
-  shapes,  ///< the shapes beside the surface
+  shapes,  ///< the shapes next to the surface
   frame    ///< everything, for other atoms
 };
 
@@ -77,7 +77,7 @@ class ShownMolecule {
   const std::vector<std::uint32_t>& atoms() const { return models_[trajectory_ ? 0 : frame_].atoms; }
   /// Returns the balls of atoms(), grown by growth_of() the kind of surface.
   const std::vector<Ball>& balls() const { return balls_; }
-  /// Returns the balls that a camera must show: those of the farthest copies, or balls() without copies.
+  /// Returns the balls that a camera must show: the balls of the farthest copies, or balls() without copies.
   const std::vector<Ball>& framing_balls() const { return framing_balls_.empty() ? balls_ : framing_balls_; }
   /// Returns the colours of atoms(), and which of them are hidden.
   Coloring coloring(const PreviewFigure& figure) const;
@@ -86,12 +86,12 @@ class ShownMolecule {
   std::vector<bool> patch_marks(const PreviewFigure& figure) const;
   /// Returns the atoms of the frame alone.
   Structure frame_structure() const;
-  /// Returns the structure that annotates pictures: the frame with the atoms beside its surface, if any.
+  /// Returns the structure that annotates pictures: the frame with the atoms next to its surface, if any.
   Structure annotated_structure() const { return marked_ ? *marked_ : frame_structure(); }
 
-  /// Returns the objects beside the surface; nullptr if there are none.
+  /// Returns the objects next to the surface; nullptr if there are none.
   const std::shared_ptr<const FigureExtras>& extras() const { return extras_; }
-  /// Returns an atom of the picture; atoms beside the surface have the last indices.
+  /// Returns an atom of the picture; atoms next to the surface have the last indices.
   const Atom& atom_in_view(std::uint32_t atom) const;
   std::vector<Atom> atoms_in_view() const;
 
@@ -106,7 +106,7 @@ class ShownMolecule {
   /// Returns width / height of picture_size().
   double aspect(const PreviewState& state) const;
 
-  /// Returns a camera that shows everything, in all frames of a trajectory. Objects beside the surface do not turn it.
+  /// Returns a camera that shows everything, in all frames of a trajectory. Objects next to the surface do not turn it.
   Camera overview(const PreviewState& state) const;
   /// Returns how many atoms of the surface the figure shows. Throws RequestError if there are none.
   std::size_t count_shown(const PreviewFigure& figure) const;
@@ -119,7 +119,7 @@ class ShownMolecule {
   /// The parts of a figure that are made from its molecule.
   struct Made {
     std::optional<Coloring> coloring;         ///< colours of all atoms of the structure; nothing: unchanged
-    std::shared_ptr<const Structure> marked;  ///< the frame with the atoms beside its surface; nullptr: none are drawn
+    std::shared_ptr<const Structure> marked;  ///< the frame with the atoms next to its surface; nullptr: none are drawn
     std::shared_ptr<const FigureExtras> extras;
   };
 
@@ -147,7 +147,7 @@ class ShownMolecule {
 /// Returns the camera keys of a state, by the numbers of their frames.
 std::vector<CameraKey> camera_keys(const ShownMolecule& molecule, const PreviewState& state);
 
-/// Returns the balls of the surface's atoms, and balls around the objects beside the surface.
+/// Returns the balls of the surface's atoms, and balls around the objects next to the surface.
 std::vector<Ball> balls_in_view(const ShownMolecule& molecule);
 
 /// Throws InputError if a probe would touch two copies that must be apart. reach: least distance without contact, Å.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws missing pictures, computes exposed areas on a thread, and computes surfaces on the CPU for pages, with the
-// colours of the preview.
+// Draws missing pictures, computes exposed areas on a thread, and computes coloured surfaces on the CPU for pages.
 #include "app/preview/view_cache.h"
 
 #include "core/base/error.h"

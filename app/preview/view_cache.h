@@ -18,7 +18,7 @@ namespace page {
 struct PackedFrame;
 }
 
-/// The atoms whose areas are asked for.
+/// The atoms whose areas are requested.
 struct AtomsInView {
   std::size_t frame = 0;
   std::size_t group = 0;  ///< index of the group, if several groups have separate surfaces

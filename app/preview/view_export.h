@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exports a view as a picture, a scene, a file for Blender or a camera, and declares the callbacks that the program
-// gives a session.
+// Exports a view as a picture, scene, Blender file or camera; has the program's callbacks for a session.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -77,7 +76,7 @@ struct ExportTarget {
 /// Makes the device that draws exported pictures, on the thread that calls it; an empty function stands for the CPU.
 using MakePictureDevice = std::function<std::unique_ptr<PictureDevice>()>;
 
-/// Ray casts a picture as `meniscus render` does: the complete surface, the objects beside it and the legend, in a
+/// Ray casts a picture as `meniscus render` does: the complete surface, the objects next to it and the legend, in a
 /// format of write_image(). Throws RequestError if there is no room for the legend, OutputError, OpenSurfaceError,
 /// CapacityError, GpuError; the other exports throw the same but for GpuError.
 void export_picture(const ExportedView& view, const MakePictureDevice& make_device, const ExportTarget& target,

@@ -28,8 +28,7 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Returns the next line that the child writes, to standard output or error; nothing at their end. A line without end
-  /// comes in pieces of 64 KiB.
+  /// Returns the next line of the child's output or error; nothing at their end. Lines are cut every 64 KiB.
   std::optional<std::string> next_line();
 
   /// Returns true if the child wrote something, or ended, within this time.
@@ -59,8 +58,7 @@ class FedProcess {
 
   /// Writes bytes to the child's standard input. Returns false if the child no longer reads.
   bool feed(std::span<const std::uint8_t> bytes);
-  /// Closes the child's standard input and waits for its end. Returns its exit code as ChildProcess::wait() does; more
-  /// calls return the same.
+  /// Closes the child's standard input, waits for its end, and returns its exit code; more calls return the same.
   int finish();
   /// Returns the first 2,000 bytes that the child wrote to its standard error.
   std::string complaints() const;

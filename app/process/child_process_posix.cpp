@@ -62,8 +62,7 @@ void stay_if_stopping() {
   ::_exit(127);
 }
 
-/// Returns the program's path. Only absolute folders of PATH are searched, because any user may have made the folder
-/// that a child runs in.
+/// Returns the program's path. Only absolute folders of PATH count: any user may have made the child's folder.
 std::string program_path(const std::string& name) {
   if (name.find('/') != std::string::npos) return name;
   const char* const path = std::getenv("PATH");
@@ -305,8 +304,7 @@ bool has_display() { return !variable("DISPLAY").empty() || !variable("WAYLAND_D
 }  // namespace
 
 void open_in_browser(const std::string& address, std::function<void(const std::string& reason)> failed) {
-  // Remote editors name a program that needs no display here. A list of names, and names with arguments, are for
-  // xdg-open.
+  // Remote editors name a program that needs no display. Lists, and names with arguments, are for xdg-open.
   std::string opener = variable("BROWSER");
   if (opener.empty() || opener.find_first_of(" :%") != std::string::npos) {
     if (!has_display()) return failed("there is no display");

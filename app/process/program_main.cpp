@@ -163,8 +163,7 @@ ExitCode report_without_memory() noexcept {
   return kExitCapacity;
 }
 
-/// Reports an exception that escapes a noexcept function. Such an exception is not a current one, so its message is not
-/// available.
+/// Reports an exception that escapes a noexcept function; it is not current, so its message is not available.
 ExitCode report_unnamed_error() noexcept {
   if (memory_ran_out()) return report_without_memory();
   system_process::write_error("meniscus: error: internal: unexpected exception; please report this\n");

@@ -93,8 +93,7 @@ void finish_standard_output();
 /// must live as long as the program.
 int program_main(const char* name, const std::function<ExitCode()>& work);
 
-/// Returns the memory of the machine in bytes, or less where a control group of a batch system or container allows
-/// less.
+/// Returns the memory of the machine in bytes, or less if a control group of a container or the like allows less.
 std::uint64_t memory_size();
 
 /// Returns the smallest limit, in bytes, of control groups and of the groups around them; UINT64_MAX if there is no
@@ -110,8 +109,7 @@ void libraries_are_loaded();
 /// Returns true if there is such a limit.
 bool memory_is_limited();
 
-/// Makes a `new` that gets no memory remember that; it still throws std::bad_alloc. Must be called at the beginning of
-/// main().
+/// Remembers from now on if a `new` gets no memory; it still throws. Must be called at the beginning of main().
 void remember_failed_allocations();
 
 /// Returns true if a `new` got no memory since then. Requests of C libraries are not counted.

@@ -57,19 +57,16 @@ void set_variable(const char* name, const std::string& value);
 /// Closes a connection of this process in children, which would otherwise keep its port.
 void keep_from_children(std::intptr_t connection);
 
-// The functions below connect a child process. No other child inherits their descriptors. If one fails, `errno` has the
-// reason.
+// The functions below connect one child process. If one fails, `errno` has the reason.
 
 /// Makes a pipe, with its reading and its writing end.
 bool make_pipe(std::array<int, 2>& ends);
-/// Makes a connection, with an end for this process and one for a child. A send() to a child that has ended is an
-/// error, not a signal.
+/// Makes a connection to a child: this end, its end. A send() to a child that has ended is an error, not a signal.
 bool make_connection(std::array<int, 2>& ends);
 std::ptrdiff_t send(int end, std::span<const std::uint8_t> bytes);
 /// Returns a file without a name for writing and reading; -1 if that fails.
 int make_nameless_file();
-/// Makes the system kill this child process when the thread that started it ends. Does nothing on macOS, and Windows
-/// has other means.
+/// Makes the system kill this child when the thread that started it ends; does nothing on macOS and Windows.
 void end_with_parent() noexcept;
 
 }  // namespace meniscus::system_process

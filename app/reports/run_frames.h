@@ -53,8 +53,7 @@ std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& fra
 /// Prints the largest share of a frame's surface outside a volume map.
 void warn_beyond_map(const SceneCommand& command, std::span<const std::shared_ptr<MoleculeBuilder>> builders);
 
-/// The approximate memory of a frame until it is finished: its surface and areas; and a mesh of half a pixel, with its
-/// file.
+/// The approximate memory of a frame until it is finished: surface and areas; mesh of half a pixel and its file.
 constexpr std::uint64_t kSurfaceBytesPerAtom = 8'000, kMeshBytesPerAtom = 150'000;
 
 /// Makes the frames of the chunk, each by one worker, and finishes them in order. The workers share the cores; a single

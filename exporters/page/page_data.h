@@ -66,7 +66,7 @@ std::string text_of_bytes(std::string_view bytes);
 struct PageScheme {
   std::string name;                                ///< "chain", ...
   ColorKey key;                                    ///< the meaning of the colours
-  std::vector<glm::vec3> colors;                   ///< sRGB: surface atoms, then atoms beside the surface
+  std::vector<glm::vec3> colors;                   ///< sRGB: surface atoms, then atoms next to the surface
   std::optional<std::array<glm::vec3, 3>> kind{};  ///< Coloring::kind
   std::optional<Look> look{};                      ///< replaces the figure's look
 };
@@ -80,8 +80,8 @@ struct PageView {
   bool looks_inside = false;      ///< as in hues_of()
 };
 
-/// An object beside the surface that planes cut and that readers see through. It is opaque and complete. Surfaces have
-/// the same probe, or none.
+/// An object in addition to the surface, which planes may cut; the object is opaque and complete. Surfaces have the
+/// same probe, or none.
 struct PageObject {
   const SurfaceObject* surface = nullptr;  ///< a surface,
   const ColoredShapes* shapes = nullptr;   ///< or shapes
@@ -94,8 +94,7 @@ struct StillPicture {
   std::vector<std::uint8_t> bytes;
 };
 
-/// The content of a page, or of one frame of a run. Texts may come from files; pointers must stay valid until the page
-/// is written.
+/// The content of a page at one frame. Texts may come from files; pointers must stay valid until it is written.
 struct PageFigure {
   std::string title;
   std::string description;  ///< a sentence or two, for readers who cannot see the picture

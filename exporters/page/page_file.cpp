@@ -142,8 +142,7 @@ json light_maps_of(const Tables& tables) {
           {"surfaces", tables.surfaces()}};
 }
 
-/// Returns which maps a look needs, the direction towards the lamp in the picture's axes, and the lamp's radius at the
-/// distance 1.
+/// Returns which maps a look needs, the direction to the lamp in the picture, and its radius at distance 1.
 json light_of(const Look& look) {
   return {{"maps_sky", look.maps_sky()},
           {"maps_lamp", look.maps_lamp()},

@@ -15,7 +15,7 @@ namespace meniscus::page {
 namespace {
 
 constexpr std::size_t kMostTexels = std::size_t{2048} * 8192;  // limit of a table
-/// Flags of a primitive, stored in its index: beside the surface, and with its own colours. Shapes have both.
+/// Flags of a primitive, stored in its index: next to the surface, and with its own colours. Shapes have both.
 constexpr std::uint32_t kIsBeside = 1, kHasOwnColors = 2, kShapeIndex = 0xffffffffu;
 constexpr std::size_t kMapColors = 1024;  // colours in the scale of a volume map
 constexpr double kMapSteps = 1 << 14;     // steps over the range, to which values are rounded

@@ -23,7 +23,7 @@ std::vector<RowWords> row_differences(const RayCastPack& scene, std::vector<glm:
 /// Returns true if planes cut the surface in any view.
 bool has_cuts(const PageFigure& figure);
 
-/// The tables of a figure. Atoms are numbered: those of the surface, then those beside it.
+/// The tables of a figure. Atoms of the surface are numbered first, then atoms next to it.
 class Tables {
  public:
   /// Throws CapacityError if the figure exceeds the size of textures.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stage's files that join_page.cmake makes from exporters/page/page: text, style, script, and the policy of a page
-// that is one file.
+// The stage's files that join_page.cmake makes: text, style, script, and the policy of a page of one file.
 #pragma once
 
 #include "core/base/text.h"

@@ -83,8 +83,7 @@ PageScheme scheme_at(const OtherColors& other, const std::vector<const Coloring*
 
 bool is_cut_or_seen_through(const PictureObject& object) { return object.surface && needs_layers(object); }
 
-/// Assigns the objects of a picture to the parts of a page. Throws RequestError for two that are cut or translucent,
-/// and for different probes.
+/// Assigns the objects of a picture to the parts of a page. Throws RequestError for two with layers or other probes.
 void place_objects(const std::vector<PictureObject>& objects, const SurfaceObject& whole, const FigureExtras& extras,
                    const FigureRequest& request, PageFigure& shown) {
   const auto refuse = [](const char* why) {

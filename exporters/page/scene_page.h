@@ -43,7 +43,7 @@ struct SceneFrame {
   std::vector<OtherColors> others;
   std::string moment;  ///< see PageFigure
   std::optional<glm::dvec3> origin{};
-  std::vector<std::pair<std::string, std::string>> facts{};  ///< facts of the run, after those of the figure
+  std::vector<std::pair<std::string, std::string>> facts{};  ///< facts of the run, which follow the figure's facts
 };
 
 /// Returns the frame of a page with a figure. scene: the scene of the figure, with resolved selections. encode:

@@ -251,8 +251,7 @@ std::vector<SceneMesh> split(const std::vector<SceneMesh>& meshes) {
   return parts;
 }
 
-/// Writes a mesh as PLY (G. Turk 1994): positions, normals and, on request, colours as floats r, g, b, which Mitsuba
-/// reads as "vertex_color".
+/// Writes a mesh as PLY (G. Turk 1994): positions, normals, and perhaps colours r, g, b for Mitsuba's "vertex_color".
 void write_mesh(OutputFile& file, const SceneMesh& mesh, bool with_colors) {
   std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.positions.size());
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) header += fmt::format("property float {}\n", name);

@@ -160,8 +160,7 @@ struct ObjectStyle {
   std::uint32_t finish = 0;  ///< SceneColor::finish
 };
 
-/// Returns the colour of the points of an atom. `color` replaces the atom's colour, and a volume map then does not
-/// apply.
+/// Returns the colour of an atom's points. `color` replaces it, and a volume map then does not apply.
 SceneColor scene_color(const Coloring& coloring, std::uint32_t atom, const ObjectStyle& style,
                        const std::optional<glm::vec3>& color = {});
 

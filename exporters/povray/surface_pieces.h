@@ -22,8 +22,7 @@ struct Caps {
   std::vector<std::uint32_t> color;  ///< per triangle: index into the colours of the scene
 };
 
-/// Returns the caps with their colours, which are added to the table. Opacities are those of the atoms. objects: the
-/// objects that were cut.
+/// Returns caps with their colours, added to the table, and the atoms' opacities. objects: those that were cut.
 Caps colored_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const CapStyle& style,
                   const ObjectStyle& object_style, ColorTable& table);
 
@@ -35,8 +34,7 @@ void write_caps(OutputFile& file, const Caps& caps, const SurfaceCut& cut, const
 /// refers to the given objects, which must outlive it.
 class CutObjects {
  public:
-  /// camera and options determine the tolerance of the caps (make_caps()). Throws what section_caps() and merged()
-  /// throw.
+  /// camera, options: they determine the tolerance of caps. Throws the errors of section_caps() and merged().
   CutObjects(std::span<const SurfaceObject> objects, const SurfaceCut& cut, const Camera& camera,
              const SceneOptions& options);
   CutObjects(const CutObjects&) = delete;
@@ -106,8 +104,8 @@ class Geometry {
   void write_pieces(OutputFile& file, SceneText& out, std::size_t object) const;
   /// Appends a comment with the kind and the atoms of a piece, if names were given.
   void append_comment(SceneText& out, std::size_t object, const ColoredPiece& piece) const;
-  /// True if the volume map is sampled at an offset from the surface. Each patch then has a texture of its own that
-  /// moves its points to where the map is sampled.
+  /// Returns true if the volume map is sampled at an offset from the surface. Each patch then has its own texture,
+  /// which moves its points to where the map is sampled.
   bool has_offset_textures(std::size_t object, const ColoredPiece& piece) const;
   void append_offset_textures(SceneText& out, std::size_t object, const ColoredPiece& piece) const;
   void append_copy(SceneText& out, std::size_t object, const RigidMotion& motion) const;
@@ -152,8 +150,7 @@ class PatchObjects {
   void concave(SceneText& out, const ConcavePatch& patch, std::uint32_t part, std::string_view cuts) const;
   void visibility_sphere(SceneText& out, const ToroidalPatch& patch) const;
   void wedge(SceneText& out, const ToroidalPatch& patch) const;
-  /// Appends the half-space of the points that are nearer to the atom of this part; nothing if both atoms are of the
-  /// part.
+  /// Appends the half-space of points nearer to the atom of this part; nothing if both atoms are of the part.
   void part_half(SceneText& out, const ToroidalPatch& patch, std::uint32_t part) const;
   /// Appends the cells of the points that are nearest to an atom of this part; nothing if all atoms are of the part.
   void part_cells(SceneText& out, const ConcavePatch& patch, std::uint32_t part) const;

@@ -326,8 +326,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     });
   }
 
-  /// Allows the page to run only its own script and style, to talk only to this server and the Protein Data Bank, and
-  /// to be in no frame.
+  /// Allows the page only its own script and style, this server and the Protein Data Bank, and no frame around it.
   void describe(auto& response, http::status status, std::string_view type) {
     response.result(status);
     response.version(11);

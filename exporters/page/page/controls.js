@@ -79,8 +79,7 @@ function follow_pointer(viewer) {
   }, { passive: false });
 }
 
-/// Returns true if the control that has the focus uses the key itself. Sliders and switches leave letters to the
-/// picture.
+/// Returns true if the control with the focus uses the key itself. Sliders and switches leave letters to the picture.
 function is_for(control, key) {
   if (control.matches("input[type=range], [role=slider]")) return key.startsWith("Arrow");
   if (control.matches("input[type=checkbox], input[type=color], button, summary")) return key === " " || key === "Enter";

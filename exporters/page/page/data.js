@@ -51,8 +51,7 @@ function parts_of(bytes) {
   return parts;
 }
 
-/// Reverses Tables::packed() (exporters/page/page_tables.h) in place, which stores differences of successive first
-/// rows.
+/// Reverses Tables::packed() (exporters/page/page_tables.h) in place: first rows are differences from those before.
 function restored(name, words) {
   if (name === "primitives") for (let at = 12; at < words.length; at += 12) words[at + 5] += words[at - 12 + 5];
   return words;

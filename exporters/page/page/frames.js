@@ -96,7 +96,7 @@ class Frames {
     }
   }
 
-  /// Shows a frame. Of several requests the last one is shown in the end, and earlier ones if there is time.
+  /// Shows a frame. The last one of several requests is shown in the end, and earlier ones if there is time.
   async show(n) {
     this.step = n < this.wanted ? -1 : 1;
     this.wanted = n;

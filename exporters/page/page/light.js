@@ -58,7 +58,7 @@ class LightMaps {
     this.layers = 0;
   }
 
-  /// Makes the maps that are missing. What is shown has one set of maps of the sky; each camera has its maps of the lamp.
+  /// Makes missing maps. The shown figure has one set of maps of the sky, each camera its maps of the lamp.
   make() {
     const { caster } = this, { figure, look: { light }, frame, hidden } = caster, { planes, opacity } = caster.cuts();
     const shown = [figure.tables.balls, figure.tables.primitives, figure.own_colors, hidden, light.maps_sky, opacity, planes.join()];

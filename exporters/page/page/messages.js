@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Answers messages of a page around this one about the camera, picked atoms and colours of atoms. Lengths are in Å from
-// the origin of the molecule's file. Only pages that have asked get messages.
+// the origin of the molecule's file. Only pages that have sent a request get messages.
 
 const is_point = (v) => Array.isArray(v) && v.length === 3 && v.every((x) => Number.isFinite(x) && Math.abs(x) < 1e7);
 

@@ -43,7 +43,7 @@ export function time_casting(viewer) {
 
 const ms = (value) => value === Infinity ? "unknown" : `${value < 10 ? value.toFixed(1) : Math.round(value)} ms`;
 
-/// Returns in a sentence who draws and why. times: those of the browser and of the program.
+/// Returns in a sentence who draws and why. times: the times of the browser and of the program.
 export function who_draws({ device, unavailable, times: { browser, program }, casts, rests }) {
   if (!device) return "The program draws: this browser has no WebGL 2.";
   if (unavailable) return unavailable;

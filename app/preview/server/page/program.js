@@ -21,7 +21,7 @@ const canvas = $("picture"), stage = $("stage");
 const numbered = new Set();  // colour schemes that take a map
 let viewer = null;     // exists after the first state
 let state = null;      // the state that the program shows
-let told_states = 0;   // how many states were asked for and received
+let told_states = 0;   // how many requested states were received
 let controls = false;  // true if this page controls the preview
 let shown = null;      // the message of the picture in the canvas
 let full_picture = null;  // the picture's PNG, if it has full quality
@@ -39,7 +39,7 @@ const server = new Connection({
     sessionStorage.removeItem(kOpened);
     server.ask({ command: "choices" }).then(fill_choices);
     writing.begin();
-    await fit();  // before a picture is asked for, which would have another size
+    await fit();  // before a picture is requested, which would have another size
   },
   role: (message) => { set_role(message.controls); fit(); },
   progress: (message) => say_working(message.what),

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Selects atoms, residues and chains that are clicked on the stage, in the list or in the sequence, and shows a card
-// with actions on them.
+// Selects atoms, residues and chains on the stage, in the list or in the sequence; a card has actions on them.
 import { element, kShapes, rows_of, shape_words } from "./figure.js";
 
 const kSeries = 400;                             // ms between the clicks of a double or triple click
@@ -212,7 +211,7 @@ export function select_controls({ command, set, ask, say, viewer, page_camera })
     return made;
   }
 
-  /// Draws rings around the atoms, and labels on the program's pictures; those of this browser have labels already.
+  /// Draws rings around the atoms, and labels on the program's pictures; pictures of this browser have labels already.
   function draw() {
     const { width = 1, height = 1, camera } = state ?? {}, svg = $("rings"), { figure } = viewer();
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);

@@ -11,7 +11,7 @@ const kFilms = { strip: "Strip", turntable: "Turntable", frames: "Frames" };
 export function write_controls({ command, ask, say, picture, changed }) {
   let state = null;
   let offered = "";  // the values on which the list of films depends
-  let taken = "";    // the sizes that a scene asked for
+  let taken = "";    // the sizes that a scene requested
 
   /// Returns the size and the number of samples that the fields ask for.
   const wishes = () => {
