@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus render`: ray casts the surface of a molecule into a picture, or the frames of a run into pictures or a
-// film.
+// `meniscus render`: ray casts a molecule into a picture, or the frames of a run into pictures or a film.
 
 #include "app/commands/command_run.h"
 #include "app/commands/command_table.h"

@@ -24,8 +24,7 @@ struct Engine {
 
 const std::vector<Engine>& engines();
 
-/// Throws RequestError for a path with characters that may have a meaning for some engine: all but letters, digits,
-/// ._-/.
+/// Throws RequestError for a path with special characters for some engine: all but letters, digits and ._-/.
 void require_plain_path(const std::string& farm_path);
 
 /// Writes an engine's templates into the bundle's folder, with the numbers of the bundle and its path on the farm's

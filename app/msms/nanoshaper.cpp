@@ -211,7 +211,7 @@ MsmsMesh rows_of(const FineMesh& even, const std::vector<bool>& stays) {
       }
       triangle.corner[c] = row[vertex];
     }
-    triangle.face = 1;  // the kind "contact"; NanoShaper does not distinguish kinds
+    triangle.face = 1;  // the kind is contact: NanoShaper distinguishes neither faces nor kinds
     rows.triangles.push_back(triangle);
   }
   weld_for_files(rows);

@@ -28,8 +28,7 @@ struct Outcome {
   bool frames_all = false;          ///< where everything is in view, everything comes into view again
   bool is_saved = false;            ///< a file has this figure
   bool is_own_step = false;         ///< undo takes it back alone, whatever the command before it was
-  std::string step{};               ///< successive steps of the same kind are undone together; empty: see
-                                    ///< kind_of_step()
+  std::string step{};               ///< kind of the step; empty: the kind_of_step() of its command
   bool passes_over_damage = false;  ///< if its frame cannot be read, playing goes on from there
 };
 

@@ -43,7 +43,7 @@ ExportTarget target_of(const CommandReader& command, const std::filesystem::path
 
 enum class Format { png, povray, blender, film, camera, camera_path };  // camera and camera_path are written at once
 
-/// Throws RequestError if a name has another ending than its format. A scene of POV-Ray is a folder.
+/// Throws RequestError if a name has another ending than its format. A scene is a folder, so its name has no dot.
 void check_ending(const std::string& name, Format format) {
   constexpr std::string_view kEndings[] = {"", "", ".mns", "", ".json", ".json"};
   if (format == Format::film && !is_film_path(name))

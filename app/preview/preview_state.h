@@ -55,7 +55,7 @@ struct KeptScene {
 
 /// Throws RequestError if the scheme, or a rule of it, needs surfaces that a preview does not make.
 void require_previewed(const ColorScheme& color);
-/// Returns true if previews show the scheme without numbers of a file.
+/// Returns true if previews show the scheme even without numbers of a file.
 bool is_previewed(ColorScheme::By scheme);
 
 /// The whole state that commands change. A command makes another state of it; the picture follows from the state.
@@ -94,7 +94,7 @@ class EditHistory {
   /// Return the figure that undo or redo brings back; nullptr if there is none.
   const PreviewFigure* before() const { return past_.empty() ? nullptr : &past_.back(); }
   const PreviewFigure* after() const { return future_.empty() ? nullptr : &future_.back(); }
-  /// Exchange the present figure, after before() or after() was taken, which must not be nullptr.
+  /// Note that before() or after(), which must not be nullptr, replaces the figure `now`.
   void go_back(const PreviewFigure& now) { move(now, past_, future_); }
   void go_forward(const PreviewFigure& now) { move(now, future_, past_); }
 

@@ -128,7 +128,7 @@ void check_among_others(const Property& property, const Scene& scene, const Show
   if (scene.picture.fits) throw RequestError("'auto' is not a size in pixels, such as 1920x1080");
 }
 
-/// Returns the numbers of the file that a preview began with; none for fluctuations, which are not from the file.
+/// Returns the numbers of the file that a preview began with; none for measured fluctuations.
 const NumberFile& numbers_at_first(const ColorScheme& first) {
   static const NumberFile kNone;
   return first.by == ColorScheme::By::rmsf ? kNone : first.file;

@@ -118,9 +118,8 @@ ShownMolecule::ShownMolecule(Structure structure, std::optional<TrajectoryPositi
   if (state.copies_apart) require_apart(structure_, state.probe_reach());
   if (trajectory_) sampled_ = sampled_balls(*trajectory_, structure_, atoms());
   become(state, Renewal::frame);
-  if (state.molecule.show)
-    hidden_atoms(*state.molecule.show, marked_ ? *marked_ : structure_);  // throws if none is
-                                                                          // shown
+  // This throws if the selection shows no atoms.
+  if (state.molecule.show) hidden_atoms(*state.molecule.show, marked_ ? *marked_ : structure_);
 }
 
 bool ShownMolecule::become(const PreviewState& state, Renewal renewal) {

@@ -171,7 +171,7 @@ std::optional<double> ViewCache::exposed_area(const PreviewState& state, const S
     return areas_.of({state.frame, 0, state.molecule.surface.kind, state.molecule.surface.probe_radius,
                       molecule.balls(), renderer_->surface()},
                      atom, wait, wanted);
-  // The copies of a group do not touch other groups, so its area is that of the group alone.
+  // An atom of a copy has the area that it has in its group alone.
   std::size_t group = 0;
   while (!std::ranges::binary_search(copies[group].atoms, atom)) ++group;
   const std::vector<std::uint32_t>& atoms = copies[group].atoms;

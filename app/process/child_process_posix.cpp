@@ -50,7 +50,7 @@ void stay_if_stopping() {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  std::signal(SIGXFSZ, SIG_DFL);  // a write beyond the limit is an error in this program only
+  std::signal(SIGXFSZ, SIG_DFL);  // other programs may not check for a write beyond the limit
   system_process::end_with_parent();
   const int nothing = ::open("/dev/null", O_RDONLY);
   // The parent may have died before the request above.

@@ -73,8 +73,7 @@ struct MsmsHeader {
   bool of_nanoshaper = false;  ///< true for NanoShaper's form, in which rows of vertices also end with a blank
 };
 
-/// Returns the text of a .vert file: position, normal, face, closest sphere (from 1), level, and name if there are
-/// names.
+/// Returns the text of a .vert file: position, normal, face, closest sphere (from 1), level, perhaps name.
 std::string vert_text(const MsmsMesh& mesh, const MsmsSpheres& spheres, const MsmsHeader& header);
 
 /// Returns the text of a .face file: rows of five columns: corners (from 1), kind, face.

@@ -111,7 +111,7 @@ struct PageFigure {
   std::span<const PlaceLabel> labels{};
   glm::ivec2 size{0};  ///< size in pixels of the picture for which the look was made
   Look look;
-  bool fades_always = false;  ///< depth cue in all views; false: not where readers look inside
+  bool fades_always = false;  ///< depth cue everywhere; false: not where readers look inside or through the surface
   std::string scheme;         ///< the name of the colour scheme
   std::vector<PageScheme> more_schemes{};
   ColorKey key;                        ///< the meaning of its colours

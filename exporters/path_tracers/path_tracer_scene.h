@@ -178,8 +178,7 @@ struct SceneReport {
   std::size_t triangles = 0, spheres = 0, cylinders = 0;  ///< numbers without copies
 };
 
-/// Writes <name>.xml or .pbrt, and <name>_1.ply and so on, all or none. Throws RequestError for an empty scene,
-/// OutputError.
+/// Writes <name>.xml or .pbrt, and <name>_1.ply etc., all or none. Throws RequestError for no items, OutputError.
 SceneReport write_scene(const PathTracerScene& scene, const SceneTarget& target);
 
 /// Splits a mesh into meshes of one colour, in the order in which colours occur. Colours are rounded to 8 bits per

@@ -125,7 +125,7 @@ struct Clients {
   std::string token;
   std::string entry = random_token();  ///< replaces the token in the first request that has it; empty after that
   std::uint16_t port = 0;
-  std::vector<std::string> trusted{};  ///< further hosts that reach this server, for instance a proxy
+  std::vector<std::string> trusted{};  ///< further names of this server in browsers, as behind a proxy
   std::map<std::string, std::filesystem::path, std::less<>> files{};  ///< files that browsers may download, by name
   std::map<std::string, std::shared_ptr<const ReceivedFile>, std::less<>>
       received{};               ///< complete files from pages, by name
@@ -146,7 +146,7 @@ struct Clients {
   /// Returns true if this server sent the pages of an origin.
   bool is_origin(std::string_view origin) const;
   bool controls(ClientNumber client) const { return client == controller; }
-  /// Gives control to this client from now on; the former controller is notified, too.
+  /// Gives control to this client; it and the former controller are notified.
   void give_control(ClientNumber client);
   bool full() const;
   /// Returns true, once, for the target of a request that is "/" and the entry.

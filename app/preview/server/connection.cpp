@@ -183,7 +183,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
       if (const auto self = weak.lock()) self->stream_.close();
     };
     parser_.header_limit(kLargestHeader);
-    parser_.body_limit(std::numeric_limits<std::uint64_t>::max());  // parsers of commands and files have limits
+    parser_.body_limit(std::numeric_limits<std::uint64_t>::max());  // another parser, with a limit, reads the body
     stream_.expires_after(std::chrono::seconds(kPatience));
     const auto answered = [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (!error) return self->answer();

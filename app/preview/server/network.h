@@ -21,7 +21,7 @@ class Network {
  public:
   /// Listens when this returns. Throws RequestError if the port is not available, Error if the network fails.
   Network(const NetworkOptions& options, Mailbox& mailbox);
-  /// Closes the connections of all clients, for a second at most.
+  /// Closes the connections of all clients within a second.
   ~Network();
   Network(const Network&) = delete;
   Network& operator=(const Network&) = delete;

@@ -46,7 +46,7 @@ template <typename... Values>
 /// Stores the message of an exception for meniscus_last_error() in this thread, and returns its status.
 meniscus_status report(const std::exception_ptr& error) noexcept;
 
-/// Calls a function, and returns the status of its exception. Each function of the interface is such a call.
+/// Calls a function, and returns the status of its exception. Each function that can fail is such a call.
 template <typename Call>
 meniscus_status guarded(const Call& call) noexcept {
   try {

@@ -142,8 +142,8 @@ async function read_figure(text, count) {
 }
 
 /// Reads the figure that a preview sends (bytes_for_page() in exporters/page/page_file.h). kept: a Map of tables by
-/// digest, which gets the new tables and loses the oldest; its keys are `has` of the next request. number: unique for
-/// each figure.
+/// digest, which has those that are not sent, gets the new ones and loses the oldest; its keys are `has` of the next
+/// request. number: unique for each figure.
 function read_figure_bytes(bytes, kept, number) {
   const parts = parts_of(bytes), read_json = (part) => JSON.parse(new TextDecoder().decode(part)), first = read_json(parts[0]);
   const table_of = ([part, , digest], read) => {

@@ -9,7 +9,7 @@ function between(from, to, share) {
   const a = basis_of(from), b = basis_of(to), axes = ["right", "up", "forward"];
   const sum = axes.reduce((all, name) => plus(all, cross(a[name], b[name])), [0, 0, 0]);
   const cosine = (axes.reduce((all, name) => all + dot(a[name], b[name]), 0) - 1) / 2, angle = Math.atan2(length(sum) / 2, cosine);
-  // For half a turn the sum is zero: a middle of the axes, which turn about the axis or its opposite, lies on it.
+  // Half a turn has no such sum, but the sum of an axis and its turned image lies on the axis of the turn.
   const middles = axes.map((name) => plus(a[name], b[name])).sort((one, other) => length(other) - length(one));
   const axis = unit(length(sum) > 1e-6 ? sum : middles[0]);
   const target = plus(times(from.target, 1 - share), times(to.target, share)), mixed = (x, y) => x ** (1 - share) * y ** share;

@@ -158,7 +158,7 @@ export function figure_controls({ command, set, viewer }) {
     state.values["annotations.labels"].forEach((label, n) =>
       list.push(entry_chip(`label: ${label.slice(label.lastIndexOf("=") + 1)}`, "annotations.labels", n)));
     state.values["surface.opacity"].map(opacity_of).forEach(({ opacity, selection }, index) => {
-      if (selection === undefined) return;  // all atoms have their own slider
+      if (selection === undefined) return;  // a slider of its own is for all atoms
       const what = `see through: ${selection}`;
       list.push(entry_chip(what, "surface.opacity", index, slider("Opacity", what, { min: 0, max: 1, step: 0.05, value: opacity },
         (value) => change("surface.opacity", index, `${selection}=${value}`))));
