@@ -159,8 +159,7 @@ class Copy:
         self.run(["cmake", "--build", self.build_folder, "-j", self.jobs, "--target", *sorted(targets)])
 
     def not_built(self, fault):
-        """Returns programs that the fault's tests run but that are not built with it: they may have an earlier
-        fault."""
+        """Returns programs that the fault's tests run but that it does not build: they may have an earlier fault."""
         listed = self.run(["ctest", "--test-dir", self.build_folder, "-R", fault.tests, "--no-tests=error",
                            "--show-only=json-v1"])
         words = {pathlib.Path(word) for test in json.loads(listed)["tests"] for word in test.get("command", [])}
