@@ -46,8 +46,8 @@ class NamedViews {
  private:
   struct View {
     std::string name;
-    Scene scene;                   ///< with the size of the page
-    std::optional<Camera> camera;  ///< from a file, until the view is aimed
+    Scene scene;                   ///< the view's scene, with the size of the page
+    std::optional<Camera> camera;  ///< the camera of a file, until the view is aimed
   };
   std::vector<View> views_;
 };

@@ -89,7 +89,7 @@ Annotations FrameAnnotations::of(const SinkPicture& picture, const Structure& st
                                  std::span<const PlaceLabel> lengths) const {
   Annotations annotations = annotations_of(request_, structure, lengths);
   if (!is_run_) return annotations;
-  annotations.labels_must_fit = false;  // otherwise the other pictures would lack one
+  annotations.labels_must_fit = false;  // a frame without room for its labels must not fail
   if (request_.time_stamp) annotations.time = time_text(picture.time, picture.source, longest_);
   annotations.curve = curve_;
   if (curve_) annotations.curve->now = picture.place;

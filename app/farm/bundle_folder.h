@@ -16,7 +16,7 @@ class HiddenFolder {
   /// Makes PARENT/.NAME.RANDOM.part, which no other process on any machine has. Throws OutputError.
   HiddenFolder(const std::filesystem::path& parent, std::string_view name);
   ~HiddenFolder() {
-    const auto held = hold_stops();  // of two threads that remove the same folder, both may give up
+    const auto held = hold_stops();  // if two threads remove the same folder, both may give up
     remove();
   }
   HiddenFolder(const HiddenFolder&) = delete;
@@ -66,7 +66,7 @@ void remove_leftovers(const std::filesystem::path& folder);
 
 /// A fault of a frame.
 struct FrameFault {
-  std::string sentence;   ///< what is wrong
+  std::string sentence;   ///< the fault in words
   bool is_there = false;  ///< true if a picture exists, so that no worker would make it again
 };
 

@@ -52,7 +52,7 @@ struct BundleOptions {
   std::string farm_path;
   std::optional<Film> film;
   Chunking chunking;
-  bool cores_given = false;     ///< otherwise the cores of a task are --threads after --, if that is there
+  bool cores_given = false;     ///< false: the cores of a task are --threads after --, if that exists
   bool by_reference = false;    ///< files that the command reads are not copied
   std::filesystem::path addon;  ///< folder of render_mns.py
   bool force = false;

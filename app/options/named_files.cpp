@@ -115,7 +115,7 @@ bool can_be_one_file(const std::string& a, const std::string& b) {
     return fs::weakly_canonical(fs::absolute(path, failed), failed).string();
   };
   const auto has_frame_in = [](const std::string& numbered, const std::string& other) {
-    constexpr std::uint64_t kSomeFrame = 987654321;  // for two patterns: it has as many digits as either requires
+    constexpr std::uint64_t kSomeFrame = 987654321;  // has as many digits as either of two patterns requires
     const std::optional<NumberedPath> frames = NumberedPath::parse(numbered), others = NumberedPath::parse(other);
     return frames && frames->names(others ? others->at(kSomeFrame) : other);
   };

@@ -160,7 +160,7 @@ Outcome next_frame(const CommandReader&, PreviewState state, const Surroundings&
   const std::size_t next = (state.frame + 1) % around.molecule.frame_count();
   Outcome outcome = at_frame(std::move(state), next, around);
   outcome.reply["frame"] = next;
-  outcome.passes_over_damage = true;  // else playing would stop at the damaged frame
+  outcome.passes_over_damage = true;  // playing would otherwise stop at the damaged frame
   return outcome;
 }
 

@@ -117,7 +117,7 @@ class LiveView {
   std::uint64_t seen_revision_;
   Clock::time_point last_change_;
   Clock::duration rest_;
-  std::optional<Clock::duration> draft_cost_, plain_cost_;  ///< of the last picture since the trajectory plays
+  std::optional<Clock::duration> draft_cost_, plain_cost_;  ///< costs of the last pictures since the trajectory plays
   std::string fault_;
 };
 

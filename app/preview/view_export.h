@@ -57,7 +57,7 @@ struct ExportedView {
   std::vector<std::uint32_t> atoms;  ///< the shown atoms, as indices into structure.atoms
   std::vector<Ball> balls;           ///< their balls, grown by growth_of() the kind of surface
   Coloring coloring;                 ///< their colours
-  ColorKey colors;                   ///< what the colours mean
+  ColorKey colors;                   ///< the meaning of the colours
   PreviewFigure figure;
   std::shared_ptr<const FigureExtras> extras;  ///< drawn in addition to the surface; nullptr: nothing
   Annotations annotations;                     ///< written into pictures

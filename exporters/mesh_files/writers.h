@@ -42,7 +42,7 @@ struct FileAtom {
 struct FileObject {
   std::string name;                                     ///< may contain text from a molecule file
   std::vector<glm::vec3> positions;                     ///< in the unit of the file
-  std::vector<glm::vec3> normals;                       ///< of unit length, towards the solvent
+  std::vector<glm::vec3> normals;                       ///< unit vectors towards the solvent
   std::vector<std::array<std::uint8_t, 3>> colors;      ///< sRGB
   std::vector<float> opacities;                         ///< in (0, 1]; empty if the object is opaque
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the solvent

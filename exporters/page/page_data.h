@@ -77,7 +77,7 @@ struct PageView {
   Camera camera;
   std::vector<ClipPlane> clip{};  ///< planes that cut the surface in this view, and no others
   float opacity = 1.0f;           ///< factor of the opacity of the surface's atoms
-  bool looks_inside = false;      ///< as in hues_of()
+  bool looks_inside = false;      ///< see hues_of()
 };
 
 /// An object in addition to the surface, which planes may cut; the object is opaque and complete. Surfaces have the

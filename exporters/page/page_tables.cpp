@@ -237,7 +237,7 @@ void Tables::add_records(RayCastPack more, std::uint32_t place) {
     const std::uint32_t first = primitive.first_row, kind = primitive.kind;
     if (kind == ray_cast::kTriangle)
       for (std::uint32_t corner = 3; corner < 6; ++corner) rename(first + corner);
-    if (kind == ray_cast::kConcave)  // whose `atom` is the number of contacts
+    if (kind == ray_cast::kConcave)  // its `atom` is the number of contacts
       for (std::uint32_t n = 1 + primitive.plane_count; n < row_count(primitive); ++n) rename(first + n);
     else
       primitive.atom += first_atom;

@@ -284,7 +284,7 @@ SceneReport write_scene(const PathTracerScene& given, const SceneTarget& target)
     report.files.push_back(target.folder / (target.name + ending));
     return output.file(target.name + ending);
   };
-  const bool has_colors = target.renderer == Renderer::mitsuba;  // of vertices
+  const bool has_colors = target.renderer == Renderer::mitsuba;  // colours of vertices
   std::size_t meshes = 0;
   for (SceneItem& item : scene.items) {
     if (!has_colors) item.meshes = split(item.meshes);

@@ -25,7 +25,7 @@ struct Paint {
 /// edges, as in the view, and normals are those of the surface.
 struct SceneMesh {
   std::vector<glm::vec3> positions;                     ///< Å, from the scene's origin
-  std::vector<glm::vec3> normals;                       ///< of unit length, towards the solvent
+  std::vector<glm::vec3> normals;                       ///< unit vectors towards the solvent
   std::vector<glm::vec3> colors;                        ///< linear light
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the solvent
   float opacity = 1.0f;
@@ -95,7 +95,7 @@ struct DistantLight {
 /// A disc with uniform radiance that faces the scene.
 struct Softbox {
   glm::dvec3 center{0.0};     ///< Å, from the scene's origin
-  glm::dvec3 direction{0.0};  ///< of unit length, towards the scene
+  glm::dvec3 direction{0.0};  ///< unit vector towards the scene
   double radius = 0.0;        ///< Å
   glm::vec3 radiance{0.0f};
 };

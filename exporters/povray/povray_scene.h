@@ -50,7 +50,7 @@ struct SceneParts {
 struct SceneStyle {
   const std::vector<SceneColor>* colors = nullptr;  ///< nullptr: each frame has a file with colours of its own
   const VolumePaint* map = nullptr;                 ///< the map of colours with SceneColor::by_map, or nullptr
-  std::vector<MaterialRequest> materials = {};      ///< of objects: SceneColor::finish n is the n-th, from 1
+  std::vector<MaterialRequest> materials = {};      ///< objects' materials: SceneColor::finish n is the n-th, from 1
 };
 
 /// Returns the text of <name>.pov. cameras: one, or one per frame. frames: nullptr for a single surface.

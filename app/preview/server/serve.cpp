@@ -29,7 +29,7 @@ std::vector<std::uint8_t> png_of(std::span<const std::uint8_t> rgba, glm::ivec2 
   image.channels = {"R", "G", "B"};
   image.color_space = "sRGB";
   image.scene = std::move(scene);
-  image.png_level = 1;  // of 9; more takes longer for a little less
+  image.png_level = 1;  // 1 to 9; more takes longer for a little less
   return encode_png(image, rgba, 4);
 }
 
@@ -269,7 +269,7 @@ class ServedSession {
 }  // namespace
 
 std::vector<std::uint8_t> encode_jpeg(std::span<const std::uint8_t> rgba, glm::ivec2 size, bool quickly) {
-  constexpr int kQuality = 80;  // of 100
+  constexpr int kQuality = 80;  // 0 to 100
   const std::unique_ptr<void, int (*)(void*)> compressor(tjInitCompress(), tjDestroy);
   if (!compressor) throw Error(std::string("JPEG: ") + tjGetErrorStr2(nullptr));
   unsigned char* bytes = nullptr;

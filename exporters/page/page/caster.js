@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Passes tables and parameters to the shaders, and runs their passes: cast, points, light, finish, present.
 
-const kTableColumns = 2048;  // as in gpu_shaders/webgl/tables.glsl
+const kTableColumns = 2048;  // the value of gpu_shaders/webgl/tables.glsl
 const kNoPrimitive = 0xffffffff;
 const kToroidal = 1, kCylinder = 3;
-const kIsBeside = 1;    // as in exporters/page/page_tables.cpp
+const kIsBeside = 1;    // the value of exporters/page/page_tables.cpp
 const kBuckets = 4096;  // steps of depth, front to back
 const kSelected = [1, 0.43, 0], kSelectedShare = 0.75;  // linear colour of selected atoms, and its share
 

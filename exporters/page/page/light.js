@@ -170,7 +170,7 @@ class LightMaps {
         const off = line - y, across = Math.sqrt(Math.max(reach * reach - off * off, 0));
         for (let column = Math.ceil(x - across); column <= x + across; ++column) {
           const square = (column - x) ** 2 + off * off, height = Math.sqrt(Math.max(radius * radius - square, 0));
-          const share = is_soft ? 0.5 + 0.5 * disc - square * 0.5 / disc : square <= disc * disc ? 1 : 0;  // of the texel
+          const share = is_soft ? 0.5 + 0.5 * disc - square * 0.5 / disc : square <= disc * disc ? 1 : 0;
           let low = z - height, high = z + height;
           if (cut[n]) [low, high] = this.kept(planes, { right, up, axis }, (column - half) * texel, (line - half) * texel, low * texel, high * texel).map((end) => end / texel);
           if (low > high || share <= 0) continue;

@@ -146,7 +146,7 @@ function file_camera() {
 function tell_camera() {
   clearTimeout(camera_timer);
   if (!viewer) return;
-  if (!controls) viewer.camera = page_camera(state.camera, viewer.camera, viewer.figure.origin);  // not for watchers
+  if (!controls) viewer.camera = page_camera(state.camera, viewer.camera, viewer.figure.origin);  // watchers stay
   const camera = file_camera(), text = JSON.stringify(camera), is_told = text === told_text;
   told_text = text;
   if (is_told || !controls) return;

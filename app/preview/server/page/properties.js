@@ -23,7 +23,7 @@ function control_of({ type, words, lowest, highest, step, slider_end }) {
 /// Fills the elements that name properties; command("set", {key, value}) changes them. "look.*" stands for all of a section
 /// that no other element names. Returns fill(properties) and show(values).
 export function property_controls({ command }) {
-  const controls = new Map();  // by key
+  const controls = new Map();  // controls by key
   let shown = {};
 
   function row(property) {

@@ -116,7 +116,7 @@ def _count_from(folder):
             path = at if noted == stored else path_of(item, name)
             try:
                 wanted = bpy.path.relpath(path, start=folder)
-            except ValueError:  # on another drive of Windows
+            except ValueError:  # the file is on another drive of Windows
                 wanted = path
             item[AT + name] = [wanted, path]
             if wanted != stored and name in SETTINGS:
