@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Implements local_socket.h for Windows.
+// Implements LocalSocket (socket_server.h) for Windows.
 #include <climits>
 #include <system_error>
 

@@ -25,7 +25,7 @@ class TakenProperties {
  public:
   /// `names` are headings of the help, such as "Colour", and keys, such as "molecule.quiet". A name that begins with a
   /// minus removes its properties. Names apply in order, so a later one overrules an earlier one. `needs` are
-  /// conditions that this command adds to the conditions of all scenes; ineffective_values() (ineffective_values.h)
+  /// conditions that this command adds to the conditions of all scenes; ineffective_values() (scene_values.h)
   /// tests them. Throws std::logic_error for a name that is neither heading nor key.
   TakenProperties(std::initializer_list<std::string_view> names, std::initializer_list<Need> needs = {}) {
     add(names, needs);

@@ -30,7 +30,7 @@ namespace meniscus {
 ///  buffers.inc   the buffers, after the extent of the molecule;
 ///  settings.ini  settings after the sizes: NAME, and PICTURE, the text between the name and the number of a picture;
 ///  film.ini      settings of a run, after settings.ini: NAME, COUNT of frames;
-///  story.pov, story.ini  a film (story.h): NAME, WIDTH, HEIGHT, COUNT, RATE.
+///  story.pov, story.ini  a film (povray_scene.h): NAME, WIDTH, HEIGHT, COUNT, RATE.
 std::span<const TemplateFile> povray_templates();
 
 }  // namespace meniscus
